@@ -1,0 +1,2 @@
+//! The `brinell` command.
+fn main(){}

@@ -1,0 +1,3 @@
+//! Vibration of rolling bearings with real damage, from first principles.
+
+pub mod scenario;

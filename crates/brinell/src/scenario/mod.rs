@@ -1,0 +1,5 @@
+//! Scenario files: one TOML file is the whole truth of a run.
+
+mod types;
+
+pub use types::*;
