@@ -1,0 +1,227 @@
+//! Energy that the bodies and springs hold, and the flows that change it.
+//!
+//! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - support - drag, plus the
+//! parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures over a step.
+
+use super::{Layout, Model, Workspace};
+use crate::defect::{Angles, SIDES, energy};
+use crate::scenario::{Guidance, ModelKind};
+use std::ops::{AddAssign, Mul};
+
+/// Flows of energy, W; integrated over time, J. Dissipations count positive.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Power {
+    /// Work of the load on its ring.
+    pub load: f64,
+    /// Work of the drive through the friction at the inner raceway.
+    pub drive: f64,
+    /// Work of the guidance film on the bodies: dissipation and, at a turning guide, input.
+    pub film: f64,
+    /// Work left over by the levers of the centred bearing (section 8).
+    pub lever: f64,
+    /// Dissipated by contact damping.
+    pub contact: f64,
+    /// Dissipated by raceway friction.
+    pub friction: f64,
+    /// Dissipated by pocket damping.
+    pub pocket: f64,
+    /// Dissipated by pocket friction.
+    pub pocket_friction: f64,
+    /// Dissipated by supports.
+    pub support: f64,
+    /// Dissipated by drag.
+    pub drag: f64,
+}
+
+impl Power {
+    /// Net flow into the mechanical energy, without parametric work.
+    pub fn net(&self) -> f64 {
+        self.load + self.drive + self.film + self.lever - self.dissipated()
+    }
+
+    /// Everything dissipated, the film's share apart.
+    pub fn dissipated(&self) -> f64 {
+        self.contact + self.friction + self.pocket + self.pocket_friction + self.support + self.drag
+    }
+
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            load: f(self.load, other.load),
+            drive: f(self.drive, other.drive),
+            film: f(self.film, other.film),
+            lever: f(self.lever, other.lever),
+            contact: f(self.contact, other.contact),
+            friction: f(self.friction, other.friction),
+            pocket: f(self.pocket, other.pocket),
+            pocket_friction: f(self.pocket_friction, other.pocket_friction),
+            support: f(self.support, other.support),
+            drag: f(self.drag, other.drag),
+        }
+    }
+}
+
+impl AddAssign for Power {
+    fn add_assign(&mut self, other: Self) {
+        *self = self.zip(other, |a, b| a + b);
+    }
+}
+
+impl Mul<f64> for Power {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        self.zip(self, |a, _| a * factor)
+    }
+}
+
+/// Energy held, J.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Energy {
+    /// Of all moving bodies.
+    pub kinetic: f64,
+    /// Of raceway contacts.
+    pub contacts: f64,
+    /// Of pockets and cage lands.
+    pub cage: f64,
+    /// Of supports.
+    pub supports: f64,
+    /// In the gravity field.
+    pub gravity: f64,
+}
+
+impl Energy {
+    /// All of it.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.contacts + self.cage + self.supports + self.gravity
+    }
+
+    /// Energy of the state `y` at `t`; `ws` must hold the evaluation at that state.
+    pub fn of(model: &Model, t: f64, y: &[f64], ws: &Workspace) -> Self {
+        let l = &model.layout;
+        let (q, v) = y.split_at(l.dof());
+        let m = &model.inertia;
+        let mut e = Self::default();
+        let square = |u: &[f64]| u[0] * u[0] + u[1] * u[1];
+        let along = |u: &[f64]| model.gravity[0] * u[0] + model.gravity[1] * u[1];
+        for (at, mass, support) in
+            [(l.inner(), m.inner_ring, model.inner_support), (l.outer(), m.outer_ring, model.acting_outer_support())]
+        {
+            e.kinetic += 0.5 * mass * square(&v[at..]);
+            e.supports += 0.5 * support.stiffness * square(&q[at..]);
+            e.gravity -= mass * along(&q[at..]);
+        }
+        let angles = |slot: usize| Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: model.rotation.at(t).1,
+        };
+        if model.kind == ModelKind::Reference {
+            e.contacts = (0..l.rollers()).map(|slot| super::lumped::contact_energy(model, t, slot, ws)).sum();
+            return e;
+        }
+        let g = &model.geometry;
+        for slot in 0..l.rollers() {
+            let arm = g.pitch_radius + q[l.r() + slot];
+            let (dr, dtheta, dphi) = (v[l.r() + slot], v[l.theta() + slot], v[l.phi() + slot]);
+            e.kinetic += 0.5 * m.roller * (dr * dr + (arm * dtheta).powi(2)) + 0.5 * m.roller_spin * dphi * dphi;
+            e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
+            for side in SIDES {
+                let delta = ws.contacts[side as usize].approach[slot];
+                e.contacts +=
+                    energy(model.defects_of(slot, side), model.contact(side), &angles(slot), side, delta);
+            }
+            let xc = &q[l.cage(l.row(slot))..];
+            let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot])
+                + ws.cos[slot] * xc[1]
+                - ws.sin[slot] * xc[0];
+            e.cage += 0.5 * model.pocket.stiffness * model.pocket.penetration(s).powi(2);
+        }
+        for row in 0..l.rows {
+            let at = l.cage(row);
+            e.kinetic += 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
+            e.gravity -= m.cage * along(&q[at..]);
+            let ring = match model.guidance {
+                Guidance::OuterRing => l.outer(),
+                Guidance::InnerRing => l.inner(),
+                Guidance::Rollers => continue,
+            };
+            let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
+            e.cage += 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
+        }
+        e
+    }
+}
+
+/// What decides the energy of the contacts at one end of a step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactState {
+    angles: Vec<[f64; 2]>,
+    ring: f64,
+    approach: [Vec<f64>; 2],
+    on_damage: [Vec<bool>; 2],
+}
+
+impl ContactState {
+    pub(crate) fn new(layout: &Layout) -> Self {
+        let slots = layout.slots;
+        Self {
+            angles: vec![[0.0; 2]; slots],
+            ring: 0.0,
+            approach: [vec![0.0; slots], vec![0.0; slots]],
+            on_damage: [vec![false; slots], vec![false; slots]],
+        }
+    }
+
+    /// Takes over the evaluation in `ws` at (t, y).
+    pub(crate) fn store(&mut self, model: &Model, t: f64, y: &[f64], ws: &Workspace) {
+        let l = &model.layout;
+        self.ring = model.rotation.at(t).1;
+        for slot in 0..l.rollers() {
+            self.angles[slot] = match model.kind {
+                ModelKind::Full => [y[l.theta() + slot], y[l.phi() + slot]],
+                ModelKind::Reference => [ws.kinematic_orbit[slot], ws.kinematic_spin],
+            };
+        }
+        for side in SIDES {
+            let k = side as usize;
+            self.approach[k].copy_from_slice(&ws.contacts[k].approach);
+            self.on_damage[k].copy_from_slice(&ws.contacts[k].on_damage);
+        }
+    }
+
+    fn angles(&self, slot: usize) -> Angles {
+        Angles { orbit: self.angles[slot][0], spin: self.angles[slot][1], ring: self.ring }
+    }
+}
+
+/// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic energy with
+/// the angle at a fixed approach, the mean of both ends. Jumps at an edge are included.
+pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
+    let mut work = 0.0;
+    for slot in 0..model.layout.rollers() {
+        for side in SIDES {
+            let k = side as usize;
+            if !before.on_damage[k][slot] && !after.on_damage[k][slot] {
+                continue;
+            }
+            let (from, to) = (before.angles(slot), after.angles(slot));
+            let change = |delta: f64| match model.kind {
+                ModelKind::Full => {
+                    let held = |angles: &Angles| {
+                        energy(model.defects_of(slot, side), model.contact(side), angles, side, delta)
+                    };
+                    held(&to) - held(&from)
+                }
+                ModelKind::Reference => {
+                    let held = |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
+                    held(&to) - held(&from)
+                }
+            };
+            work += 0.5 * (change(before.approach[k][slot]) + change(after.approach[k][slot]));
+            if model.kind == ModelKind::Reference {
+                // One series contact for both sides: count it once.
+                break;
+            }
+        }
+    }
+    work
+}

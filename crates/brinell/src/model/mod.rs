@@ -1,0 +1,363 @@
+//! The bearing as an immutable set of SI parameters, and its equations of motion.
+//!
+//! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages count
+//! from 0 in code and from 1 in names and scenarios.
+
+pub(crate) mod energy;
+mod full;
+mod layout;
+mod motion;
+pub(crate) mod lumped;
+mod workspace;
+
+pub use energy::{Energy, Power};
+pub use motion::Motion;
+pub use layout::{LANES, Layout};
+pub use workspace::Workspace;
+
+use crate::cage::{Guide, Pocket};
+use crate::contact::Hertz;
+use crate::defect::{Defect, Side};
+use crate::friction::{Friction, drag_factor};
+use crate::operation::{Load, Rotation};
+use crate::power::Exponent;
+use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
+use std::f64::consts::TAU;
+
+/// A scenario built in code that no model can be made of.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{key} = {value}: {requirement}")]
+pub struct ModelError {
+    /// Scenario key.
+    pub key: String,
+    /// Offending value.
+    pub value: String,
+    /// What it must be.
+    pub requirement: &'static str,
+}
+
+/// Stiffness and damping of a ring's support, isotropic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// N/m.
+    pub stiffness: f64,
+    /// N s/m.
+    pub damping: f64,
+}
+
+/// Geometry, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Geometry {
+    /// R_i, m.
+    pub inner_radius: f64,
+    /// R_o, m.
+    pub outer_radius: f64,
+    /// R_m, m.
+    pub pitch_radius: f64,
+    /// r, m.
+    pub roller_radius: f64,
+    /// L, m.
+    pub roller_length: f64,
+    /// C_r, m, on one side, at the inner contact.
+    pub clearance: f64,
+    /// Gap at the outer contact, m.
+    pub outer_gap: f64,
+}
+
+/// Masses (kg) and moments of inertia (kg m^2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// m_i.
+    pub inner_ring: f64,
+    /// m_o.
+    pub outer_ring: f64,
+    /// m.
+    pub roller: f64,
+    /// I_r = m r^2 / 2.
+    pub roller_spin: f64,
+    /// m_c.
+    pub cage: f64,
+    /// I_c = m_c (a^2 + b^2) / 2.
+    pub cage_spin: f64,
+}
+
+/// One bearing under one operation: everything that does not change while it runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// Which equations hold.
+    pub kind: ModelKind,
+    /// State layout.
+    pub layout: Layout,
+    /// Geometry.
+    pub geometry: Geometry,
+    /// Masses.
+    pub inertia: Inertia,
+    /// Law of the inner contacts.
+    pub inner_contact: Hertz,
+    /// Law of the outer contacts.
+    pub outer_contact: Hertz,
+    /// Law of both contacts in series, damping c/2 (section 10).
+    pub series_contact: Hertz,
+    /// Raceway friction.
+    pub friction: Friction,
+    /// Drag of a roller, kg/m.
+    pub drag: f64,
+    /// Pockets.
+    pub pocket: Pocket,
+    /// Guiding ring.
+    pub guidance: Guidance,
+    /// Film and land.
+    pub guide: Guide,
+    /// Support of the inner ring.
+    pub inner_support: Support,
+    /// Support of the outer ring.
+    pub outer_support: Support,
+    /// The inner ring's rotation.
+    pub rotation: Rotation,
+    /// The load.
+    pub load: Load,
+    /// g, m/s^2.
+    pub gravity: [f64; 2],
+    /// alpha of each slot, rad: the pocket's angle on its cage.
+    pub pocket_angle: Vec<f64>,
+    /// Damage.
+    pub defects: Vec<Defect>,
+    /// Start.
+    pub start: Start,
+}
+
+impl Model {
+    /// The model of a scenario.
+    ///
+    /// # Errors
+    /// Where a value that the scenario's reader would have refused makes the model meaningless.
+    pub fn new(s: &Scenario) -> Result<Self, ModelError> {
+        check(s)?;
+        let (b, c) = (&s.bearing, &s.cage);
+        let half_mm = |diameter: f64| 0.5e-3 * diameter;
+        let geometry = Geometry {
+            inner_radius: half_mm(b.inner_raceway_diameter_mm),
+            outer_radius: half_mm(b.outer_raceway_diameter_mm),
+            pitch_radius: half_mm(b.pitch_diameter_mm),
+            roller_radius: half_mm(b.roller_diameter_mm),
+            roller_length: 1e-3 * b.roller_length_mm,
+            clearance: 1e-6 * b.radial_clearance_um,
+            outer_gap: 1e-6 * b.outer_gap_um,
+        };
+        let (cage_inner, cage_outer) = (half_mm(c.inner_diameter_mm), half_mm(c.outer_diameter_mm));
+        let inertia = Inertia {
+            inner_ring: b.inner_ring_mass_kg,
+            outer_ring: b.outer_ring_mass_kg,
+            roller: b.roller_mass_kg,
+            roller_spin: 0.5 * b.roller_mass_kg * geometry.roller_radius.powi(2),
+            cage: c.mass_kg,
+            cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
+        };
+        let exponent = Exponent::new(s.contact.exponent);
+        let hertz = |stiffness| Hertz { stiffness, exponent, damping: s.contact.damping_ns_per_m };
+        let layout = Layout::new(b.rows, b.rollers_per_row);
+        let stagger = b.row_stagger_deg.to_radians();
+        let pocket_angle = (0..layout.slots)
+            .map(|slot| {
+                let (row, roller) = (layout.row(slot) as f64, layout.roller(slot) as f64);
+                if slot < layout.rollers() { TAU * roller / b.rollers_per_row as f64 + row * stagger } else { 0.0 }
+            })
+            .collect();
+        let mut defects = Vec::with_capacity(s.defects.len());
+        for (k, defect) in s.defects.iter().enumerate() {
+            defects.push(Defect::new(defect, b).ok_or_else(|| ModelError {
+                key: format!("defects.{k}"),
+                value: format!("{defect:?}"),
+                requirement: "rows and rollers count from 1 and a profile's lists are equally long, the arc never decreasing",
+            })?);
+        }
+        Ok(Self {
+            kind: s.simulation.model,
+            layout,
+            geometry,
+            inertia,
+            inner_contact: hertz(s.contact.inner_stiffness),
+            outer_contact: hertz(s.contact.outer_stiffness),
+            series_contact: Hertz {
+                stiffness: series_stiffness(s.contact.inner_stiffness, s.contact.outer_stiffness, s.contact.exponent),
+                exponent,
+                damping: 0.5 * s.contact.damping_ns_per_m,
+            },
+            friction: Friction {
+                coefficient: s.friction.raceway_coefficient,
+                slip_velocity: s.friction.slip_velocity_m_per_s,
+            },
+            drag: drag_factor(
+                s.lubricant.drag_coefficient,
+                s.lubricant.effective_density_kg_per_m3,
+                geometry.roller_length,
+                2.0 * geometry.roller_radius,
+            ),
+            pocket: Pocket {
+                stiffness: c.contact_stiffness_n_per_m,
+                damping: c.contact_damping_ns_per_m,
+                clearance: 1e-3 * c.pocket_clearance_mm,
+            },
+            guidance: c.guidance,
+            guide: Guide {
+                viscosity: s.lubricant.viscosity_pa_s,
+                clearance: 1e-3 * c.guide_clearance_mm,
+                width: 1e-3 * c.guide_width_mm,
+                radius: if c.guidance == Guidance::InnerRing { cage_inner } else { cage_outer },
+                land_stiffness: c.contact_stiffness_n_per_m,
+            },
+            inner_support: Support {
+                stiffness: s.support.inner_stiffness_n_per_m,
+                damping: s.support.inner_damping_ns_per_m,
+            },
+            outer_support: Support {
+                stiffness: s.support.outer_stiffness_n_per_m,
+                damping: s.support.outer_damping_ns_per_m,
+            },
+            rotation: Rotation::new(&s.operation.speed_rpm),
+            load: Load {
+                full: s.operation.load_n,
+                on: s.operation.load_on,
+                ramp: if s.simulation.start == Start::Equilibrium { 0.0 } else { s.operation.load_ramp_s },
+            },
+            gravity: s.operation.gravity_m_per_s2,
+            pocket_angle,
+            defects,
+            start: s.simulation.start,
+        })
+    }
+
+    /// Law of the contacts on `side`.
+    #[inline]
+    pub fn contact(&self, side: Side) -> &Hertz {
+        match side {
+            Side::Inner => &self.inner_contact,
+            Side::Outer => &self.outer_contact,
+        }
+    }
+
+    /// Defects that meet the contact of `slot` on `side`.
+    #[inline]
+    pub fn defects_of(&self, slot: usize, side: Side) -> impl Iterator<Item = &Defect> + Clone {
+        let (row, roller) = (self.layout.row(slot), self.layout.roller(slot));
+        self.defects.iter().filter(move |d| d.meets(row, roller, side))
+    }
+
+    /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.
+    #[inline]
+    pub fn rolling_orbit_speed(&self, w: f64) -> f64 {
+        w * self.geometry.inner_radius / (2.0 * self.geometry.pitch_radius)
+    }
+
+    /// Pure-rolling absolute spin speed at w_i, rad/s.
+    #[inline]
+    pub fn rolling_spin_speed(&self, w: f64) -> f64 {
+        let g = &self.geometry;
+        -(w * g.inner_radius - g.pitch_radius * self.rolling_orbit_speed(w)) / g.roller_radius
+    }
+
+    /// Whether the outer ring of the reference model is rigidly mounted (section 10).
+    pub fn outer_ring_is_fixed(&self) -> bool {
+        self.kind == ModelKind::Reference && self.load.on == LoadOn::InnerRing
+    }
+
+    /// Support of the outer ring in the equations that hold.
+    pub fn acting_outer_support(&self) -> Support {
+        match self.kind {
+            ModelKind::Full => self.outer_support,
+            ModelKind::Reference => Support { stiffness: 0.0, damping: 0.0 },
+        }
+    }
+
+    /// Masses of the positions, for norms and kinetic energies of the rates: kg for lengths, kg m^2 for angles. 0 for pads and
+    /// for coordinates that are prescribed.
+    pub fn mass(&self) -> Vec<f64> {
+        let (l, m) = (&self.layout, &self.inertia);
+        let mut mass = vec![0.0; l.dof()];
+        let full = self.kind == ModelKind::Full;
+        if full {
+            for slot in 0..l.rollers() {
+                mass[l.r() + slot] = m.roller;
+                mass[l.theta() + slot] = m.roller * self.geometry.pitch_radius.powi(2);
+                mass[l.phi() + slot] = m.roller_spin;
+            }
+            for row in 0..l.rows {
+                let at = l.cage(row);
+                mass[at..at + 3].copy_from_slice(&[m.cage, m.cage, m.cage_spin]);
+            }
+        }
+        mass[l.inner()..l.inner() + 2].fill(m.inner_ring);
+        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() { 0.0 } else { m.outer_ring });
+        mass
+    }
+
+    /// Time derivative of the state `y` at `t` (section 8, or section 10); forces and energies stay in `ws`.
+    #[inline]
+    pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+        match self.kind {
+            ModelKind::Full => full::derivative(self, t, y, dy, ws),
+            ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
+        }
+    }
+}
+
+/// K_s of two contacts in series, K_s^(-1/n) = K_in^(-1/n) + K_out^(-1/n); 0 where either is.
+pub fn series_stiffness(inner: f64, outer: f64, n: f64) -> f64 {
+    if inner <= 0.0 || outer <= 0.0 {
+        return 0.0;
+    }
+    (inner.powf(-1.0 / n) + outer.powf(-1.0 / n)).powf(-n)
+}
+
+/// Refuses what would divide by zero or index out of range.
+fn check(s: &Scenario) -> Result<(), ModelError> {
+    let positive = [
+        ("bearing.inner_raceway_diameter_mm", s.bearing.inner_raceway_diameter_mm),
+        ("bearing.outer_raceway_diameter_mm", s.bearing.outer_raceway_diameter_mm),
+        ("bearing.pitch_diameter_mm", s.bearing.pitch_diameter_mm),
+        ("bearing.roller_diameter_mm", s.bearing.roller_diameter_mm),
+        ("bearing.roller_length_mm", s.bearing.roller_length_mm),
+        ("bearing.inner_ring_mass_kg", s.bearing.inner_ring_mass_kg),
+        ("bearing.outer_ring_mass_kg", s.bearing.outer_ring_mass_kg),
+        ("bearing.roller_mass_kg", s.bearing.roller_mass_kg),
+        ("cage.mass_kg", s.cage.mass_kg),
+        ("cage.inner_diameter_mm", s.cage.inner_diameter_mm),
+        ("cage.outer_diameter_mm", s.cage.outer_diameter_mm),
+        ("cage.guide_clearance_mm", s.cage.guide_clearance_mm),
+        ("contact.exponent", s.contact.exponent),
+        ("contact.inner_stiffness", s.contact.inner_stiffness),
+        ("contact.outer_stiffness", s.contact.outer_stiffness),
+        ("friction.slip_velocity_m_per_s", s.friction.slip_velocity_m_per_s),
+        ("simulation.duration_s", s.simulation.duration_s),
+        ("simulation.sample_rate_hz", s.simulation.sample_rate_hz),
+    ];
+    for (key, value) in positive {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ModelError { key: key.into(), value: value.to_string(), requirement: "must be finite and above 0" });
+        }
+    }
+    let counts = [("bearing.rollers_per_row", s.bearing.rollers_per_row, 3), ("bearing.rows", s.bearing.rows, 1)];
+    for (key, value, least) in counts {
+        if value < least {
+            return Err(ModelError {
+                key: key.into(),
+                value: value.to_string(),
+                requirement: "a bearing has at least 1 row of at least 3 rollers",
+            });
+        }
+    }
+    for (k, defect) in s.defects.iter().enumerate() {
+        let roller_fits = match defect.on {
+            crate::scenario::Surface::Roller(roller) => (1..=s.bearing.rollers_per_row).contains(&roller),
+            _ => true,
+        };
+        if !(1..=s.bearing.rows).contains(&defect.row) || !roller_fits {
+            return Err(ModelError {
+                key: format!("defects.{k}"),
+                value: format!("row {} on {:?}", defect.row, defect.on),
+                requirement: "must lie in a row and on a roller that the bearing has",
+            });
+        }
+    }
+    Ok(())
+}

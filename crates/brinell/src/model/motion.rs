@@ -1,0 +1,37 @@
+//! The model as a system that the solver can integrate.
+
+use super::{Model, Power, Workspace};
+use crate::solver::System;
+
+/// A model and the workspace of its evaluations.
+#[derive(Debug)]
+pub struct Motion<'a> {
+    /// The bearing.
+    pub model: &'a Model,
+    /// Forces and flows of the last evaluation.
+    pub ws: Workspace,
+}
+
+impl<'a> Motion<'a> {
+    /// With a fresh workspace.
+    pub fn new(model: &'a Model) -> Self {
+        Self { model, ws: Workspace::new(&model.layout) }
+    }
+}
+
+impl System for Motion<'_> {
+    type Flow = Power;
+
+    fn len(&self) -> usize {
+        2 * self.model.layout.dof()
+    }
+
+    #[inline]
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.model.derivative(t, y, dy, &mut self.ws);
+    }
+
+    fn flow(&self) -> Power {
+        self.ws.power
+    }
+}

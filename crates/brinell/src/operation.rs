@@ -1,0 +1,99 @@
+//! Prescribed motion and load: the inner ring's speed and angle, the load and its ramp.
+
+use crate::scenario::{self, Speed};
+
+/// Speed of the inner ring, piecewise linear in time and held beyond its ends; its angle is the exact integral.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rotation {
+    /// (t, w, W at t), t increasing; at least one entry.
+    knots: Vec<[f64; 3]>,
+}
+
+impl Rotation {
+    /// From r/min.
+    pub fn new(speed: &Speed) -> Self {
+        let rad = |rpm: f64| rpm * std::f64::consts::PI / 30.0;
+        let points: Vec<[f64; 2]> = match speed {
+            Speed::Constant(rpm) => vec![[0.0, *rpm]],
+            Speed::Profile(points) => points.clone(),
+        };
+        let mut knots: Vec<[f64; 3]> = Vec::with_capacity(points.len());
+        for [t, rpm] in points {
+            let w = rad(rpm);
+            let angle = knots.last().map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
+            knots.push([t, w, angle]);
+        }
+        let mut rotation = Self { knots };
+        let (_, start) = rotation.at(0.0);
+        rotation.knots.iter_mut().for_each(|k| k[2] -= start);
+        rotation
+    }
+
+    /// (w_i, W_i) in rad/s and rad; W_i(0) = 0.
+    #[inline]
+    pub fn at(&self, t: f64) -> (f64, f64) {
+        let knots = &self.knots;
+        let next = knots.partition_point(|k| k[0] <= t);
+        if next == 0 || next == knots.len() {
+            let [t0, w, angle] = knots[next.saturating_sub(1)];
+            return (w, angle + w * (t - t0));
+        }
+        let [t0, w0, angle] = knots[next - 1];
+        let [t1, w1, _] = knots[next];
+        let slope = (w1 - w0) / (t1 - t0);
+        let dt = t - t0;
+        (w0 + slope * dt, angle + dt * (w0 + 0.5 * slope * dt))
+    }
+
+    /// Largest |w_i|, rad/s.
+    pub fn max_speed(&self) -> f64 {
+        self.knots.iter().map(|k| k[1].abs()).fold(0.0, f64::max)
+    }
+}
+
+/// The radial load: F points from the centre to the middle of the load zone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// F, N.
+    pub full: [f64; 2],
+    /// Ring it acts on.
+    pub on: scenario::LoadOn,
+    /// t_ramp, s.
+    pub ramp: f64,
+}
+
+impl Load {
+    /// Share of the load at t.
+    #[inline]
+    pub fn share(&self, t: f64) -> f64 {
+        if self.ramp > 0.0 { (t / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
+    }
+
+    /// Forces on the inner and on the outer ring for a share of the load, N.
+    #[inline]
+    pub fn on_rings(&self, share: f64) -> ([f64; 2], [f64; 2]) {
+        let f = [self.full[0] * share, self.full[1] * share];
+        match self.on {
+            scenario::LoadOn::InnerRing => (f, [0.0; 2]),
+            scenario::LoadOn::OuterRing => ([0.0; 2], [-f[0], -f[1]]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn analytic_angle_is_the_integral_of_the_speed() {
+        let r = Rotation::new(&Speed::Profile(vec![[0.1, 0.0], [0.3, 3000.0], [0.4, 1500.0]]));
+        assert_eq!(r.at(0.05), (0.0, 0.0));
+        let (w, angle) = r.at(0.2);
+        assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - 0.5 * 0.1 * 50.0 * PI).abs() < 1e-12);
+        let (w, angle) = r.at(0.5);
+        let exact = 0.5 * 0.2 * 100.0 * PI + 0.1 * 75.0 * PI + 0.1 * 50.0 * PI;
+        assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - exact).abs() < 1e-12);
+        assert_eq!(Rotation::new(&Speed::Constant(60.0)).at(2.0), (2.0 * PI, 4.0 * PI));
+    }
+}

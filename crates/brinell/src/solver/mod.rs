@@ -1,0 +1,254 @@
+//! Adaptive explicit Runge-Kutta integration with dense output.
+//!
+//! The solver knows of its system only that the second half of the state holds the rates of the first, and that a quantity
+//! (here, flows of energy) may be integrated along with it. Errors are measured on the rates, weighted by the system's masses,
+//! so the tolerance is the square root of an energy per step: an error of a velocity there is an error of a force
+//! integrated over the step. Nothing is allocated after [`Stepper::new`].
+
+mod tableau;
+
+pub use tableau::{BOGACKI_SHAMPINE, DORMAND_PRINCE, Tableau};
+
+use std::ops::{AddAssign, Mul};
+
+/// What is integrated.
+pub trait System {
+    /// A quantity integrated along with the state by the same quadrature, outside the error control.
+    type Flow: Copy + Default + AddAssign + Mul<f64, Output = Self::Flow>;
+
+    /// Entries of the state.
+    fn len(&self) -> usize;
+
+    /// dy/dt.
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
+
+    /// Rate of the integrated quantity at the last evaluated state.
+    fn flow(&self) -> Self::Flow;
+}
+
+/// Settings of a [`Stepper`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The pair.
+    pub tableau: Tableau,
+    /// Largest accepted norm of a step's error, in the units of sqrt(mass) times rate.
+    pub tolerance: f64,
+    /// Weights of the rates' errors (masses), one for each entry of the second half.
+    pub mass: Vec<f64>,
+    /// Longest step.
+    pub max_step: f64,
+}
+
+/// Counted work.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejections: u64,
+    /// Right-hand sides spent on steps.
+    pub evaluations: u64,
+}
+
+/// Why a step could not be taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepError {
+    /// An entry of the state or of its derivative is not finite, however short the step.
+    NonFinite {
+        /// Time of the last good state.
+        t: f64,
+        /// First such entry of the state.
+        index: usize,
+    },
+    /// The step fell below the resolution of time.
+    Vanished {
+        /// Time of the last good state.
+        t: f64,
+        /// Entry of the rates with the largest share of the error.
+        index: usize,
+    },
+}
+
+/// Steps a system through time.
+#[derive(Debug, Clone)]
+pub struct Stepper<F> {
+    settings: Settings,
+    /// Stage derivatives; the first is that of `y`, the last that of the trial state.
+    stages: Vec<Vec<f64>>,
+    flows: Vec<F>,
+    y: Vec<f64>,
+    trial: Vec<f64>,
+    previous: Vec<f64>,
+    previous_slope: Vec<f64>,
+    t: f64,
+    t_previous: f64,
+    step: f64,
+    last_error: f64,
+    work: Work,
+}
+
+/// Controller: a step's error should come to this share of the tolerance.
+const SAFETY: f64 = 0.9;
+/// Bounds of the factor between consecutive steps.
+const GROWTH: std::ops::RangeInclusive<f64> = 0.2..=5.0;
+/// Share of the previous error in the proportional-integral controller (Hairer, Norsett, Wanner, Solving ODEs I, IV.2).
+const INTEGRAL: f64 = 0.08;
+
+impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
+    /// At (t, y), with the derivative evaluated there.
+    pub fn new<S: System<Flow = F>>(system: &mut S, settings: Settings, t: f64, y: &[f64]) -> Self {
+        let n = system.len();
+        let stages = settings.tableau.stages();
+        let mut stepper = Self {
+            stages: vec![vec![0.0; n]; stages],
+            flows: vec![F::default(); stages],
+            y: y.to_vec(),
+            trial: vec![0.0; n],
+            previous: y.to_vec(),
+            previous_slope: vec![0.0; n],
+            t,
+            t_previous: t,
+            // The controller finds its own step within a few trials; too short costs little, too long is rejected.
+            step: 1e-3 * settings.max_step,
+            last_error: 1.0,
+            work: Work::default(),
+            settings,
+        };
+        system.derivative(t, y, &mut stepper.stages[0]);
+        stepper.flows[0] = system.flow();
+        stepper.work.evaluations = 1;
+        stepper
+    }
+
+    /// Time of the current state.
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Current state.
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Derivative of the current state.
+    pub fn slope(&self) -> &[f64] {
+        &self.stages[0]
+    }
+
+    /// Start of the last step.
+    pub fn t_previous(&self) -> f64 {
+        self.t_previous
+    }
+
+    /// Counted work so far.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Takes one step and returns the integral of the flow over it. The last evaluation of `system` is the one at the new state.
+    ///
+    /// # Errors
+    /// Where the state stops being finite, or no step is short enough.
+    pub fn step<S: System<Flow = F>>(&mut self, system: &mut S) -> Result<F, StepError> {
+        let tableau = self.settings.tableau;
+        let exponent = 1.0 / f64::from(tableau.order);
+        let mut shrunk = false;
+        loop {
+            let h = self.step.min(self.settings.max_step);
+            if h <= 16.0 * f64::EPSILON * self.t.abs().max(f64::MIN_POSITIVE) || h < 1e-18 {
+                return Err(self.failure());
+            }
+            for (s, (row, node)) in tableau.rows.iter().zip(tableau.nodes).enumerate() {
+                let (done, rest) = self.stages.split_at_mut(s + 1);
+                combine(&mut self.trial, &self.y, done, row, h);
+                system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
+                self.flows[s + 1] = system.flow();
+            }
+            self.work.evaluations += tableau.rows.len() as u64;
+            let error = self.error(h) / self.settings.tolerance;
+            if error.is_finite() && error <= 1.0 {
+                let factor = SAFETY * error.max(1e-10).powf(0.75 * INTEGRAL - exponent) * self.last_error.powf(INTEGRAL);
+                let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
+                self.last_error = error.max(1e-4);
+                self.accept(h);
+                self.step = h * factor.clamp(*GROWTH.start(), ceiling);
+                let mut integral = F::default();
+                for (weight, flow) in tableau.weights().iter().zip(&self.flows) {
+                    integral += *flow * (weight * h);
+                }
+                self.flows[0] = self.flows[tableau.stages() - 1];
+                return Ok(integral);
+            }
+            self.work.rejections += 1;
+            shrunk = true;
+            let factor = if error.is_finite() { SAFETY * error.powf(-exponent) } else { 0.1 };
+            self.step = h * factor.clamp(0.1, 0.9);
+        }
+    }
+
+    fn accept(&mut self, h: f64) {
+        std::mem::swap(&mut self.previous, &mut self.y);
+        std::mem::swap(&mut self.y, &mut self.trial);
+        self.previous_slope.copy_from_slice(&self.stages[0]);
+        let last = self.stages.len() - 1;
+        self.stages.swap(0, last);
+        self.t_previous = self.t;
+        self.t += h;
+        self.work.steps += 1;
+    }
+
+    /// Mass-weighted norm of the error of the rates.
+    fn error(&self, h: f64) -> f64 {
+        let half = self.y.len() / 2;
+        let mut sum = 0.0;
+        for (k, mass) in self.settings.mass.iter().enumerate() {
+            let mut e = 0.0;
+            for (weight, stage) in self.settings.tableau.error.iter().zip(&self.stages) {
+                e += weight * stage[half + k];
+            }
+            sum += mass * e * e;
+        }
+        h * sum.sqrt()
+    }
+
+    fn failure(&self) -> StepError {
+        let last = &self.stages[self.stages.len() - 1];
+        if let Some(index) = self.trial.iter().zip(last).position(|(y, dy)| !(y.is_finite() && dy.is_finite())) {
+            return StepError::NonFinite { t: self.t, index };
+        }
+        let half = self.y.len() / 2;
+        let share = |k: usize| {
+            let e: f64 = self.settings.tableau.error.iter().zip(&self.stages).map(|(w, s)| w * s[half + k]).sum();
+            self.settings.mass[k] * e * e
+        };
+        let index = (0..half).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
+        StepError::Vanished { t: self.t, index: half + index }
+    }
+
+    /// State at a time within the last step, by the cubic Hermite polynomial of its ends (third order, as the pair is).
+    pub fn interpolate(&self, t: f64, y: &mut [f64]) {
+        let h = self.t - self.t_previous;
+        let s = if h > 0.0 { (t - self.t_previous) / h } else { 1.0 };
+        let r = 1.0 - s;
+        let (y0, y1) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
+        let (d0, d1) = (h * s * r * r, -h * s * s * r);
+        let ends = self.previous.iter().zip(&self.y);
+        let slopes = self.previous_slope.iter().zip(&self.stages[0]);
+        for ((out, (a, b)), (da, db)) in y.iter_mut().zip(ends).zip(slopes) {
+            *out = y0 * a + y1 * b + d0 * da + d1 * db;
+        }
+    }
+}
+
+/// `out` = y + h sum of `row` times `stages`.
+fn combine(out: &mut [f64], y: &[f64], stages: &[Vec<f64>], row: &[f64], h: f64) {
+    out.copy_from_slice(y);
+    for (weight, stage) in row.iter().zip(stages) {
+        if *weight != 0.0 {
+            let factor = weight * h;
+            for (o, k) in out.iter_mut().zip(stage) {
+                *o += factor * k;
+            }
+        }
+    }
+}

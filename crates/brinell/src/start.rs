@@ -1,0 +1,50 @@
+//! The state at t = 0, section 9 of the model.
+
+use crate::model::Model;
+use crate::scenario::{ModelKind, Start};
+use crate::statics::{self, NoBalance, Problem};
+
+/// Displacement of both rings in x and y for the starts that are not in balance (the paper), m.
+const INITIAL_OFFSET: f64 = 1e-6;
+
+/// The initial state (positions, then rates).
+///
+/// # Errors
+/// Where the start is `equilibrium` and there is none.
+pub fn state(model: &Model) -> Result<Vec<f64>, NoBalance> {
+    let l = &model.layout;
+    let dof = l.dof();
+    let mut y = vec![0.0; 2 * dof];
+    let full = model.kind == ModelKind::Full;
+    if full {
+        for slot in 0..l.rollers() {
+            y[l.theta() + slot] = model.pocket_angle[slot];
+        }
+    }
+    if full && model.start != Start::Rest {
+        let w = model.rotation.at(0.0).0;
+        let (orbit, spin) = (model.rolling_orbit_speed(w), model.rolling_spin_speed(w));
+        for slot in 0..l.rollers() {
+            y[dof + l.theta() + slot] = orbit;
+            y[dof + l.phi() + slot] = spin;
+        }
+        for row in 0..l.rows {
+            y[dof + l.cage(row) + 2] = orbit;
+        }
+    }
+    let mut inner = [INITIAL_OFFSET; 2];
+    let mut outer = [INITIAL_OFFSET; 2];
+    if model.start == Start::Equilibrium {
+        let balance = statics::solve(model, &Problem::at_start(model))?;
+        (inner, outer) = (balance.inner, balance.outer);
+        if full {
+            y[l.r()..l.r() + l.rollers()].copy_from_slice(&balance.r[..l.rollers()]);
+        }
+    }
+    if model.outer_ring_is_fixed() {
+        outer = [0.0; 2];
+    }
+    y[l.inner()..l.inner() + 2].copy_from_slice(&inner);
+    y[l.outer()..l.outer() + 2].copy_from_slice(&outer);
+    Ok(y)
+}

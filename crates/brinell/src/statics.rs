@@ -1,0 +1,345 @@
+//! Static balance: ring offsets under the full load, with every roller in equilibrium between its raceways.
+//!
+//! The potential energy of contacts, supports and loads is minimised over the ring offsets by a damped Newton method; each
+//! roller's radial offset is eliminated, for it has one equilibrium at given ring offsets. Centrifugal force and gravity act
+//! on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
+
+use crate::contact::Floor;
+use crate::defect::{Angles, Side, acting, energy};
+use crate::model::{Model, lumped};
+use crate::scenario::ModelKind;
+
+/// Question put to the solver.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// Speed of the inner ring, rad/s: sets the centrifugal force of rollers in pure rolling.
+    pub speed: f64,
+    /// Angle of the inner ring, rad.
+    pub ring_angle: f64,
+    /// Orbit angle of each slot, rad.
+    pub orbit: Vec<f64>,
+    /// Spin angle of each slot, rad.
+    pub spin: Vec<f64>,
+    /// Share of the load.
+    pub load_share: f64,
+    /// Hold the inner ring at the centre.
+    pub fix_inner: bool,
+    /// Hold the outer ring at the centre.
+    pub fix_outer: bool,
+}
+
+impl Problem {
+    /// The state of a model at t = 0 under its full load.
+    pub fn at_start(model: &Model) -> Self {
+        Self {
+            speed: model.rotation.at(0.0).0,
+            ring_angle: 0.0,
+            orbit: model.pocket_angle.clone(),
+            spin: vec![0.0; model.layout.slots],
+            load_share: 1.0,
+            fix_inner: false,
+            fix_outer: model.outer_ring_is_fixed(),
+        }
+    }
+}
+
+/// The balance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    /// Offset of the inner ring, m.
+    pub inner: [f64; 2],
+    /// Offset of the outer ring, m.
+    pub outer: [f64; 2],
+    /// Radial offset of each slot's roller, m.
+    pub r: Vec<f64>,
+    /// Q_in of each slot, N.
+    pub inner_force: Vec<f64>,
+    /// Q_out of each slot, N.
+    pub outer_force: Vec<f64>,
+    /// Stiffness of the bearing between its rings, N/m: the force on the inner ring is minus this times its displacement.
+    pub stiffness: [[f64; 2]; 2],
+    /// Largest force left over on a ring, N.
+    pub residual: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+}
+
+/// No balance was found.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "no static balance: {residual:.3e} N are left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against the load"
+)]
+pub struct NoBalance {
+    /// Force left over, N.
+    pub residual: f64,
+    /// Iterations made.
+    pub iterations: usize,
+}
+
+/// What one roller contributes at given ring offsets.
+#[derive(Debug, Clone, Copy, Default)]
+struct Roller {
+    r: f64,
+    inner: f64,
+    outer: f64,
+    /// dQ/d(approach of the rings) through the roller, N/m.
+    tangent: f64,
+    /// Potential energy, J.
+    energy: f64,
+}
+
+/// Rings' offsets (x_i, y_i, x_o, y_o).
+type Offsets = [f64; 4];
+
+const MAX_ITERATIONS: usize = 200;
+
+/// Solves a static problem.
+///
+/// # Errors
+/// Where the rings are not held against the load.
+pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
+    let mut x: Offsets = [0.0; 4];
+    let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
+    let mut rollers = vec![Roller::default(); model.layout.rollers()];
+    let mut trial_rollers = rollers.clone();
+    let forces = external(model, problem);
+    let weight = rollers.len() as f64 * model.inertia.roller * centrifugal(model, problem.speed).abs();
+    let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9);
+    // The series stiffness at a deflection of a micrometre: any value of this order starts the damping.
+    let mut damping = 1e-3 * model.series_contact.tangent(1e-6, None).max(1.0);
+    let mut potential = evaluate(model, problem, &forces, &x, &mut rollers);
+    for iterations in 0..MAX_ITERATIONS {
+        let (gradient, hessian) = derivatives(model, problem, &forces, &x, &rollers, &free);
+        let residual = gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
+        if residual <= 1e-10 * scale {
+            return Ok(finish(model, problem, x, &rollers, residual, iterations));
+        }
+        let mut improved = false;
+        for _ in 0..60 {
+            let mut damped = hessian;
+            (0..4).for_each(|k| damped[k][k] += if free[k] { damping } else { 1.0 });
+            let Some(step) = solve4(damped, gradient.map(|g| -g)) else {
+                damping *= 10.0;
+                continue;
+            };
+            let trial: Offsets = std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
+            let trial_potential = evaluate(model, problem, &forces, &trial, &mut trial_rollers);
+            let (trial_gradient, _) = derivatives(model, problem, &forces, &trial, &trial_rollers, &free);
+            let smaller = trial_gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs())) < residual;
+            // Near the solution the potential no longer resolves the progress, but the residual does.
+            if trial_potential < potential || (smaller && trial_potential <= potential + 1e-12 * potential.abs()) {
+                x = trial;
+                potential = trial_potential;
+                std::mem::swap(&mut rollers, &mut trial_rollers);
+                damping *= 0.1;
+                improved = true;
+                break;
+            }
+            damping = (damping * 10.0).max(1e-6);
+        }
+        if !improved {
+            if residual <= 1e-7 * scale {
+                return Ok(finish(model, problem, x, &rollers, residual, iterations));
+            }
+            return Err(NoBalance { residual, iterations });
+        }
+    }
+    Err(NoBalance { residual: f64::NAN, iterations: MAX_ITERATIONS })
+}
+
+/// Centripetal acceleration of a roller in pure rolling, m/s^2.
+fn centrifugal(model: &Model, speed: f64) -> f64 {
+    model.geometry.pitch_radius * model.rolling_orbit_speed(speed).powi(2)
+}
+
+/// Loads and weights of the rings, N.
+fn external(model: &Model, problem: &Problem) -> Offsets {
+    let (inner, outer) = model.load.on_rings(problem.load_share);
+    let (m, g) = (&model.inertia, &model.gravity);
+    [
+        inner[0] + m.inner_ring * g[0],
+        inner[1] + m.inner_ring * g[1],
+        outer[0] + m.outer_ring * g[0],
+        outer[1] + m.outer_ring * g[1],
+    ]
+}
+
+/// Potential energy at ring offsets `x`; fills `rollers`.
+fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rollers: &mut [Roller]) -> f64 {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let k = [ki, ki, ko, ko];
+    let mut potential: f64 = (0..4).map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i]).sum();
+    for (slot, roller) in rollers.iter_mut().enumerate() {
+        *roller = match model.kind {
+            ModelKind::Full => between_raceways(model, problem, slot, x),
+            ModelKind::Reference => in_series(model, problem, slot, x),
+        };
+        potential += roller.energy;
+    }
+    potential
+}
+
+fn angles(problem: &Problem, slot: usize) -> Angles {
+    Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
+}
+
+fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
+    let (sin, cos) = problem.orbit[slot].sin_cos();
+    let g = &model.geometry;
+    let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
+    let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
+    Roller { r: 0.0, inner: force, outer: force, tangent, energy }
+}
+
+/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance, by bisection with Newton steps.
+fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
+    let angles = angles(problem, slot);
+    let (sin, cos) = angles.orbit.sin_cos();
+    let inner_at = cos * x[0] + sin * x[1] - model.geometry.clearance;
+    let outer_at = cos * x[2] + sin * x[3] + model.geometry.outer_gap;
+    let own = model.inertia.roller
+        * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let contact = |side: Side, delta: f64| -> (f64, f64) {
+        let law = model.contact(side);
+        match acting(model.defects_of(slot, side), law, &angles, side, delta) {
+            Some((force, floor)) => (force, law.tangent(delta, Some(&floor))),
+            None => (law.healthy(delta), law.tangent(delta, None::<&Floor>)),
+        }
+    };
+    let balance = |r: f64| {
+        let (q_in, k_in) = contact(Side::Inner, inner_at - r);
+        let (q_out, k_out) = contact(Side::Outer, r - outer_at);
+        (q_in - q_out + own, k_in + k_out)
+    };
+    // f falls with r. Start from the raceway that the roller's own force presses it against.
+    let mut low = inner_at.min(outer_at);
+    let mut high = inner_at.max(outer_at);
+    let mut reach = 1e-7;
+    while balance(low).0 < 0.0 && reach < 1.0 {
+        low -= reach;
+        reach *= 2.0;
+    }
+    reach = 1e-7;
+    while balance(high).0 > 0.0 && reach < 1.0 {
+        high += reach;
+        reach *= 2.0;
+    }
+    let mut r = if own < 0.0 { low } else { high };
+    if balance(r).0 != 0.0 {
+        for _ in 0..200 {
+            let (f, slope) = balance(r);
+            if f > 0.0 {
+                low = r;
+            } else {
+                high = r;
+            }
+            let newton = if slope > 0.0 { r + f / slope } else { f64::NAN };
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - r).abs() <= 1e-22 + 4.0 * f64::EPSILON * r.abs() || high - low <= 1e-22 {
+                r = next;
+                break;
+            }
+            r = next;
+        }
+    }
+    let (q_in, k_in) = contact(Side::Inner, inner_at - r);
+    let (q_out, k_out) = contact(Side::Outer, r - outer_at);
+    let stored = |side, delta| energy(model.defects_of(slot, side), model.contact(side), &angles, side, delta);
+    Roller {
+        r,
+        inner: q_in,
+        outer: q_out,
+        tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
+        energy: stored(Side::Inner, inner_at - r) + stored(Side::Outer, r - outer_at) - own * r,
+    }
+}
+
+/// Gradient (minus the forces on the rings) and Hessian of the potential.
+fn derivatives(
+    model: &Model,
+    problem: &Problem,
+    forces: &Offsets,
+    x: &Offsets,
+    rollers: &[Roller],
+    free: &[bool; 4],
+) -> (Offsets, [[f64; 4]; 4]) {
+    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let k = [ki, ki, ko, ko];
+    let mut gradient: Offsets = std::array::from_fn(|i| k[i] * x[i] - forces[i]);
+    let mut hessian = [[0.0; 4]; 4];
+    (0..4).for_each(|i| hessian[i][i] = k[i]);
+    for (slot, roller) in rollers.iter().enumerate() {
+        let (sin, cos) = problem.orbit[slot].sin_cos();
+        let along = [cos, sin, -cos, -sin];
+        for i in 0..4 {
+            gradient[i] += along[i] * if i < 2 { roller.inner } else { roller.outer };
+            for j in 0..4 {
+                hessian[i][j] += roller.tangent * along[i] * along[j];
+            }
+        }
+    }
+    for i in 0..4 {
+        if !free[i] {
+            gradient[i] = 0.0;
+            for j in 0..4 {
+                (hessian[i][j], hessian[j][i]) = (0.0, 0.0);
+            }
+        }
+    }
+    (gradient, hessian)
+}
+
+fn finish(model: &Model, problem: &Problem, x: Offsets, rollers: &[Roller], residual: f64, iterations: usize) -> Balance {
+    let slots = model.layout.slots;
+    let gather = |f: fn(&Roller) -> f64| {
+        let mut values = vec![0.0; slots];
+        values.iter_mut().zip(rollers).for_each(|(v, r)| *v = f(r));
+        values
+    };
+    let mut stiffness = [[0.0; 2]; 2];
+    for (slot, roller) in rollers.iter().enumerate() {
+        let (sin, cos) = problem.orbit[slot].sin_cos();
+        let e = [cos, sin];
+        for i in 0..2 {
+            for j in 0..2 {
+                stiffness[i][j] += roller.tangent * e[i] * e[j];
+            }
+        }
+    }
+    Balance {
+        inner: [x[0], x[1]],
+        outer: [x[2], x[3]],
+        r: gather(|r| r.r),
+        inner_force: gather(|r| r.inner),
+        outer_force: gather(|r| r.outer),
+        stiffness,
+        residual,
+        iterations,
+    }
+}
+
+/// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
+fn solve4(mut a: [[f64; 4]; 4], mut b: Offsets) -> Option<Offsets> {
+    for column in 0..4 {
+        let pivot = (column..4).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
+        if a[pivot][column] == 0.0 || !a[pivot][column].is_finite() {
+            return None;
+        }
+        a.swap(column, pivot);
+        b.swap(column, pivot);
+        for row in column + 1..4 {
+            let factor = a[row][column] / a[column][column];
+            for k in column..4 {
+                a[row][k] -= factor * a[column][k];
+            }
+            b[row] -= factor * b[column];
+        }
+    }
+    for row in (0..4).rev() {
+        for k in row + 1..4 {
+            b[row] -= a[row][k] * b[k];
+        }
+        b[row] /= a[row][row];
+    }
+    Some(b)
+}
