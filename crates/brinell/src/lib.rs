@@ -1,13 +1,18 @@
 //! Vibration of rolling bearings with real damage, from first principles.
 
+pub mod bearing;
 pub mod cage;
+pub mod channel;
 pub mod contact;
 pub mod defect;
 pub mod friction;
 pub mod model;
+pub mod observe;
 pub mod operation;
 pub mod power;
 pub mod scenario;
+pub mod signal;
+pub mod simulate;
 pub mod solver;
 pub mod start;
 pub mod statics;
