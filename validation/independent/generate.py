@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Run the independent implementation of model.md on scenario files.
+
+    generate.py run SCENARIO.toml OUT.csv [--step 1e-8] [--perturb 0] [--record CHANNEL ...]
+    generate.py verify FOLDER        compare with the reference trajectories NAME.toml, NAME.csv in FOLDER
+    generate.py goldens [NAME ...]   write crates/brinell/tests/xval/NAME.csv and tolerances.csv
+
+Python 3.11, standard library only; needs gcc. Unit conversion is all that happens here: the physics is in model.c.
+"""
+import argparse
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+XVAL = HERE.parents[1] / "crates" / "brinell" / "tests" / "xval"
+STEP = 1e-8
+SETTLED = 1e-3  # s; the start-up drop before it would hide everything else
+WORST = 0.02  # the share of samples beside a force jump that may be left out
+
+
+def build(folder):
+    exe = pathlib.Path(folder) / "model"
+    flags = ["-std=c99", "-O3", "-march=native", "-Wall", "-Wextra"]
+    subprocess.run(["gcc", *flags, "-o", str(exe), str(HERE / "model.c"), "-lm"], check=True)
+    return exe
+
+
+def palmgren(length_mm):
+    """N/m^(10/9): K = 8.06e4 L^(8/9) N/mm^(10/9), L in mm."""
+    return 8.06e4 * length_mm ** (8 / 9) * 1000 ** (10 / 9)
+
+
+def parameters(sc, step, perturb, record):
+    """The flat SI text that model.c reads."""
+    b, c, k = sc["bearing"], sc["cage"], sc["contact"]
+    f, l, s, o, sim = sc["friction"], sc["lubricant"], sc["support"], sc["operation"], sc["simulation"]
+    if k.get("law", "ecl") != "ecl" or k.get("roller_path", "point") != "point":
+        raise SystemExit("only law = ecl with roller_path = point is implemented")
+    out = []
+
+    def put(name, *values):
+        out.append(" ".join([name, *(v if isinstance(v, str) else repr(v) for v in values)]))
+
+    rpm = math.pi / 30
+    put("rows", b["rows"])
+    put("rollers", b["rollers_per_row"])
+    put("inner_raceway_diameter", b["inner_raceway_diameter_mm"] * 1e-3)
+    put("outer_raceway_diameter", b["outer_raceway_diameter_mm"] * 1e-3)
+    put("pitch_radius", b["pitch_diameter_mm"] * 0.5e-3)
+    put("roller_radius", b["roller_diameter_mm"] * 0.5e-3)
+    put("roller_length", b["roller_length_mm"] * 1e-3)
+    put("stagger", math.radians(b.get("row_stagger_deg", 180.0 / b["rollers_per_row"])))
+    put("clearance", b["radial_clearance_um"] * 1e-6)
+    put("outer_gap", b.get("outer_gap_um", 0.0) * 1e-6)
+    put("inner_mass", b["inner_ring_mass_kg"])
+    put("outer_mass", b["outer_ring_mass_kg"])
+    put("roller_mass", b["roller_mass_kg"])
+    put("cage_mass", c["mass_kg"])
+    put("cage_inner_radius", c["inner_diameter_mm"] * 0.5e-3)
+    put("cage_outer_radius", c["outer_diameter_mm"] * 0.5e-3)
+    put("pocket_clearance", c["pocket_clearance_mm"] * 1e-3)
+    put("guidance", c["guidance"])
+    put("guide_clearance", c["guide_clearance_mm"] * 1e-3)
+    put("guide_width", c["guide_width_mm"] * 1e-3)
+    put("cage_stiffness", c["contact_stiffness_n_per_m"])
+    put("cage_damping", c["contact_damping_ns_per_m"])
+    put("exponent", k.get("exponent", 10 / 9))
+    put("inner_stiffness", k.get("inner_stiffness", palmgren(b["roller_length_mm"])))
+    put("outer_stiffness", k.get("outer_stiffness", palmgren(b["roller_length_mm"])))
+    put("contact_damping", k["damping_ns_per_m"])
+    put("friction", f["raceway_coefficient"])
+    put("slip_velocity", f["slip_velocity_m_per_s"])
+    put("viscosity", l["viscosity_pa_s"])
+    put("drag", l.get("drag_coefficient", 0.0))
+    put("density", l.get("effective_density_kg_per_m3", 0.0))
+    for ring in "inner", "outer":
+        put(f"support_{ring}_stiffness", s[f"{ring}_stiffness_n_per_m"])
+        put(f"support_{ring}_damping", s[f"{ring}_damping_ns_per_m"])
+    speed = o["speed_rpm"]
+    points = speed if isinstance(speed, list) else [[0.0, speed]]
+    put("speed", len(points), *(x for t, n in points for x in (float(t), n * rpm)))
+    put("load_x", o["load_n"][0])
+    put("load_y", o["load_n"][1])
+    put("load_on", o["load_on"] if "load_on" in o else "outer-ring")
+    put("ramp", o["load_ramp_s"])
+    gravity = o.get("gravity_m_per_s2", [0.0, 0.0])
+    put("gravity_x", gravity[0])
+    put("gravity_y", gravity[1])
+    for d in sc.get("defects", []):
+        (kind, shape), = d["shape"].items()
+        depth = d.get("depth_um", 0.0) * 1e-6
+        if kind == "rectangle":
+            values = [shape["length_mm"] * 1e-3, shape["width_mm"] * 1e-3]
+        elif kind == "circle":
+            values = [shape["diameter_mm"] * 1e-3]
+        elif kind == "li2023_irregular":
+            values = [shape["max_width_mm"] * 1e-3]
+        elif kind == "profile":
+            depths = shape.get("depth_um", [depth * 1e6] * len(shape["arc_mm"]))
+            values = [len(shape["arc_mm"])]
+            for a, w, h in zip(shape["arc_mm"], shape["width_mm"], depths, strict=True):
+                values += [a * 1e-3, w * 1e-3, h * 1e-6]
+        else:
+            raise SystemExit(f"shape {kind} is not implemented")
+        put("defect", d["on"], d["row"], d.get("roller", 0), math.radians(d["center_deg"]), depth, kind, *values)
+    put("model", sim.get("model", "full"))
+    put("start", sim.get("start", "rolling"))
+    put("duration", sim["duration_s"])
+    put("sample_rate", sim["sample_rate_hz"])
+    put("step", step)
+    put("perturb", perturb)
+    put("record", len(record), *record)
+    return "\n".join(out) + "\n"
+
+
+def simulate(exe, scenario, step=STEP, perturb=0.0, record=None):
+    """CSV text of one run."""
+    sc = tomllib.loads(pathlib.Path(scenario).read_text())
+    if record is None:
+        record = sc["simulation"]["record"]
+    record = ["t"] + [name for name in record if name != "t"]
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as text:
+        text.write(parameters(sc, step, perturb, record))
+        text.flush()
+        return subprocess.run([str(exe), text.name], check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def columns(text):
+    rows = list(csv.reader(text.splitlines()))
+    return {name: [float(r[i]) for r in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def difference(a, b, times, drop=0.0):
+    """Relative L2 difference of b from a from SETTLED on; `drop` is the share of worst samples left out."""
+    pairs = [(x, y) for x, y, t in zip(a, b, times, strict=True) if t >= SETTLED - 1e-12]
+    pairs.sort(key=lambda p: abs(p[0] - p[1]))
+    pairs = pairs[: len(pairs) - int(drop * len(pairs))]
+    size = math.sqrt(sum(x * x for x, _ in pairs))
+    gap = math.sqrt(sum((x - y) ** 2 for x, y in pairs))
+    return gap / size if size > 0 else gap
+
+
+def verify(exe, folder, step):
+    for scenario in sorted(pathlib.Path(folder).glob("*.toml")):
+        want = columns(scenario.with_suffix(".csv").read_text())
+        got = columns(simulate(exe, scenario, step, record=list(want)))
+        assert len(got["t"]) == len(want["t"])
+        print(f"{scenario.stem}\n{'channel':28}{'all':>10}{'without worst 2 %':>20}")
+        for name in want:
+            if name != "t":
+                full, part = (difference(want[name], got[name], want["t"], d) for d in (0.0, WORST))
+                print(f"{name:28}{full:10.2e}{part:20.2e}")
+
+
+def goldens(exe, names):
+    table = XVAL / "tolerances.csv"
+    rows = {}
+    if names and table.exists():
+        for line in list(csv.reader(table.read_text().splitlines()))[1:]:
+            rows.setdefault(line[0], []).append(line)
+    for scenario in sorted(XVAL.glob("*.toml")):
+        name = scenario.stem
+        if names and name not in names:
+            continue
+        text = simulate(exe, scenario)
+        scenario.with_suffix(".csv").write_text(text)
+        base = columns(text)
+        others = [columns(simulate(exe, scenario, step=2 * STEP)), columns(simulate(exe, scenario, perturb=1e-15))]
+        rows[name] = []
+        for channel in base:
+            if channel != "t":
+                worst = [max(difference(base[channel], x[channel], base["t"], d) for x in others) for d in (0.0, WORST)]
+                rows[name].append([name, channel, *(f"{w:.3e}" for w in worst)])
+                print(f"{name:28}{channel:28}{worst[0]:10.2e}{worst[1]:10.2e}", flush=True)
+    with table.open("w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["scenario", "channel", "self_difference", "self_difference_without_worst_2_percent"])
+        for name in sorted(rows):
+            writer.writerows(rows[name])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    run = commands.add_parser("run")
+    run.add_argument("scenario")
+    run.add_argument("out")
+    run.add_argument("--step", type=float, default=STEP)
+    run.add_argument("--perturb", type=float, default=0.0)
+    run.add_argument("--record", nargs="+")
+    check = commands.add_parser("verify")
+    check.add_argument("folder")
+    check.add_argument("--step", type=float, default=STEP)
+    gold = commands.add_parser("goldens")
+    gold.add_argument("names", nargs="*")
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        exe = build(folder)
+        if args.command == "run":
+            text = simulate(exe, args.scenario, args.step, args.perturb, args.record)
+            pathlib.Path(args.out).write_text(text)
+        elif args.command == "verify":
+            verify(exe, args.folder, args.step)
+        else:
+            goldens(exe, args.names)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
