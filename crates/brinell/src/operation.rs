@@ -45,6 +45,16 @@ impl Rotation {
         (w0 + slope * dt, angle + dt * (w0 + 0.5 * slope * dt))
     }
 
+    /// dw_i/dt, rad/s^2; the right-hand value at a knot.
+    pub fn acceleration(&self, t: f64) -> f64 {
+        let next = self.knots.partition_point(|k| k[0] <= t);
+        if next == 0 || next == self.knots.len() {
+            return 0.0;
+        }
+        let ([t0, w0, _], [t1, w1, _]) = (self.knots[next - 1], self.knots[next]);
+        (w1 - w0) / (t1 - t0)
+    }
+
     /// Largest |w_i|, rad/s.
     pub fn max_speed(&self) -> f64 {
         self.knots.iter().map(|k| k[1].abs()).fold(0.0, f64::max)

@@ -4,10 +4,11 @@
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.
 
 use super::{Model, Power, Workspace, series_stiffness};
-use crate::contact::Hertz;
-use crate::defect::{Angles, SIDES};
+use crate::contact::{Floor, Hertz};
+use crate::defect::{Angles, SIDES, Side};
 
-/// One roller's series contact: law, and the depth that a full-width defect takes from the approach.
+/// One roller's series contact: law, and the depth that full-width damage takes from the approach.
+#[derive(Clone, Copy)]
 struct Series {
     law: Hertz,
     sunk: f64,
@@ -15,38 +16,50 @@ struct Series {
     on_damage: [bool; 2],
 }
 
-/// The series contact of one roller: the defect (if any) with the smallest elastic sum acts.
+impl Series {
+    fn elastic(&self, delta: f64) -> f64 {
+        self.law.healthy(delta - self.sunk)
+    }
+}
+
+/// The series contact of one roller. Damage on either side acts on its own contact; of several on one side, the one with the smallest
+/// elastic sum acts.
 fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
-    let length = model.geometry.roller_length;
     let healthy =
         Series { law: model.series_contact, sunk: 0.0, damaged_length: [0.0; 2], on_damage: [false; 2] };
-    let mut chosen = healthy;
-    let mut smallest = f64::INFINITY;
-    for side in SIDES {
-        for defect in model.defects_of(slot, side) {
-            let Some(floor) = defect.floor(defect.local_angle(angles, side)) else { continue };
-            let mut damaged_length = [0.0; 2];
-            damaged_length[side as usize] = floor.damaged_length;
-            let mut on_damage = [false; 2];
-            on_damage[side as usize] = true;
-            let mut candidate = Series { law: model.series_contact, sunk: 0.0, damaged_length, on_damage };
-            if floor.damaged_length < length {
-                let mut k = [model.inner_contact.stiffness, model.outer_contact.stiffness];
-                k[side as usize] *= floor.share;
-                if floor.share < 1.0 {
-                    candidate.law.stiffness = series_stiffness(k[0], k[1], model.series_contact.exponent.value());
-                }
-            } else {
-                candidate.sunk = floor.depth;
-            }
-            let elastic = candidate.law.healthy(delta - candidate.sunk);
-            if elastic < smallest {
-                smallest = elastic;
-                chosen = candidate;
-            }
+    let acting = SIDES.map(|side| {
+        model
+            .defects_of(slot, side)
+            .filter_map(|d| d.floor(d.local_angle(angles, side)))
+            .map(|floor| (with_floors(model, &healthy, &[(side, floor)]).elastic(delta), floor))
+            .reduce(|a, b| if b.0 < a.0 { b } else { a })
+            .map(|(_, floor)| (side, floor))
+    });
+    match acting {
+        [None, None] => healthy,
+        [Some(one), None] | [None, Some(one)] => with_floors(model, &healthy, &[one]),
+        [Some(inner), Some(outer)] => with_floors(model, &healthy, &[inner, outer]),
+    }
+}
+
+/// A partial width multiplies its side's stiffness by g; the full width sinks the roller by h.
+fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, Floor)]) -> Series {
+    let mut series = *healthy;
+    let mut k = [model.inner_contact.stiffness, model.outer_contact.stiffness];
+    for &(side, floor) in floors {
+        series.damaged_length[side as usize] = floor.damaged_length;
+        series.on_damage[side as usize] = true;
+        if floor.damaged_length < model.geometry.roller_length {
+            k[side as usize] *= floor.share;
+        } else {
+            series.sunk += floor.depth;
         }
     }
-    chosen
+    // Undamaged stiffnesses keep the healthy value to the bit.
+    if k != [model.inner_contact.stiffness, model.outer_contact.stiffness] {
+        series.law.stiffness = series_stiffness(k[0], k[1], model.series_contact.exponent.value());
+    }
+    series
 }
 
 /// Elastic energy of one roller's series contact at an approach, J.
@@ -103,7 +116,7 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
         let rate = cos * speed[0] + sin * speed[1] + orbit_speed * tangential;
         let angles = Angles { orbit, spin: ws.kinematic_spin, ring: ring_angle };
         let contact = series(model, slot, &angles, delta);
-        let elastic = contact.law.healthy(delta - contact.sunk);
+        let elastic = contact.elastic(delta);
         let force = contact.law.with_damping(elastic, rate);
         for side in SIDES {
             let k = side as usize;

@@ -6,15 +6,18 @@
 pub(crate) mod energy;
 mod full;
 mod layout;
+mod momentum;
 mod motion;
 pub(crate) mod lumped;
 mod workspace;
 
 pub use energy::{Energy, Power};
+pub use momentum::imbalance;
 pub use motion::Motion;
 pub use layout::{LANES, Layout};
 pub use workspace::Workspace;
 
+use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::defect::{Defect, Side};
@@ -254,6 +257,19 @@ impl Model {
     pub fn rolling_spin_speed(&self, w: f64) -> f64 {
         let g = &self.geometry;
         -(w * g.inner_radius - g.pitch_radius * self.rolling_orbit_speed(w)) / g.roller_radius
+    }
+
+    /// Pure-rolling speeds and defect frequencies at w_i.
+    pub fn kinematics(&self, w: f64) -> Kinematics {
+        let g = &self.geometry;
+        let geometry = kinematics::Geometry {
+            inner_raceway_diameter: 2.0 * g.inner_radius,
+            outer_raceway_diameter: 2.0 * g.outer_radius,
+            pitch_diameter: 2.0 * g.pitch_radius,
+            roller_diameter: 2.0 * g.roller_radius,
+            rollers_per_row: self.layout.rollers_per_row,
+        };
+        Kinematics::pure_rolling(&geometry, w)
     }
 
     /// Whether the outer ring of the reference model is rigidly mounted (section 10).

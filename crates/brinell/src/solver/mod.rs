@@ -7,7 +7,7 @@
 
 mod tableau;
 
-pub use tableau::{BOGACKI_SHAMPINE, DORMAND_PRINCE, Tableau};
+pub use tableau::{BOGACKI_SHAMPINE, Tableau};
 
 use std::ops::{AddAssign, Mul};
 

@@ -1,0 +1,305 @@
+//! Named channels: what can be recorded of a run, with units, and how each is read off an evaluated state.
+//!
+//! All SI. Rows, rollers and cages count from 1 in names. Accelerations are those of the equations of motion at the
+//! instant of the sample; `measured_*` are the outer ring's after the anti-alias filter (section 11 of the model).
+
+use crate::defect::Side;
+use crate::model::{Model, Workspace};
+use crate::scenario::ModelKind;
+
+/// One instant of a run, evaluated.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame<'a> {
+    /// The bearing.
+    pub model: &'a Model,
+    /// Time, s.
+    pub t: f64,
+    /// State (positions, then rates).
+    pub y: &'a [f64],
+    /// Its derivative (rates, then accelerations).
+    pub dy: &'a [f64],
+    /// Contact forces at that state.
+    pub ws: &'a Workspace,
+}
+
+/// What a channel reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    /// Entry of the state.
+    State(usize),
+    /// Entry of the derivative.
+    Slope(usize),
+    /// x or y of a cage or its speed, where the reference model prescribes them.
+    CageSpeed(usize),
+    Roller(RollerQuantity, usize),
+    Contact(ContactQuantity, Side, usize),
+    PocketForce(usize),
+    /// x or y of the measured acceleration: not in a frame.
+    Measured(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum RollerQuantity {
+    R,
+    X,
+    Y,
+    Ax,
+    Ay,
+    Orbit,
+    OrbitSpeed,
+    Spin,
+    SpinSpeed,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ContactQuantity {
+    Force,
+    Length,
+    Stiffness,
+    Slip,
+}
+
+/// A recordable channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name, the same everywhere.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// One line.
+    pub description: String,
+    quantity: Quantity,
+}
+
+/// Unit of a contact's stiffness: N/m^n.
+pub const STIFFNESS_UNIT: &str = "N/m^n";
+
+impl Channel {
+    /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x and 1 for y.
+    pub fn measured_axis(&self) -> Option<usize> {
+        match self.quantity {
+            Quantity::Measured(axis) => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// The channel's value in a frame; NaN for measured channels, which no frame holds.
+    pub fn value(&self, f: &Frame) -> f64 {
+        match self.quantity {
+            Quantity::State(k) => f.y[k],
+            Quantity::Slope(k) => f.dy[k],
+            Quantity::CageSpeed(k) => match f.model.kind {
+                ModelKind::Full => f.y[k],
+                ModelKind::Reference => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
+            },
+            Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
+            Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
+            Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
+            Quantity::Measured(_) => f64::NAN,
+        }
+    }
+}
+
+fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
+    use RollerQuantity as Q;
+    let l = &f.model.layout;
+    let dof = l.dof();
+    let (cos, sin) = (f.ws.cos[slot], f.ws.sin[slot]);
+    let r = f.y[l.r() + slot];
+    let (orbit, orbit_speed, orbit_rate, spin, spin_speed) = match f.model.kind {
+        ModelKind::Full => (
+            f.y[l.theta() + slot],
+            f.y[dof + l.theta() + slot],
+            f.dy[dof + l.theta() + slot],
+            f.y[l.phi() + slot],
+            f.y[dof + l.phi() + slot],
+        ),
+        ModelKind::Reference => {
+            let (w, _) = f.model.rotation.at(f.t);
+            (
+                f.ws.kinematic_orbit[slot],
+                f.model.rolling_orbit_speed(w),
+                f.model.rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
+                f.ws.kinematic_spin,
+                f.model.rolling_spin_speed(w),
+            )
+        }
+    };
+    let arm = f.model.geometry.pitch_radius + r;
+    let dr = f.y[dof + l.r() + slot];
+    let radial = f.dy[dof + l.r() + slot] - arm * orbit_speed * orbit_speed;
+    let tangential = arm * orbit_rate + 2.0 * dr * orbit_speed;
+    match quantity {
+        Q::R => r,
+        Q::X => r * cos,
+        Q::Y => r * sin,
+        Q::Ax => radial * cos - tangential * sin,
+        Q::Ay => radial * sin + tangential * cos,
+        Q::Orbit => orbit,
+        Q::OrbitSpeed => orbit_speed,
+        Q::Spin => spin,
+        Q::SpinSpeed => spin_speed,
+    }
+}
+
+fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64 {
+    let c = &f.ws.contacts[side as usize];
+    match quantity {
+        ContactQuantity::Force => c.force[slot],
+        ContactQuantity::Length => f.model.geometry.roller_length - c.damaged_length[slot],
+        ContactQuantity::Stiffness => contact_stiffness(f.model, f.ws, side, slot),
+        ContactQuantity::Slip => c.slip[slot],
+    }
+}
+
+/// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with which it would
+/// close (Eqs. 22, 23).
+pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
+    let c = &ws.contacts[side as usize];
+    let law = model.contact(side);
+    let share = crate::contact::remaining_share(model.geometry.roller_length, c.damaged_length[slot]);
+    if !c.on_damage[slot] {
+        return law.stiffness;
+    }
+    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Reference && share > 0.0) {
+        return law.stiffness * share;
+    }
+    let healthy = match model.kind {
+        ModelKind::Full => law.healthy(c.approach[slot]),
+        ModelKind::Reference => model.series_contact.healthy(c.approach[slot]),
+    };
+    law.stiffness * c.elastic[slot] / healthy
+}
+
+/// Every channel of a model, in the order of files.
+pub fn all(model: &Model) -> Vec<Channel> {
+    let l = &model.layout;
+    let dof = l.dof();
+    let mut channels = Vec::new();
+    let mut add = |name: String, unit: &'static str, description: String, quantity: Quantity| {
+        channels.push(Channel { name, unit, description, quantity });
+    };
+    for (ring, at) in [("inner", l.inner()), ("outer", l.outer())] {
+        for (suffix, unit, what, offset) in
+            [("", "m", "displacement", 0), ("v", "m/s", "velocity", dof), ("a", "m/s^2", "acceleration", dof)]
+        {
+            for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                let index = offset + at + k;
+                let quantity = if suffix == "a" { Quantity::Slope(index) } else { Quantity::State(index) };
+                add(format!("{ring}_{suffix}{axis}"), unit, format!("{what} of the {ring} ring along {axis}"), quantity);
+            }
+        }
+    }
+    for row in 0..l.rows {
+        let (at, number) = (l.cage(row), row + 1);
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            let text = format!("displacement of cage {number} along {axis}");
+            add(format!("cage{number}_{axis}"), "m", text, Quantity::State(at + k));
+        }
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            let text = format!("acceleration of cage {number} along {axis}");
+            add(format!("cage{number}_a{axis}"), "m/s^2", text, Quantity::Slope(dof + at + k));
+        }
+        let text = format!("rotational speed of cage {number}");
+        add(format!("cage{number}_speed"), "rad/s", text, Quantity::CageSpeed(dof + at + 2));
+    }
+    let digits = l.rollers_per_row.to_string().len().max(2);
+    for row in 0..l.rows {
+        for roller in 0..l.rollers_per_row {
+            let slot = l.slot(row, roller);
+            let number = format!("{}_{:0digits$}", row + 1, roller + 1);
+            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            use RollerQuantity as R;
+            for (suffix, unit, what, quantity) in [
+                ("r", "m", "radial offset", R::R),
+                ("x", "m", "radial offset along x", R::X),
+                ("y", "m", "radial offset along y", R::Y),
+                ("ax", "m/s^2", "acceleration of the centre along x", R::Ax),
+                ("ay", "m/s^2", "acceleration of the centre along y", R::Ay),
+                ("orbit", "rad", "orbit angle", R::Orbit),
+                ("orbit_speed", "rad/s", "orbit speed", R::OrbitSpeed),
+                ("spin", "rad", "absolute spin angle", R::Spin),
+                ("spin_speed", "rad/s", "absolute spin speed", R::SpinSpeed),
+            ] {
+                let quantity = Quantity::Roller(quantity, slot);
+                add(format!("roller{number}_{suffix}"), unit, format!("{what} {of}"), quantity);
+            }
+            for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
+                let quantity = Quantity::Contact(ContactQuantity::Slip, side, slot);
+                let text = format!("slip of the {name} raceway over the surface {of}");
+                add(format!("roller{number}_slip_{name}"), "m/s", text, quantity);
+            }
+        }
+    }
+    for row in 0..l.rows {
+        for roller in 0..l.rollers_per_row {
+            let slot = l.slot(row, roller);
+            let number = format!("{}_{:0digits$}", row + 1, roller + 1);
+            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
+                for (suffix, unit, what, quantity) in [
+                    ("force", "N", "normal force", ContactQuantity::Force),
+                    ("length", "m", "effective length L_e", ContactQuantity::Length),
+                    ("stiffness", STIFFNESS_UNIT, "stiffness", ContactQuantity::Stiffness),
+                ] {
+                    let text = format!("{what} at the {name} contact {of}");
+                    let quantity = Quantity::Contact(quantity, side, slot);
+                    add(format!("contact{number}_{name}_{suffix}"), unit, text, quantity);
+                }
+            }
+            let text = format!("force of the pocket along the orbit on roller {} in row {}", roller + 1, row + 1);
+            add(format!("pocket{number}_force"), "N", text, Quantity::PocketForce(slot));
+        }
+    }
+    for (k, axis) in ["x", "y"].into_iter().enumerate() {
+        let text = format!("acceleration of the outer ring along {axis} after the anti-alias filter");
+        add(format!("measured_a{axis}"), "m/s^2", text, Quantity::Measured(k));
+    }
+    channels
+}
+
+/// Accelerations of rings and cages: the channels that an anti-alias filter makes sense of.
+pub fn filterable(model: &Model) -> Vec<Channel> {
+    let l = &model.layout;
+    all(model)
+        .into_iter()
+        .filter(|c| matches!(c.quantity, Quantity::Slope(k) if k >= l.dof() + l.cage(0)))
+        .collect()
+}
+
+/// Whether `name` matches `pattern`, where `*` stands for any run of characters.
+pub fn matches(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let first = parts.next().unwrap_or_default();
+    let Some(mut rest) = name.strip_prefix(first) else { return false };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else { return rest.is_empty() };
+    for part in middle {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.ends_with(last)
+}
+
+/// The channels that `record` picks, in the order of [`all`], and the patterns that pick none.
+pub fn select(model: &Model, record: &[String]) -> (Vec<Channel>, Vec<String>) {
+    let channels = all(model);
+    let idle = record.iter().filter(|p| !channels.iter().any(|c| matches(p, &c.name))).cloned().collect();
+    let chosen = channels.into_iter().filter(|c| record.iter().any(|p| matches(p, &c.name))).collect();
+    (chosen, idle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn analytic_wildcards() {
+        assert!(matches("*", "t") && matches("inner_*", "inner_ax") && matches("*_ax", "inner_ax"));
+        assert!(matches("contact1_*_force", "contact1_03_outer_force") && matches("a*b*c", "aXbYc"));
+        assert!(!matches("inner_*", "outer_ax") && !matches("inner_a", "inner_ax") && !matches("a*ba", "aba_"));
+        assert!(!matches("ab*ba", "aba"), "prefix and suffix may not overlap");
+    }
+}

@@ -1,0 +1,276 @@
+//! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes. Bounded memory, whatever the duration.
+
+pub mod load_zone;
+pub mod passes;
+pub mod slip;
+pub mod waveform;
+
+use crate::channel::Frame;
+use crate::scenario::{Scenario, Speed, Surface};
+use crate::signal::spectrum::LONGEST_SEGMENT;
+use crate::signal::{
+    Band, Blocks, EnvelopeSpectrum, EnvelopeWelch, LineFrequency, LineSearch, LineTracker, Spectrum, Welch,
+};
+use crate::simulate::Simulation;
+use load_zone::LoadZone;
+use passes::Passes;
+use slip::Slip;
+use std::f64::consts::TAU;
+use waveform::Waveform;
+
+/// How a channel came to its sample rate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Values at the instants of the samples.
+    Instantaneous,
+    /// After the anti-alias filter.
+    AntiAliased,
+}
+
+impl Kind {
+    /// As files and reports say it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Instantaneous => "instantaneous",
+            Self::AntiAliased => "anti-aliased",
+        }
+    }
+}
+
+/// Statistics of one channel over blocks of revolutions.
+#[derive(Debug, Clone)]
+pub struct ChannelStatistics {
+    /// Channel name.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Sampling.
+    pub kind: Kind,
+    /// Moments of blocks of whole revolutions of the inner ring.
+    pub blocks: Blocks,
+}
+
+/// Repetition of one defect in the envelope of the measured acceleration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DefectLine {
+    /// Index of the defect, from 0.
+    pub defect: usize,
+    /// Name of its frequency: BPFO, BPFI or 2 BSF.
+    pub name: &'static str,
+    /// In pure rolling, Hz.
+    pub nominal: f64,
+    /// As found; `None` where none stands clear of the noise or the run is too short.
+    pub found: Option<LineFrequency>,
+}
+
+/// Everything a run leaves.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// Statistics, spectra, load zone and slip begin here, s.
+    pub from: f64,
+    /// 0 or 1: the axis of the measured acceleration that spectra and waveform show, the one nearer the load.
+    pub axis: usize,
+    /// By channel.
+    pub channels: Vec<ChannelStatistics>,
+    /// Forces around the bearing.
+    pub load_zone: LoadZone,
+    /// Slip.
+    pub slip: Slip,
+    /// Passes and events.
+    pub passes: Passes,
+    /// The measured acceleration.
+    pub waveform: Waveform,
+    /// Amplitude spectrum of the measured acceleration.
+    pub spectrum: Option<Spectrum>,
+    /// Its envelope spectrum and the band.
+    pub envelope: Option<(EnvelopeSpectrum, Band)>,
+    /// One a defect, at constant speed.
+    pub lines: Vec<DefectLine>,
+}
+
+/// Gathers [`Findings`] while a run goes; feed it the calls of [`crate::simulate::Observer`].
+pub struct Watch {
+    sample_rate: f64,
+    half_way: f64,
+    ramp: f64,
+    started: Option<f64>,
+    turn: i64,
+    axis: usize,
+    recorded: usize,
+    channels: Vec<ChannelStatistics>,
+    load_zone: LoadZone,
+    slip: Slip,
+    passes: Passes,
+    waveform: Waveform,
+    spectrum: Welch,
+    envelope: (EnvelopeWelch, Band),
+    trackers: Vec<(DefectLine, Option<LineTracker>)>,
+}
+
+/// The envelope's band begins at this many times the highest defect frequency, if that leaves room.
+const BAND_HARMONIC: f64 = 10.0;
+/// And at this share of the sample rate at the latest.
+const BAND_LATEST: f64 = 0.1;
+/// It ends where the anti-alias filter's passband does.
+const BAND_END: f64 = 0.4;
+
+impl Watch {
+    /// For one run.
+    pub fn new(scenario: &Scenario, simulation: &Simulation) -> Self {
+        let model = simulation.model();
+        let sample_rate = simulation.sample_rate();
+        let statistics = |name: &str, unit, kind| ChannelStatistics {
+            name: name.to_owned(),
+            unit,
+            kind,
+            blocks: Blocks::new(),
+        };
+        let mut channels: Vec<ChannelStatistics> = simulation
+            .channels()
+            .iter()
+            .map(|c| {
+                let kind = if c.measured_axis().is_some() { Kind::AntiAliased } else { Kind::Instantaneous };
+                statistics(&c.name, c.unit, kind)
+            })
+            .collect();
+        let recorded = channels.len();
+        channels.extend(simulation.filtered().iter().map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)));
+        let load = model.load.full;
+        let duration = scenario.simulation.duration_s;
+        let top = model.kinematics(model.rotation.max_speed());
+        let highest = top.bpfi.max(top.bpfo).max(2.0 * top.bsf);
+        let band = Band::between(
+            (BAND_HARMONIC * highest).min(BAND_LATEST * sample_rate),
+            BAND_END * sample_rate,
+        );
+        // One segment where the run is short, for resolution; the longest allowed otherwise.
+        let expected = (0.75 * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
+        let segment = (expected / 2 * 2).max(8);
+        Self {
+            sample_rate,
+            half_way: 0.5 * duration,
+            ramp: model.load.ramp,
+            started: None,
+            turn: 0,
+            axis: usize::from(load[1].abs() > load[0].abs()),
+            recorded,
+            channels,
+            load_zone: LoadZone::new(&model.layout),
+            slip: Slip::new(&model.layout),
+            passes: Passes::new(model),
+            waveform: Waveform::new(),
+            spectrum: Welch::new(sample_rate, segment),
+            envelope: (EnvelopeWelch::new(sample_rate, segment, band), band),
+            trackers: trackers(scenario, simulation, segment, band),
+        }
+    }
+
+    /// After each accepted step.
+    pub fn step(&mut self, frame: &Frame) {
+        self.passes.take(frame, frame.t >= self.ramp);
+    }
+
+    /// At each sample instant.
+    pub fn sample(&mut self, frame: &Frame) {
+        if self.started.is_none() {
+            let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
+            if (turned && frame.t >= self.ramp) || frame.t >= self.half_way {
+                self.started = Some(frame.t);
+                self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
+            }
+        }
+        if self.started.is_some() {
+            self.load_zone.take(frame);
+            self.slip.take(frame);
+        }
+    }
+
+    /// One complete row.
+    pub fn row(&mut self, simulation: &Simulation, index: u64, row: &[f64], filtered: &[f64]) {
+        let measured = filtered[self.axis];
+        self.waveform.push(measured);
+        let t = index as f64 / self.sample_rate;
+        if self.started.is_none_or(|from| t < from) {
+            return;
+        }
+        let turn = whole_turns(simulation.model().rotation.at(t).1);
+        let new_turn = turn != self.turn;
+        self.turn = turn;
+        let values = row.iter().chain(filtered);
+        for (channel, value) in self.channels.iter_mut().zip(values) {
+            if new_turn {
+                channel.blocks.end_block();
+            }
+            channel.blocks.push(*value);
+        }
+        self.spectrum.push(measured);
+        self.envelope.0.push(measured);
+        for (_, tracker) in &mut self.trackers {
+            if let Some(tracker) = tracker {
+                tracker.push(measured);
+            }
+        }
+    }
+
+    /// What came together.
+    pub fn finish(mut self, simulation: &Simulation) -> Findings {
+        // The two measured channels were counted twice where they are recorded; the filtered pair goes by their names.
+        for (k, name) in ["measured_ax", "measured_ay"].into_iter().enumerate() {
+            self.channels[self.recorded + k].name = name.to_owned();
+        }
+        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
+        let mut index = 0;
+        self.channels.retain(|c| {
+            index += 1;
+            index <= self.recorded || !names.contains(&c.name.as_str()) || !c.name.starts_with("measured_")
+        });
+        Findings {
+            from: self.started.unwrap_or(0.0),
+            axis: self.axis,
+            channels: self.channels,
+            load_zone: self.load_zone,
+            slip: self.slip,
+            passes: self.passes,
+            waveform: self.waveform,
+            spectrum: self.spectrum.finish(),
+            envelope: self.envelope.0.finish().map(|e| (e, self.envelope.1)),
+            lines: self
+                .trackers
+                .into_iter()
+                .map(|(line, tracker)| DefectLine { found: tracker.and_then(LineTracker::finish), ..line })
+                .collect(),
+        }
+    }
+}
+
+fn whole_turns(angle: f64) -> i64 {
+    (angle / TAU).floor() as i64
+}
+
+/// One tracker for each defect, at constant speed; without one where a segment is too short to tell.
+fn trackers(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    segment: usize,
+    band: Band,
+) -> Vec<(DefectLine, Option<LineTracker>)> {
+    let Speed::Constant(_) = scenario.operation.speed_rpm else { return Vec::new() };
+    let model = simulation.model();
+    let k = model.kinematics(model.rotation.at(0.0).0);
+    let rate = simulation.sample_rate();
+    scenario
+        .defects
+        .iter()
+        .enumerate()
+        .map(|(defect, d)| {
+            let (name, nominal) = match d.on {
+                Surface::OuterRaceway => ("BPFO", k.bpfo),
+                Surface::InnerRaceway => ("BPFI", k.bpfi),
+                Surface::Roller(_) => ("2 BSF", 2.0 * k.bsf),
+            };
+            let enough = segment as f64 / rate * nominal >= 24.0 && nominal < 0.4 * rate;
+            let tracker = enough.then(|| LineTracker::new(rate, segment, LineSearch::new(nominal, band)));
+            (DefectLine { defect, name, nominal, found: None }, tracker)
+        })
+        .collect()
+}

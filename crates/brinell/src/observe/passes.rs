@@ -1,0 +1,211 @@
+//! Rollers passing damage: instants of entry and exit, and one pass of each defect step by step.
+
+use crate::channel::{Frame, contact_stiffness};
+use crate::defect::{Angles, Defect, SIDES, Side, wrap};
+use crate::model::Model;
+use crate::scenario::{ModelKind, Surface};
+use std::collections::VecDeque;
+
+/// One point of a pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PassPoint {
+    /// Time, s.
+    pub t: f64,
+    /// Local angle u on the damaged surface, rad.
+    pub angle: f64,
+    /// L_e, m.
+    pub length: f64,
+    /// Contact stiffness, N/m^n.
+    pub stiffness: f64,
+    /// Q, N.
+    pub force: f64,
+}
+
+/// One roller's way over one defect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pass {
+    /// Index of the defect in the scenario, from 0.
+    pub defect: usize,
+    /// Slot of the roller.
+    pub slot: usize,
+    /// The damaged contact.
+    pub side: Side,
+    /// In time's order.
+    pub points: Vec<PassPoint>,
+    /// Largest Q, N.
+    pub peak: f64,
+}
+
+/// A roller comes onto or leaves a defect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// End of the step in which it happened, s.
+    pub t: f64,
+    /// Index of the defect, from 0.
+    pub defect: usize,
+    /// Slot of the roller.
+    pub slot: usize,
+    /// Contact.
+    pub side: Side,
+    /// Onto it, or off it.
+    pub enters: bool,
+}
+
+/// Points kept of a pass; finer ones are thinned.
+const MOST_POINTS: usize = 2048;
+/// Events kept, the latest ones.
+const MOST_EVENTS: usize = 4096;
+/// A pass begins and ends this share of the defect's length beyond its edges.
+const MARGIN: f64 = 0.5;
+
+/// One defect under watch.
+#[derive(Debug, Clone)]
+struct Watch {
+    first: f64,
+    last: f64,
+    /// Contacts that can meet the defect, and whether each stands on it.
+    contacts: Vec<(usize, Side, bool)>,
+    current: Option<Pass>,
+    stride: usize,
+    skipped: usize,
+    best: Option<Pass>,
+}
+
+/// Watches every defect of a run.
+#[derive(Debug, Clone)]
+pub struct Passes {
+    watches: Vec<Watch>,
+    /// The latest events.
+    pub events: VecDeque<Event>,
+}
+
+impl Passes {
+    /// For a model's defects.
+    pub fn new(model: &Model) -> Self {
+        let l = &model.layout;
+        let watch = |d: &Defect| {
+            let (first, last) = d.shape.arc();
+            let contacts = SIDES
+                .into_iter()
+                .flat_map(|side| (0..l.rollers()).map(move |slot| (slot, side)))
+                .filter(|&(slot, side)| d.meets(l.row(slot), l.roller(slot), side))
+                .map(|(slot, side)| (slot, side, false))
+                .collect();
+            Watch {
+                first: first / d.radius,
+                last: last / d.radius,
+                contacts,
+                current: None,
+                stride: 1,
+                skipped: 0,
+                best: None,
+            }
+        };
+        Self { watches: model.defects.iter().map(watch).collect(), events: VecDeque::new() }
+    }
+
+    /// Takes one accepted step; whole passes are kept only where `keep`.
+    pub fn take(&mut self, f: &Frame, keep: bool) {
+        let l = &f.model.layout;
+        let ring = f.model.rotation.at(f.t).1;
+        for (index, watch) in self.watches.iter_mut().enumerate() {
+            let defect = &f.model.defects[index];
+            let margin = MARGIN * (watch.last - watch.first);
+            for k in 0..watch.contacts.len() {
+                let (slot, side, inside) = watch.contacts[k];
+                let angles = match f.model.kind {
+                    ModelKind::Full => {
+                        Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring }
+                    }
+                    ModelKind::Reference => {
+                        Angles { orbit: f.ws.kinematic_orbit[slot], spin: f.ws.kinematic_spin, ring }
+                    }
+                };
+                let u = defect.local_angle(&angles, side);
+                let now = u >= watch.first && u <= watch.last;
+                if now != inside {
+                    watch.contacts[k].2 = now;
+                    if self.events.len() == MOST_EVENTS {
+                        self.events.pop_front();
+                    }
+                    self.events.push_back(Event { t: f.t, defect: index, slot, side, enters: now });
+                }
+                let near = from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + margin;
+                watch.follow(f, index, slot, side, u, near, keep);
+            }
+        }
+    }
+
+    /// Of each defect that was passed, the pass with the largest contact force.
+    pub fn best(&self) -> Vec<Pass> {
+        self.watches.iter().filter_map(|w| w.best.clone()).collect()
+    }
+}
+
+fn from_middle(u: f64, watch: &Watch) -> f64 {
+    wrap(u - 0.5 * (watch.first + watch.last))
+}
+
+impl Watch {
+    #[expect(clippy::too_many_arguments, reason = "one contact at one instant")]
+    fn follow(&mut self, f: &Frame, defect: usize, slot: usize, side: Side, u: f64, near: bool, keep: bool) {
+        let mine = self.current.as_ref().map(|p| p.slot == slot && p.side == side);
+        match (mine, near) {
+            (Some(true), true) => self.add(f, u),
+            (Some(true), false) => {
+                // A pass counts where it was seen from one margin to the other.
+                if let Some(pass) = self.current.take() {
+                    let span = pass.points.last().map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
+                    let whole = span >= 1.5 * (self.last - self.first);
+                    if whole && self.best.as_ref().is_none_or(|b| pass.peak > b.peak) {
+                        self.best = Some(pass);
+                    }
+                }
+            }
+            (None, true) if keep => {
+                self.current = Some(Pass { defect, slot, side, points: Vec::with_capacity(MOST_POINTS), peak: 0.0 });
+                (self.stride, self.skipped) = (1, 0);
+                self.add(f, u);
+            }
+            _ => {}
+        }
+    }
+
+    fn add(&mut self, f: &Frame, u: f64) {
+        let Some(pass) = &mut self.current else { return };
+        let c = &f.ws.contacts[pass.side as usize];
+        let point = PassPoint {
+            t: f.t,
+            angle: u,
+            length: f.model.geometry.roller_length - c.damaged_length[pass.slot],
+            stiffness: contact_stiffness(f.model, f.ws, pass.side, pass.slot),
+            force: c.force[pass.slot],
+        };
+        pass.peak = pass.peak.max(point.force);
+        self.skipped += 1;
+        if self.skipped < self.stride {
+            return;
+        }
+        self.skipped = 0;
+        if pass.points.len() == MOST_POINTS {
+            // Every second point goes, and from now on every second one is taken.
+            let mut index = 0;
+            pass.points.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride *= 2;
+        }
+        pass.points.push(point);
+    }
+}
+
+/// Words for where a defect lies.
+pub fn place(defect: &Defect) -> String {
+    let row = defect.row + 1;
+    match defect.surface {
+        Surface::OuterRaceway => format!("outer raceway, row {row}"),
+        Surface::InnerRaceway => format!("inner raceway, row {row}"),
+        Surface::Roller(k) => format!("roller {}, row {row}", k + 1),
+    }
+}

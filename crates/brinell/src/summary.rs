@@ -1,0 +1,211 @@
+//! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
+
+use crate::model::Model;
+use crate::observe::load_zone::{BINS, StaticLoadZone};
+use crate::observe::{Findings, passes};
+use crate::scenario::{Accuracy, Loaded, ModelKind, Provenance, Speed};
+use crate::signal::{Estimate, Indicator};
+use crate::simulate::{End, Outcome, Simulation};
+use crate::statics::NoBalance;
+use serde_json::{Map, Value, json};
+use std::f64::consts::TAU;
+
+/// Everything that a summary is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Parts<'a> {
+    /// Scenario with provenance and warnings.
+    pub loaded: &'a Loaded,
+    /// The run as prepared.
+    pub simulation: &'a Simulation,
+    /// How it went.
+    pub outcome: &'a Outcome,
+    /// What was gathered.
+    pub findings: &'a Findings,
+    /// The static load distribution.
+    pub statics: &'a Result<StaticLoadZone, NoBalance>,
+}
+
+/// The summary as JSON; the same run gives the same bytes.
+pub fn to_json(parts: &Parts) -> Value {
+    let Parts { loaded, simulation, outcome, findings, .. } = *parts;
+    let scenario = &loaded.scenario;
+    let model = simulation.model();
+    json!({
+        "brinell": crate::VERSION,
+        "name": scenario.name,
+        "status": status(&outcome.end),
+        "simulated": {
+            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Reference => "reference" },
+            "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
+            "duration_s": scenario.simulation.duration_s,
+            "reached_s": outcome.rows.saturating_sub(1) as f64 / simulation.sample_rate(),
+            "samples": outcome.rows,
+            "sample_rate_hz": simulation.sample_rate(),
+            "analysed_from_s": findings.from,
+        },
+        "defect_frequencies": frequencies(model, &scenario.operation.speed_rpm),
+        "defects": defects(parts),
+        "indicators": indicators(findings),
+        "slip": slip(findings),
+        "load_zone": load_zone(parts),
+        "solver": solver(outcome),
+        "energy_audit_j": energy(outcome),
+        "momentum_audit": { "largest_relative_imbalance": outcome.momentum_imbalance },
+        "assumed": loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect::<Vec<_>>(),
+        "warnings": warnings(parts),
+    })
+}
+
+/// Words for how a run ended.
+pub fn status(end: &End) -> Value {
+    match end {
+        End::Complete => json!({ "complete": true }),
+        End::Stopped => json!({ "complete": false, "reason": "stopped before its duration" }),
+        End::Failed(error) => json!({ "complete": false, "reason": error.to_string() }),
+    }
+}
+
+/// What the run's reader should know, warnings of the scenario first.
+pub fn warnings(parts: &Parts) -> Vec<String> {
+    let mut all: Vec<String> = parts.loaded.warnings.iter().map(ToString::to_string).collect();
+    for pattern in parts.simulation.idle_patterns() {
+        all.push(format!("simulation.record: \"{pattern}\" matches no channel of this bearing"));
+    }
+    if let Err(error) = parts.statics {
+        all.push(error.to_string());
+    }
+    all
+}
+
+fn assumption(p: &Provenance) -> Value {
+    json!({ "key": p.key, "value": p.value, "unit": p.unit, "why": p.reason() })
+}
+
+fn frequencies(model: &Model, speed: &Speed) -> Value {
+    let per_turn = model.kinematics(TAU);
+    let orders = json!({
+        "ftf": per_turn.ftf, "bpfo": per_turn.bpfo, "bpfi": per_turn.bpfi, "bsf": per_turn.bsf, "2bsf": 2.0 * per_turn.bsf,
+    });
+    match speed {
+        Speed::Constant(rpm) => {
+            let k = model.kinematics(model.rotation.at(0.0).0);
+            json!({
+                "hz": {
+                    "shaft": rpm.abs() / 60.0, "ftf": k.ftf, "bpfo": k.bpfo, "bpfi": k.bpfi, "bsf": k.bsf, "2bsf": 2.0 * k.bsf,
+                },
+                "per_shaft_turn": orders,
+            })
+        }
+        Speed::Profile(_) => json!({ "hz": null, "per_shaft_turn": orders }),
+    }
+}
+
+fn defects(parts: &Parts) -> Value {
+    let model = parts.simulation.model();
+    let defects = model.defects.iter().enumerate().map(|(index, d)| {
+        let (first, last) = d.shape.arc();
+        let line = parts.findings.lines.iter().find(|l| l.defect == index);
+        json!({
+            "at": passes::place(d),
+            "center_deg": d.center.to_degrees(),
+            "length_mm": 1e3 * (last - first),
+            "area_mm2": 1e6 * d.shape.area(),
+            "arc_deg": ((last - first) / d.radius).to_degrees(),
+            "frequency": line.map(|l| json!({
+                "name": l.name,
+                "pure_rolling_hz": l.nominal,
+                "found_hz": l.found.map(|f| f.frequency),
+                "uncertainty_hz": l.found.map(|f| f.uncertainty),
+                "resolution_hz": l.found.map(|f| f.resolution),
+            })),
+        })
+    });
+    defects.collect()
+}
+
+fn estimate(e: &Estimate) -> Value {
+    match &e.interval {
+        Some(i) => json!({ "value": e.value, "low": i.low, "high": i.high, "blocks": i.blocks }),
+        None => json!({ "value": e.value }),
+    }
+}
+
+fn indicators(findings: &Findings) -> Value {
+    let mut channels = Map::new();
+    for channel in &findings.channels {
+        let values: Map<String, Value> = Indicator::ALL
+            .into_iter()
+            .filter_map(|i| Some((i.name().to_owned(), estimate(&channel.blocks.estimate(i)?))))
+            .collect();
+        let entry = channels.entry(channel.name.clone()).or_insert_with(|| json!({ "unit": channel.unit }));
+        entry[channel.kind.name()] = values.into();
+    }
+    json!({
+        "interval": "95 % of the mean over blocks of whole revolutions of the inner ring (Student's t)",
+        "channels": channels,
+    })
+}
+
+fn slip(findings: &Findings) -> Value {
+    let rows = findings.slip.rows.iter().map(|row| {
+        json!({
+            "cage": row.cage(),
+            "loaded_rollers_orbit": row.loaded_orbit(),
+            "loaded_rollers_surface": row.loaded_surface(),
+            "unloaded_rollers_orbit": row.unloaded_orbit(),
+        })
+    });
+    json!({
+        "meaning": "fractions of the pure-rolling speed, means over the analysed time; a roller is loaded where the inner raceway presses it",
+        "rows": rows.collect::<Vec<_>>(),
+    })
+}
+
+fn load_zone(parts: &Parts) -> Value {
+    let rows = parts.findings.load_zone.rows.iter().map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
+    let centers: Vec<f64> = (0..BINS).map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64).collect();
+    let statics = parts.statics.as_ref().ok().map(|z| {
+        json!({
+            "largest_contact_force_n": z.largest,
+            "extent_deg": z.extent.to_degrees(),
+            "shift_inner_to_outer_um": z.shift.map(|x| 1e6 * x),
+            "stiffness_n_per_m": z.stiffness,
+        })
+    });
+    json!({ "static": statics, "bin_centers_deg": centers, "outer_contacts_by_row": rows.collect::<Vec<_>>() })
+}
+
+fn solver(outcome: &Outcome) -> Value {
+    let w = &outcome.work;
+    json!({
+        "method": "Bogacki-Shampine 3(2), adaptive, dense output",
+        "steps": w.solver.steps,
+        "rejections": w.solver.rejections,
+        "right_hand_sides": w.solver.evaluations,
+        "right_hand_sides_for_samples": w.sample_evaluations,
+        "force_switches": { "contacts": w.contact_switches, "pockets": w.pocket_switches, "defect_edges": w.damage_switches },
+    })
+}
+
+fn energy(outcome: &Outcome) -> Value {
+    let e = &outcome.energy;
+    let f = &e.flows;
+    let held = |e: &crate::model::Energy| {
+        json!({
+            "kinetic": e.kinetic, "contacts": e.contacts, "cage_contacts": e.cage, "supports": e.supports, "gravity": e.gravity,
+        })
+    };
+    json!({
+        "held_at_start": held(&e.initial),
+        "held_at_end": held(&e.last),
+        "input": { "drive": f.drive, "load": f.load, "guidance_film": f.film },
+        "dissipated": {
+            "contact_damping": f.contact, "raceway_friction": f.friction, "pocket_damping": f.pocket,
+            "pocket_friction": f.pocket_friction, "supports": f.support, "drag": f.drag,
+        },
+        "parametric_work_of_defects": e.parametric,
+        "centred_levers": f.lever,
+        "residual": e.residual(),
+        "residual_over_turnover": if e.turnover() > 0.0 { e.residual() / e.turnover() } else { 0.0 },
+    })
+}
