@@ -11,8 +11,10 @@
 //! bits; decimated channels and indicators use plain arithmetic and do not.
 
 pub mod decimate;
+pub mod indicators;
 
 #[cfg(test)]
 mod test_signals;
 
 pub use decimate::{Decimator, kaiser_lowpass};
+pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
