@@ -12,9 +12,11 @@
 
 pub mod decimate;
 pub mod indicators;
+pub mod spectrum;
 
 #[cfg(test)]
 mod test_signals;
 
 pub use decimate::{Decimator, kaiser_lowpass};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
+pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
