@@ -11,6 +11,7 @@
 //! bits; decimated channels and indicators use plain arithmetic and do not.
 
 pub mod decimate;
+pub mod envelope;
 pub mod indicators;
 pub mod spectrum;
 
@@ -18,5 +19,6 @@ pub mod spectrum;
 mod test_signals;
 
 pub use decimate::{Decimator, kaiser_lowpass};
+pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
 pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
