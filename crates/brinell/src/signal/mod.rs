@@ -12,6 +12,7 @@
 
 pub mod decimate;
 pub mod envelope;
+pub mod frequency;
 pub mod indicators;
 pub mod spectrum;
 
@@ -20,5 +21,6 @@ mod test_signals;
 
 pub use decimate::{Decimator, kaiser_lowpass};
 pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope};
+pub use frequency::{LineFrequency, LineSearch, LineTracker, line_frequency};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
 pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
