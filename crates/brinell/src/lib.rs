@@ -16,3 +16,7 @@ pub mod simulate;
 pub mod solver;
 pub mod start;
 pub mod statics;
+pub mod summary;
+
+/// Version of this library, as results carry it.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,0 +1,578 @@
+//! The precise rate of a train of impacts, with its uncertainty.
+//!
+//! The envelope of a resonance band repeats with the impacts, so its spectrum is a comb at h f, h = 1, 2, ... The
+//! rate is where the comb stands highest: it maximises
+//!
+//! J(f) = sum over h of P(h f) / N_h,
+//!
+//! with P the power spectrum of the mean-free, Hann-windowed envelope, interpolated by zero padding, and N_h the
+//! noise around harmonic h. For white noise this is the approximate maximum-likelihood estimate of a periodic
+//! signal's frequency (B. G. Quinn and E. J. Hannan, "The estimation and tracking of frequency", Cambridge 2001,
+//! chapter 5). Harmonic h sees a shift of f as one of h f, so a comb resolves far better than its first line.
+//!
+//! The uncertainty is the first-order perturbation of the maximum. With time n counted from the window's middle,
+//! W0 = sum w, W1 = sum w^2, W2 = sum n^2 w, V = sum n^2 w^2, and E the transform under P, its variance in
+//! (rad/sample)^2 is
+//!
+//! var = S V W0^2 / (W2 sum of h^2 |E(h f)|^2 / N_h)^2,
+//!
+//! where S is the variance per sample of the combined quadrature noise Im sum h E*(h f) nu_h / N_h. It is measured
+//! where there is no line: Z(d) = sum h E*(h f) E(h f + d) / N_h at a common offset d from every harmonic, and
+//! S = |Z(d) - Z*(-d)|^2 / (4 W1). Taking the harmonics together matters: an impact that comes late is late in every
+//! harmonic, so timing errors do not average out over the comb as additive noise does. For one harmonic, a rectangular
+//! window and white noise the formula is the Cramer-Rao bound 24 sigma^2 / (A^2 n^3).
+
+use std::f64::consts::{LN_2, TAU};
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
+
+use super::envelope::{Band, Demodulator, remove_weighted_mean};
+use super::indicators::Moments;
+use super::spectrum::{FEWEST_SAMPLES, Segmenter, hann};
+
+/// Points of the padded spectrum for each bin of the segment, at least.
+const PADDING: usize = 8;
+/// Half-width of the band around a harmonic from which its noise is taken, in bins of the segment; in short records
+/// less, so as to stay clear of the next harmonic.
+const NOISE_BINS: usize = 48;
+/// Bins on either side of a harmonic that its own line fills with Hann, and one for the width of a jittered line.
+const LINE_BINS: usize = 3;
+/// Shortest record, in periods of the nominal frequency: below it too little is left between the lines of a comb.
+const FEWEST_PERIODS: f64 = 24.0;
+/// Lowest noise that a line is weighed against, as a share of the strongest power: the round-off and leakage that a
+/// noiseless signal still has.
+const NOISE_FLOOR: f64 = 1e-9;
+/// Independent places at which a comb may stand, for each bin of its highest harmonic: Hann's lines are smooth, but the
+/// maximum is sought between bins too.
+const PLACES_PER_BIN: f64 = 3.0;
+/// What interpolation adds to the uncertainty, in bins of the highest harmonic that counts.
+const INTERPOLATION_ERROR: f64 = 1e-3;
+/// A comb that noise alone would show more often than this is not reported.
+const FALSE_ALARM_LIMIT: f64 = 1e-4;
+
+/// What to look for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineSearch {
+    /// Expected repetition frequency, Hz.
+    pub nominal: f64,
+    /// Half the range searched, as a share of `nominal`; above 0, at most 0.3.
+    pub tolerance: f64,
+    /// Harmonics of the comb, the fundamental included; those above half the sampling rate are left out.
+    pub harmonics: usize,
+    /// Band whose envelope is taken, Hz: one that holds the resonances the impacts ring.
+    pub band: Band,
+}
+
+impl LineSearch {
+    /// A comb of eight harmonics within 2 % of `nominal` (Hz) in the envelope of a band.
+    pub fn new(nominal: f64, band: Band) -> Self {
+        LineSearch {
+            nominal,
+            tolerance: 0.02,
+            harmonics: 8,
+            band,
+        }
+    }
+}
+
+/// A repetition frequency found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineFrequency {
+    /// Hz.
+    pub frequency: f64,
+    /// Standard uncertainty (one sigma), Hz. From one segment, the spread that noise and independent timing errors of
+    /// the impacts cause; slow wander of the rate within the segment is not in it. From three segments on, the
+    /// observed spread of their estimates instead, wander included.
+    pub uncertainty: f64,
+    /// Distance at which two trains of impacts would show two fundamentals, Hz: two bins of the segment.
+    pub resolution: f64,
+    /// Harmonics used.
+    pub harmonics: usize,
+    /// Chance that noise alone shows such a comb in the range searched, the largest over the segments used.
+    pub false_alarm: f64,
+    /// Segments in which the line was found.
+    pub segments: usize,
+}
+
+/// The repetition frequency in a whole signal sampled at `fs` Hz, taken as one segment; `None` where the signal lasts
+/// fewer than 24 periods of the nominal frequency, or no comb inside the range stands clear of the noise (chance
+/// below 1e-4). Holds the signal's padded transform in memory; for a long run use [`LineTracker`].
+///
+/// # Panics
+/// Where the search is out of range (see [`LineSearch`] and [`Band`]).
+pub fn line_frequency(x: &[f64], fs: f64, search: &LineSearch) -> Option<LineFrequency> {
+    if (x.len() as f64) < (FEWEST_PERIODS * fs / search.nominal).max(FEWEST_SAMPLES as f64) {
+        return None;
+    }
+    Comb::new(fs, x.len(), search).estimate(x)
+}
+
+/// The repetition frequency of a stream: segments overlapping by half, each estimated by itself, then averaged.
+///
+/// Segments in which no comb stands clear are passed over; an incomplete last segment is dropped, but a run shorter
+/// than one segment is taken whole.
+pub struct LineTracker {
+    fs: f64,
+    search: LineSearch,
+    segmenter: Segmenter,
+    comb: Comb,
+    whole_segments: u64,
+    frequencies: Moments,
+    sum_of_variances: f64,
+    worst_false_alarm: f64,
+}
+
+impl LineTracker {
+    /// For samples at `fs` Hz in segments of `segment_length` samples (even, 8 to 65536).
+    ///
+    /// # Panics
+    /// Where the segment or the search is out of range, or a segment lasts fewer than 24 nominal periods.
+    pub fn new(fs: f64, segment_length: usize, search: LineSearch) -> Self {
+        let periods = segment_length as f64 / fs * search.nominal;
+        assert!(
+            periods >= FEWEST_PERIODS,
+            "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}"
+        );
+        LineTracker {
+            fs,
+            search,
+            segmenter: Segmenter::new(segment_length),
+            comb: Comb::new(fs, segment_length, &search),
+            whole_segments: 0,
+            frequencies: Moments::new(),
+            sum_of_variances: 0.0,
+            worst_false_alarm: 0.0,
+        }
+    }
+
+    /// Takes one sample.
+    pub fn push(&mut self, x: f64) {
+        if let Some(segment) = self.segmenter.push(x) {
+            self.whole_segments += 1;
+            if let Some(found) = self.comb.estimate(segment) {
+                self.frequencies.push(found.frequency);
+                self.sum_of_variances += found.uncertainty * found.uncertainty;
+                self.worst_false_alarm = self.worst_false_alarm.max(found.false_alarm);
+            }
+        }
+    }
+
+    /// The mean frequency of what was pushed; `None` where no segment showed the line.
+    ///
+    /// The uncertainty counts two overlapping segments as one, which is on the safe side, and never falls below a
+    /// thousandth of a bin: the interpolation's error is the same in every segment of a steady signal.
+    pub fn finish(self) -> Option<LineFrequency> {
+        if self.whole_segments == 0 {
+            return line_frequency(self.segmenter.rest(), self.fs, &self.search);
+        }
+        let count = self.frequencies.count();
+        if count == 0 {
+            return None;
+        }
+        let n = count as f64;
+        let variance = if count >= 3 {
+            self.frequencies.standard_deviation().powi(2) * n / (n - 1.0)
+        } else {
+            self.sum_of_variances / n
+        };
+        Some(LineFrequency {
+            frequency: self.frequencies.mean(),
+            uncertainty: (variance / (0.5 * (n + 1.0)))
+                .sqrt()
+                .hypot(INTERPOLATION_ERROR * 0.5 * self.comb.resolution()),
+            resolution: self.comb.resolution(),
+            harmonics: self.comb.noise.len(),
+            false_alarm: self.worst_false_alarm,
+            segments: count as usize,
+        })
+    }
+}
+
+/// The estimate for segments of one length.
+struct Comb {
+    fs: f64,
+    search: LineSearch,
+    demodulator: Demodulator,
+    window: Vec<f64>,
+    /// W0 / W2 (V / W1)^(1/2), in Hz: the factor between noise and uncertainty.
+    spread: f64,
+    /// Offsets from a harmonic, in bins of the segment, where its noise is looked for: to this one.
+    farthest: usize,
+    fft: Arc<dyn RealToComplex<f64>>,
+    input: Vec<f64>,
+    output: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    /// N_h of each harmonic.
+    noise: Vec<f64>,
+    /// Room for medians.
+    values: Vec<f64>,
+}
+
+impl Comb {
+    fn new(fs: f64, length: usize, search: &LineSearch) -> Self {
+        assert!(
+            search.nominal > 0.0 && search.nominal.is_finite(),
+            "nominal frequency {} Hz is not positive",
+            search.nominal
+        );
+        assert!(
+            search.tolerance > 0.0 && search.tolerance <= 0.3,
+            "tolerance {} is not above 0 and at most 0.3",
+            search.tolerance
+        );
+        let highest = (0.5 * fs / (search.nominal * (1.0 + search.tolerance))).ceil() as usize;
+        let harmonics = search.harmonics.min(highest.saturating_sub(1));
+        assert!(
+            harmonics > 0,
+            "no harmonic of {} Hz to look for at {fs} Hz",
+            search.nominal
+        );
+
+        let periods = length as f64 * search.nominal / fs;
+        let window = hann(length);
+        let (mut w0, mut w1, mut w2, mut v) = (0.0, 0.0, 0.0, 0.0);
+        for (i, w) in window.iter().enumerate() {
+            // The periodic Hann window is symmetric about length / 2.
+            let n = i as f64 - 0.5 * length as f64;
+            w0 += w;
+            w1 += w * w;
+            w2 += n * n * w;
+            v += n * n * w * w;
+        }
+        let fft = RealFftPlanner::new().plan_fft_forward((PADDING * length).next_power_of_two());
+        Comb {
+            fs,
+            search: *search,
+            demodulator: Demodulator::new(fs, length, search.band),
+            window,
+            spread: fs / TAU * w0 / w2 * (v / w1).sqrt(),
+            farthest: NOISE_BINS.min((0.5 * periods) as usize - LINE_BINS),
+            input: fft.make_input_vec(),
+            output: fft.make_output_vec(),
+            scratch: fft.make_scratch_vec(),
+            noise: vec![0.0; harmonics],
+            values: Vec::with_capacity(2 * NOISE_BINS + 1),
+            fft,
+        }
+    }
+
+    fn resolution(&self) -> f64 {
+        2.0 * self.fs / self.window.len() as f64
+    }
+
+    fn estimate(&mut self, x: &[f64]) -> Option<LineFrequency> {
+        self.transform(x);
+        self.measure_noise();
+
+        let harmonics = self.noise.len() as f64;
+        let bin = self.fs / self.window.len() as f64;
+        let half_range = self.search.tolerance * self.search.nominal;
+        let half_steps = (half_range * harmonics * PADDING as f64 / bin)
+            .ceil()
+            .max(2.0);
+        let step = half_range / half_steps;
+        let start = self.search.nominal - half_range;
+        let steps = 2 * half_steps as usize;
+        let comb = |i: usize| self.height(start + step * i as f64);
+
+        let (mut top, mut highest) = (0, comb(0));
+        for i in 1..=steps {
+            let height = comb(i);
+            if height > highest {
+                (top, highest) = (i, height);
+            }
+        }
+        if top == 0 || top == steps || !highest.is_finite() {
+            return None;
+        }
+        let (left, right) = (comb(top - 1), comb(top + 1));
+        let offset = 0.5 * (left - right) / (left - 2.0 * highest + right);
+        let frequency = start + step * (top as f64 + offset);
+
+        let trials = 1.0 + PLACES_PER_BIN * 2.0 * half_range * harmonics / bin;
+        let false_alarm = (trials * gamma_tail(self.noise.len(), highest)).min(1.0);
+        if false_alarm > FALSE_ALARM_LIMIT {
+            return None;
+        }
+        let uncertainty = self.uncertainty(frequency);
+        Some(LineFrequency {
+            frequency,
+            uncertainty,
+            resolution: self.resolution(),
+            harmonics: self.noise.len(),
+            false_alarm,
+            segments: 1,
+        })
+    }
+
+    /// E: transform of the windowed envelope, padded with zeros, with its middle at time zero so that it is smooth.
+    fn transform(&mut self, x: &[f64]) {
+        let envelope = self.demodulator.envelope(x);
+        remove_weighted_mean(envelope, &self.window);
+        self.input.fill(0.0);
+        let half = self.window.len() / 2;
+        for (i, (e, w)) in envelope.iter().zip(&self.window).enumerate() {
+            let at = if i < half {
+                self.input.len() + i - half
+            } else {
+                i - half
+            };
+            self.input[at] = e * w;
+        }
+        self.fft
+            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
+            .expect("buffers were made by the plan");
+    }
+
+    /// N_h: the median power around a harmonic, over ln 2 (exponentially distributed powers). The median passes over
+    /// the line itself and its sidebands.
+    fn measure_noise(&mut self) {
+        let bin = self.fft.len() as f64 / self.window.len() as f64;
+        let strongest = self
+            .output
+            .iter()
+            .fold(0.0, |m: f64, e| m.max(e.norm_sqr()));
+        for (h, noise) in self.noise.iter_mut().enumerate() {
+            let center = (h + 1) as f64 * self.search.nominal / self.fs * self.fft.len() as f64;
+            let reach = self.farthest as isize;
+            self.values.clear();
+            for offset in -reach..=reach {
+                let at = (center + offset as f64 * bin) as usize;
+                self.values
+                    .extend(self.output.get(at).map(|e| e.norm_sqr()));
+            }
+            *noise = (median(&mut self.values) / LN_2).max(NOISE_FLOOR * strongest);
+        }
+    }
+
+    /// J(f).
+    fn height(&self, f: f64) -> f64 {
+        (self.noise.iter().enumerate())
+            .map(|(h, noise)| self.value_at((h + 1) as f64 * f).norm_sqr() / noise)
+            .sum()
+    }
+
+    /// Standard uncertainty of a maximum of J, Hz (see the module).
+    fn uncertainty(&mut self, f: f64) -> f64 {
+        let bin = self.fs / self.window.len() as f64;
+        let (mut information, mut highest_order) = (0.0, 1.0);
+        for (h, noise) in self.noise.iter().enumerate() {
+            let order = (h + 1) as f64;
+            let ratio = self.value_at(order * f).norm_sqr() / noise;
+            if ratio > 2.0 {
+                highest_order = order;
+            }
+            information += order * order * ratio;
+        }
+        let mut values = std::mem::take(&mut self.values);
+        values.clear();
+        for offset in LINE_BINS..=self.farthest {
+            let offset = offset as f64 * bin;
+            let mut quadrature = Complex::new(0.0, 0.0);
+            for (h, noise) in self.noise.iter().enumerate() {
+                let order = (h + 1) as f64;
+                let line = self.value_at(order * f);
+                let above = line.conj() * self.value_at(order * f + offset);
+                let below = line * self.value_at(order * f - offset).conj();
+                quadrature += (above - below) * (0.5 * order / noise);
+            }
+            values.push(quadrature.norm_sqr());
+        }
+        let noise = (median(&mut values) / LN_2).sqrt();
+        self.values = values;
+        (self.spread * noise / information).hypot(INTERPOLATION_ERROR * bin / highest_order)
+    }
+
+    /// E at a frequency, by the cubic through the four points around it.
+    fn value_at(&self, f: f64) -> Complex<f64> {
+        let position = f / self.fs * self.fft.len() as f64;
+        let at = (position as usize).clamp(1, self.output.len() - 3);
+        let t = position - at as f64;
+        let e = &self.output[at - 1..at + 3];
+        e[0] * (-t * (t - 1.0) * (t - 2.0) / 6.0) + e[1] * ((t * t - 1.0) * (t - 2.0) / 2.0)
+            - e[2] * (t * (t + 1.0) * (t - 2.0) / 2.0)
+            + e[3] * (t * (t * t - 1.0) / 6.0)
+    }
+}
+
+/// The middle value, the upper of two; reorders.
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// P(sum of `count` unit exponential variables > s).
+fn gamma_tail(count: usize, s: f64) -> f64 {
+    let mut term = (-s).exp();
+    let mut sum = 0.0;
+    for k in 0..count {
+        sum += term;
+        term *= s / (k + 1) as f64;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_signals::{ImpactTrain, Noise, cosine};
+    use super::*;
+
+    const FS: f64 = 25_600.0;
+
+    /// Half a second of impacts as from a raceway defect of the NN3007 at 1800 r/min.
+    fn train(rate: f64, jitter: f64, noise: f64) -> ImpactTrain {
+        ImpactTrain {
+            fs: FS,
+            rate,
+            jitter,
+            resonance: 4000.0,
+            decay: 6e-4,
+            noise,
+        }
+    }
+
+    fn search() -> LineSearch {
+        LineSearch::new(250.102, Band::above(2000.0))
+    }
+
+    #[test]
+    fn analytic_clean_train() {
+        for rate in [246.31, 249.6, 250.102, 254.7] {
+            let found =
+                line_frequency(&train(rate, 0.0, 0.0).generate(12_800, 1), FS, &search()).unwrap();
+            assert!((found.frequency - rate).abs() < 5e-3, "{rate}: {found:?}");
+            assert_eq!((found.harmonics, found.resolution), (8, 4.0));
+        }
+    }
+
+    #[test]
+    fn analytic_half_a_second_with_jitter_and_noise_is_good_to_a_fifth_of_a_percent() {
+        // 1 % of a period of timing error and noise of a third of the signal's RMS.
+        let mut worst: f64 = 0.0;
+        for (i, rate) in [248.0, 249.6, 250.39, 252.0].into_iter().enumerate() {
+            for seed in 0..25 {
+                let x = train(rate, 0.01, 0.1).generate(12_800, 100 * i as u64 + seed);
+                let found = line_frequency(&x, FS, &search()).unwrap();
+                worst = worst.max((found.frequency / rate - 1.0).abs());
+            }
+        }
+        assert!(worst < 2e-3, "{worst}");
+    }
+
+    #[test]
+    fn analytic_uncertainty_is_the_scatter() {
+        for (jitter, noise) in [(0.0, 0.3), (0.02, 0.05), (0.01, 0.3)] {
+            let (mut scores, trials) = (Moments::new(), 300);
+            for seed in 0..trials {
+                let x = train(249.6, jitter, noise).generate(12_800, 7000 + seed);
+                let found = line_frequency(&x, FS, &search()).unwrap();
+                scores.push((found.frequency - 249.6) / found.uncertainty);
+            }
+            let rms = scores.rms();
+            assert!(
+                (0.75..1.33).contains(&rms),
+                "jitter {jitter}, noise {noise}: {rms}"
+            );
+        }
+    }
+
+    #[test]
+    fn analytic_variance_of_one_line_follows_the_formula() {
+        // One harmonic of an amplitude-modulated carrier in white noise.
+        let (n, trials) = (6400, 300);
+        let mut one = LineSearch::new(250.0, Band::between(5000.0, 7000.0));
+        one.harmonics = 1;
+        let mut noise = Noise::new(21);
+        let carrier = cosine(n, FS, 6000.0, 1.0, 0.0);
+        let modulation = cosine(n, FS, 250.0, 0.5, 1.0);
+        let (mut errors, mut predicted) = (Moments::new(), Moments::new());
+        for _ in 0..trials {
+            let x: Vec<f64> = (0..n)
+                .map(|i| carrier[i] * (1.0 + modulation[i]) + 0.5 * noise.normal())
+                .collect();
+            let found = line_frequency(&x, FS, &one).unwrap();
+            errors.push(found.frequency - 250.0);
+            predicted.push(found.uncertainty);
+        }
+        let ratio = errors.rms() / predicted.rms();
+        assert!((0.8..1.25).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn prop_noise_alone_shows_no_line() {
+        let mut alarms = 0;
+        for seed in 0..600 {
+            let x = Noise::new(9000 + seed).normals(12_800);
+            alarms += u32::from(line_frequency(&x, FS, &search()).is_some());
+        }
+        assert!(alarms <= 1, "{alarms} of 600");
+    }
+
+    #[test]
+    fn prop_line_outside_the_range_is_not_found_at_its_edge() {
+        let mut narrow = search();
+        narrow.tolerance = 0.004;
+        let found = line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, &narrow);
+        assert_eq!(found, None);
+        narrow.tolerance = 0.012;
+        assert!(
+            line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, &narrow).is_some()
+        );
+    }
+
+    #[test]
+    fn prop_too_short_a_record_is_refused() {
+        let x = train(250.0, 0.0, 0.0).generate(2457, 1);
+        assert_eq!(line_frequency(&x[..2456], FS, &search()), None);
+        assert!(line_frequency(&x, FS, &search()).is_some());
+        assert_eq!(line_frequency(&[], FS, &search()), None);
+    }
+
+    #[test]
+    fn analytic_tracker_averages_a_long_run() {
+        let rate = 249.6;
+        let x = train(rate, 0.01, 0.3).generate(256_000, 5);
+        let mut tracker = LineTracker::new(FS, 16_384, search());
+        x.iter().for_each(|&v| tracker.push(v));
+        let found = tracker.finish().unwrap();
+        assert_eq!(found.segments, 30);
+        assert!(found.uncertainty < 0.03, "{found:?}");
+        assert!(
+            (found.frequency - rate).abs() < 3.0 * found.uncertainty,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn analytic_tracker_owns_its_interpolation_error() {
+        // Exactly periodic: all segments agree to round-off, so their scatter says nothing.
+        let mut tracker = LineTracker::new(FS, 16_384, search());
+        for i in 0..131_072 {
+            tracker.push((-0.05 * f64::from(i % 103)).exp() * f64::from(i % 103 % 7));
+        }
+        let found = tracker.finish().unwrap();
+        let error = (found.frequency - FS / 103.0).abs();
+        assert!(
+            found.uncertainty < 2e-3 && error < found.uncertainty,
+            "{found:?} {error}"
+        );
+    }
+
+    #[test]
+    fn prop_tracker_takes_a_short_run_whole() {
+        let x = train(249.6, 0.01, 0.1).generate(12_801, 5);
+        let mut tracker = LineTracker::new(FS, 65_536, search());
+        x.iter().for_each(|&v| tracker.push(v));
+        let found = tracker.finish();
+        assert!(found.is_some());
+        assert_eq!(found, line_frequency(&x, FS, &search()));
+    }
+
+    #[test]
+    fn analytic_gamma_tail() {
+        assert!((gamma_tail(1, 3.0) - (-3.0f64).exp()).abs() < 1e-16);
+        assert!((gamma_tail(3, 2.0) - 5.0 * (-2.0f64).exp()).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,79 @@
+//! Reference signals that the tests of several rooms share.
+
+use std::f64::consts::TAU;
+
+/// SplitMix64 (Steele, Lea, Flood 2014): deterministic noise for tests.
+pub(crate) struct Noise(u64);
+
+impl Noise {
+    pub(crate) fn new(seed: u64) -> Self {
+        Noise(seed)
+    }
+
+    /// Uniform on (0, 1).
+    pub(crate) fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        ((z >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    /// Standard normal, by Box and Muller.
+    pub(crate) fn normal(&mut self) -> f64 {
+        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
+    }
+
+    pub(crate) fn normals(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| self.normal()).collect()
+    }
+}
+
+/// `amplitude * cos(2 pi f t + phase)`, n samples from t = 0.
+pub(crate) fn cosine(n: usize, fs: f64, f: f64, amplitude: f64, phase: f64) -> Vec<f64> {
+    (0..n)
+        .map(|i| amplitude * (TAU * f * i as f64 / fs + phase).cos())
+        .collect()
+}
+
+/// ((7 i^2 + 3 i) mod 101) / 50 - 1, with 3 added every 37th sample: a sequence that other programs make exactly,
+/// for comparison with them.
+pub(crate) fn integer_sequence(n: usize) -> Vec<f64> {
+    (0..n)
+        .map(|i| {
+            let spike = if i % 37 == 0 { 3.0 } else { 0.0 };
+            ((7 * i * i + 3 * i) % 101) as f64 / 50.0 - 1.0 + spike
+        })
+        .collect()
+}
+
+/// Impacts at `rate` Hz with independent timing errors of standard deviation `jitter` periods, each ringing a
+/// resonance at `resonance` Hz that decays with time constant `decay` s; unit height, plus white noise.
+pub(crate) struct ImpactTrain {
+    pub(crate) fs: f64,
+    pub(crate) rate: f64,
+    pub(crate) jitter: f64,
+    pub(crate) resonance: f64,
+    pub(crate) decay: f64,
+    pub(crate) noise: f64,
+}
+
+impl ImpactTrain {
+    pub(crate) fn generate(&self, n: usize, seed: u64) -> Vec<f64> {
+        let mut random = Noise::new(seed);
+        let mut x: Vec<f64> = (0..n).map(|_| self.noise * random.normal()).collect();
+        let start = random.uniform();
+        let count = (n as f64 / self.fs * self.rate).ceil() as usize + 1;
+        for k in 0..count {
+            let at = (start + k as f64 + self.jitter * random.normal()) / self.rate;
+            let first = (at * self.fs).ceil().max(0.0) as usize;
+            let last = n.min(first + (12.0 * self.decay * self.fs) as usize);
+            for (i, value) in x.iter_mut().enumerate().take(last).skip(first) {
+                let since = i as f64 / self.fs - at;
+                *value += (-since / self.decay).exp() * (TAU * self.resonance * since).sin();
+            }
+        }
+        x
+    }
+}
