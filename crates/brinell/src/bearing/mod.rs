@@ -1,0 +1,3 @@
+//! Bearings: the catalogue.
+
+pub mod catalogue;
