@@ -1,5 +1,28 @@
 //! Scenario files: one TOML file is the whole truth of a run.
+//!
+//! [`sections`] lists every key once; [`reader`], [`writer`] and [`schema`] are walks over that list. [`checks`] holds
+//! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
+mod blank;
+mod checks;
+mod example;
+mod keys;
+mod leaf;
+mod load;
+mod nearest;
+mod problem;
+mod provenance;
+mod reader;
+mod schema;
+mod sections;
+mod source;
 mod types;
+mod words;
+mod writer;
 
+pub use example::template;
+pub use load::{Loaded, read, read_bytes};
+pub use problem::{Place, Problem, Severity};
+pub use provenance::{Origin, Provenance};
+pub use schema::json_schema;
 pub use types::*;

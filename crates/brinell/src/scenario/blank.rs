@@ -1,0 +1,113 @@
+//! A scenario without values: where a walk over the keys starts from.
+
+use super::leaf::Leaf;
+use super::types::*;
+
+const NONE: f64 = f64::NAN;
+
+pub(crate) fn scenario() -> Scenario {
+    Scenario {
+        name: String::new(),
+        bearing: Bearing {
+            preset: None,
+            inner_raceway_diameter_mm: NONE,
+            outer_raceway_diameter_mm: NONE,
+            pitch_diameter_mm: NONE,
+            roller_diameter_mm: NONE,
+            roller_length_mm: NONE,
+            rollers_per_row: 0,
+            rows: 0,
+            row_stagger_deg: NONE,
+            radial_clearance_um: NONE,
+            outer_gap_um: NONE,
+            inner_ring_mass_kg: NONE,
+            outer_ring_mass_kg: NONE,
+            roller_mass_kg: NONE,
+        },
+        cage: Cage {
+            mass_kg: NONE,
+            inner_diameter_mm: NONE,
+            outer_diameter_mm: NONE,
+            pocket_clearance_mm: NONE,
+            guidance: Leaf::blank(),
+            guide_clearance_mm: NONE,
+            guide_width_mm: NONE,
+            contact_stiffness_n_per_m: NONE,
+            contact_damping_ns_per_m: NONE,
+        },
+        contact: Contact {
+            law: Leaf::blank(),
+            roller_path: Leaf::blank(),
+            slices: 0,
+            edge_reaction: Leaf::blank(),
+            exponent: NONE,
+            inner_stiffness: NONE,
+            outer_stiffness: NONE,
+            damping_ns_per_m: NONE,
+        },
+        friction: Friction {
+            raceway_coefficient: NONE,
+            slip_velocity_m_per_s: NONE,
+        },
+        lubricant: Lubricant {
+            viscosity_pa_s: NONE,
+            drag_coefficient: NONE,
+            effective_density_kg_per_m3: NONE,
+        },
+        support: Support {
+            inner_stiffness_n_per_m: NONE,
+            inner_damping_ns_per_m: NONE,
+            outer_stiffness_n_per_m: NONE,
+            outer_damping_ns_per_m: NONE,
+        },
+        operation: Operation {
+            speed_rpm: Leaf::blank(),
+            load_n: [NONE; 2],
+            load_on: Leaf::blank(),
+            load_ramp_s: NONE,
+            gravity_m_per_s2: [NONE; 2],
+        },
+        defects: Vec::new(),
+        simulation: Simulation {
+            model: Leaf::blank(),
+            duration_s: NONE,
+            sample_rate_hz: NONE,
+            start: Leaf::blank(),
+            accuracy: Leaf::blank(),
+            record: Vec::new(),
+        },
+    }
+}
+
+pub(crate) fn defect() -> Defect {
+    Defect {
+        on: Surface::OuterRaceway,
+        row: 0,
+        center_deg: NONE,
+        depth_um: NONE,
+        shape: rectangle(),
+    }
+}
+
+pub(crate) fn rectangle() -> Shape {
+    Shape::Rectangle {
+        length_mm: NONE,
+        width_mm: NONE,
+    }
+}
+
+pub(crate) fn circle() -> Shape {
+    Shape::Circle { diameter_mm: NONE }
+}
+
+pub(crate) fn profile() -> Shape {
+    Shape::Profile {
+        arc_mm: Vec::new(),
+        width_mm: Vec::new(),
+        depth_um: None,
+    }
+}
+
+pub(crate) fn irregular() -> Shape {
+    Shape::Li2023Irregular { max_width_mm: NONE }
+}

@@ -1,0 +1,188 @@
+//! Damage against the bearing that it lies on.
+
+use std::f64::consts::PI;
+
+use super::{Checker, short};
+use crate::scenario::types::{Defect, Shape, Surface};
+
+/// Arcs of the paper's irregular shape, mm (model.md, section 12).
+const IRREGULAR_LENGTH_MM: f64 = 1.6695 + 1.5 + 0.7071 + 1.4142 + 0.7071 + 1.0;
+
+const LENGTH: &str = "bearing.roller_length_mm";
+
+impl Checker<'_> {
+    pub(super) fn defects(&mut self) {
+        for (i, defect) in self.s.defects.iter().enumerate() {
+            self.whereabouts(i, defect);
+            self.width(i, defect);
+            if let Shape::Profile { .. } = defect.shape {
+                self.profile(i, defect);
+            }
+            self.arc(i, defect);
+        }
+    }
+
+    fn whereabouts(&mut self, i: usize, defect: &Defect) {
+        let b = &self.s.bearing;
+        if b.rows > 0 && defect.row > b.rows {
+            self.error(
+                &format!("defects.{i}.row"),
+                format!("the bearing has {} rows", b.rows),
+                format!("1 to {}", b.rows),
+                &["bearing.rows"],
+            );
+        }
+        if let Surface::Roller(roller) = defect.on
+            && b.rollers_per_row > 0
+            && roller > b.rollers_per_row
+        {
+            self.error(
+                &format!("defects.{i}.roller"),
+                format!("each row has {} rollers", b.rollers_per_row),
+                format!("1 to {}", b.rollers_per_row),
+                &["bearing.rollers_per_row"],
+            );
+        }
+    }
+
+    fn width(&mut self, i: usize, defect: &Defect) {
+        let (key, width) = match &defect.shape {
+            Shape::Rectangle { width_mm, .. } => ("rectangle.width_mm", *width_mm),
+            Shape::Circle { diameter_mm } => ("circle.diameter_mm", *diameter_mm),
+            Shape::Profile { width_mm, .. } => (
+                "profile.width_mm",
+                width_mm.iter().fold(0.0, |widest: f64, w| widest.max(*w)),
+            ),
+            Shape::Li2023Irregular { max_width_mm } => {
+                ("li2023_irregular.max_width_mm", *max_width_mm)
+            }
+        };
+        let length = self.s.bearing.roller_length_mm;
+        if width > length {
+            self.error(
+                &format!("defects.{i}.shape.{key}"),
+                format!(
+                    "{} mm is wider than the roller, whose length is {} mm",
+                    short(width),
+                    short(length)
+                ),
+                format!("<= {}", short(length)),
+                &[LENGTH],
+            );
+        }
+    }
+
+    fn profile(&mut self, i: usize, defect: &Defect) {
+        let Shape::Profile {
+            arc_mm,
+            width_mm,
+            depth_um,
+        } = &defect.shape
+        else {
+            return;
+        };
+        let path = |name: &str| format!("defects.{i}.shape.profile.{name}");
+        // An empty list that the file does not hold was reported as missing or unreadable.
+        let readable = |name: &str, list: &[f64]| {
+            !list.is_empty() || self.finder.value(&path(name)).as_deref() == Some("[]")
+        };
+        if !readable("arc_mm", arc_mm) || !readable("width_mm", width_mm) {
+            return;
+        }
+        let count = arc_mm.len();
+        let depths = depth_um.as_ref().filter(|list| readable("depth_um", list));
+        let lists = [
+            ("width_mm", Some(width_mm.len())),
+            ("depth_um", depths.map(Vec::len)),
+        ];
+        for (name, length) in lists {
+            if length.is_some_and(|length| length != count) {
+                self.error(
+                    &path(name),
+                    format!(
+                        "{} values for the {count} points of arc_mm",
+                        length.unwrap_or(0)
+                    ),
+                    format!("a list of {count}"),
+                    &[&path("arc_mm")],
+                );
+            }
+        }
+        if count < 2 {
+            self.error(
+                &path("arc_mm"),
+                "a profile has at least two points".into(),
+                "a list of 2 or more".into(),
+                &[],
+            );
+        }
+        if let Some(pair) = arc_mm.windows(2).find(|pair| pair[1] < pair[0]) {
+            self.error(
+                &path("arc_mm"),
+                format!(
+                    "the arc must not go back; {} mm follows {} mm",
+                    short(pair[1]),
+                    short(pair[0])
+                ),
+                "each value at least the one before".into(),
+                &[],
+            );
+        }
+    }
+
+    fn arc(&mut self, i: usize, defect: &Defect) {
+        let b = &self.s.bearing;
+        let (surface, diameter_key, diameter) = match defect.on {
+            Surface::OuterRaceway => (
+                "outer raceway",
+                "bearing.outer_raceway_diameter_mm",
+                b.outer_raceway_diameter_mm,
+            ),
+            Surface::InnerRaceway => (
+                "inner raceway",
+                "bearing.inner_raceway_diameter_mm",
+                b.inner_raceway_diameter_mm,
+            ),
+            Surface::Roller(_) => (
+                "roller",
+                "bearing.roller_diameter_mm",
+                b.roller_diameter_mm,
+            ),
+        };
+        let half_circle = 0.5 * PI * diameter;
+        let (key, reach, limit) = match &defect.shape {
+            Shape::Rectangle { length_mm, .. } => {
+                ("rectangle.length_mm", 0.5 * length_mm, 2.0 * half_circle)
+            }
+            Shape::Circle { diameter_mm } => {
+                ("circle.diameter_mm", 0.5 * diameter_mm, 2.0 * half_circle)
+            }
+            Shape::Profile { arc_mm, .. } => (
+                "profile.arc_mm",
+                arc_mm.iter().fold(0.0, |reach: f64, s| reach.max(s.abs())),
+                half_circle,
+            ),
+            Shape::Li2023Irregular { .. } => {
+                ("li2023_irregular", 0.5 * IRREGULAR_LENGTH_MM, half_circle)
+            }
+        };
+        if reach > half_circle {
+            let allowed = match &defect.shape {
+                Shape::Profile { .. } => format!("-{0} to {0}", short(limit)),
+                Shape::Li2023Irregular { .. } => {
+                    format!("a surface of diameter >= {} mm", short(2.0 * reach / PI))
+                }
+                _ => format!("<= {}", short(limit)),
+            };
+            self.error(
+                &format!("defects.{i}.shape.{key}"),
+                format!(
+                    "the defect goes past a full circle of the {surface}, {} mm around",
+                    short(2.0 * half_circle)
+                ),
+                allowed,
+                &[diameter_key],
+            );
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What no single key can say: whether the bearing can exist, the damage fits it, and the run makes sense.
+//!
+//! Values that could not be read are NaN or 0 here; comparisons are written so that these raise no objection.
+
+mod bearing;
+mod defects;
+mod operation;
+
+use std::collections::HashMap;
+
+use super::keys::unit_of;
+use super::problem::{Place, Problem, Severity};
+use super::provenance::{Origin, Provenance};
+use super::reader::Found;
+use super::source::float;
+use super::types::Scenario;
+
+/// Finds what the file says of a key, and where.
+pub(crate) struct Finder<'a> {
+    found: &'a HashMap<String, Found>,
+    provenance: HashMap<&'a str, &'a Provenance>,
+}
+
+impl<'a> Finder<'a> {
+    pub(crate) fn new(
+        found: &'a HashMap<String, Found>,
+        provenance: &'a [Provenance],
+    ) -> Finder<'a> {
+        Finder {
+            found,
+            provenance: super::load::by_key(provenance),
+        }
+    }
+
+    fn place(&self, key: &str) -> Option<Place> {
+        self.found.get(key)?.place.clone()
+    }
+
+    fn value(&self, key: &str) -> Option<String> {
+        let found = self.found.get(key).map(|found| found.text.clone());
+        found.or_else(|| self.provenance.get(key).map(|entry| entry.value.clone()))
+    }
+
+    fn is_preset(&self, key: &str) -> bool {
+        self.provenance
+            .get(key)
+            .is_some_and(|entry| matches!(entry.origin, Origin::Preset { .. }))
+    }
+}
+
+/// Gathers the problems of one scenario.
+struct Checker<'a> {
+    s: &'a Scenario,
+    finder: &'a Finder<'a>,
+    problems: Vec<Problem>,
+}
+
+impl Checker<'_> {
+    fn add(
+        &mut self,
+        severity: Severity,
+        key: &str,
+        message: String,
+        allowed: String,
+        also: &[&str],
+    ) {
+        let mut problem = Problem::new(severity, key, message).allowed(allowed);
+        let name = key.rsplit('.').next().unwrap_or(key);
+        problem = problem.unit(unit_of(name));
+        problem.value = self.finder.value(key);
+        problem.also = also
+            .iter()
+            .map(|key| (key.to_string(), self.finder.place(key)))
+            .collect();
+        // A key that the file leaves out is at fault through the ones it gives.
+        let place = self.finder.place(key);
+        let place = place.or_else(|| also.iter().find_map(|key| self.finder.place(key)));
+        self.problems.push(problem.at(place));
+    }
+
+    fn error(&mut self, key: &str, message: String, allowed: String, also: &[&str]) {
+        self.add(Severity::Error, key, message, allowed, also);
+    }
+
+    fn warn(&mut self, key: &str, message: String, allowed: String, also: &[&str]) {
+        self.add(Severity::Warning, key, message, allowed, also);
+    }
+}
+
+pub(crate) fn check(scenario: &Scenario, finder: &Finder<'_>) -> Vec<Problem> {
+    let mut checker = Checker {
+        s: scenario,
+        finder,
+        problems: Vec::new(),
+    };
+    checker.bearing();
+    checker.cage();
+    checker.contact();
+    checker.operation();
+    checker.support();
+    checker.defects();
+    checker.simulation();
+    checker.problems
+}
+
+/// A number in a message: four figures are enough.
+fn short(x: f64) -> String {
+    if x == 0.0 || !(1e-3..1e6).contains(&x.abs()) {
+        if x.is_finite() && x != 0.0 {
+            return format!("{x:.3e}");
+        }
+        return float(x);
+    }
+    let decimals = (3 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,183 @@
+//! Speed, load, supports and sampling.
+
+use super::{Checker, short};
+use crate::scenario::types::{LoadOn, ModelKind, Speed, Surface};
+
+/// Samples beyond which a run is a slip of the unit.
+const MOST_SAMPLES: f64 = 1e10;
+/// Samples beyond which a run is worth a word.
+const MANY_SAMPLES: f64 = 1e8;
+/// Harmonics of a defect frequency that a spectrum should show.
+const HARMONICS: f64 = 5.0;
+/// Share of the sample rate that the anti-alias filter passes (model.md, section 11).
+const PASSBAND: f64 = 0.4;
+
+const SPEED: &str = "operation.speed_rpm";
+const LOAD: &str = "operation.load_n";
+const RATE: &str = "simulation.sample_rate_hz";
+const DURATION: &str = "simulation.duration_s";
+
+impl Checker<'_> {
+    pub(super) fn operation(&mut self) {
+        match &self.s.operation.speed_rpm {
+            Speed::Constant(speed) => {
+                if *speed == 0.0 {
+                    self.error(SPEED, "the inner ring must turn".into(), "not 0".into(), &[]);
+                }
+            }
+            Speed::Profile(points) => {
+                if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
+                    self.error(
+                        SPEED,
+                        format!(
+                            "times must increase from point to point; {} s follows {} s",
+                            short(pair[1][0]),
+                            short(pair[0][0])
+                        ),
+                        "points [[t_s, rpm], ...] with t_s strictly increasing".into(),
+                        &[],
+                    );
+                }
+                if points.iter().all(|point| point[1] == 0.0) {
+                    let message = if points.is_empty() {
+                        "the speed profile has no points"
+                    } else {
+                        "the speed is 0 throughout: the inner ring must turn"
+                    };
+                    self.error(
+                        SPEED,
+                        message.into(),
+                        "at least one point with a speed other than 0".into(),
+                        &[],
+                    );
+                }
+            }
+        }
+    }
+
+    /// Bound of model.md, section 12: a support that carries the load before the clearance is closed.
+    pub(super) fn support(&mut self) {
+        let s = self.s;
+        let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
+        let (loaded, held, stiffness, other) = match s.operation.load_on {
+            LoadOn::OuterRing => (
+                "support.outer_stiffness_n_per_m",
+                "support.inner_stiffness_n_per_m",
+                s.support.outer_stiffness_n_per_m,
+                s.support.inner_stiffness_n_per_m,
+            ),
+            LoadOn::InnerRing => (
+                "support.inner_stiffness_n_per_m",
+                "support.outer_stiffness_n_per_m",
+                s.support.inner_stiffness_n_per_m,
+                s.support.outer_stiffness_n_per_m,
+            ),
+        };
+        // The reference model holds neither ring by the outer support: section 10.
+        let full = s.simulation.model == ModelKind::Full;
+        let reference_inner = s.operation.load_on == LoadOn::InnerRing;
+        let gap = 1e-6 * (s.bearing.radial_clearance_um + s.bearing.outer_gap_um);
+        if (full || reference_inner) && load > 0.0 && gap > 0.0 && stiffness * gap >= load {
+            self.warn(
+                loaded,
+                format!(
+                    "the support can carry the whole load: k C_r = {} N against {} N, so the rollers may stay unloaded",
+                    short(stiffness * gap),
+                    short(load)
+                ),
+                format!("< {:.3e}", load / gap),
+                &["bearing.radial_clearance_um", LOAD],
+            );
+        }
+        if (full || !reference_inner) && load > 0.0 && other == 0.0 {
+            self.warn(
+                held,
+                "nothing holds the ring that the load presses on: the bearing will drift".into(),
+                "> 0".into(),
+                &[LOAD],
+            );
+        }
+    }
+
+    pub(super) fn simulation(&mut self) {
+        let (duration, rate) = (self.s.simulation.duration_s, self.s.simulation.sample_rate_hz);
+        let samples = duration * rate;
+        if samples < 1.0 {
+            self.error(
+                DURATION,
+                "shorter than one sample".into(),
+                format!(">= {}", short(1.0 / rate)),
+                &[RATE],
+            );
+        } else if samples > MOST_SAMPLES {
+            self.error(
+                DURATION,
+                format!("{samples:.1e} samples are more than any machine keeps"),
+                format!("<= {}", short(MOST_SAMPLES / rate)),
+                &[RATE],
+            );
+        } else if samples > MANY_SAMPLES {
+            self.warn(
+                DURATION,
+                format!("{samples:.1e} samples of every channel"),
+                String::new(),
+                &[RATE],
+            );
+        }
+        self.sample_rate();
+        self.record();
+    }
+
+    fn sample_rate(&mut self) {
+        let b = &self.s.bearing;
+        let fastest = match &self.s.operation.speed_rpm {
+            Speed::Constant(speed) => speed.abs(),
+            Speed::Profile(points) => points.iter().fold(0.0, |m: f64, point| m.max(point[1].abs())),
+        };
+        let shaft = fastest / 60.0;
+        let cage = shaft * b.inner_raceway_diameter_mm / (2.0 * b.pitch_diameter_mm);
+        let spin = shaft * b.inner_raceway_diameter_mm / (2.0 * b.roller_diameter_mm);
+        // Spin relative to the cage: r (spin + ...) closes the rolling condition at both raceways.
+        let bsf = spin + cage;
+        let z = b.rollers_per_row as f64;
+        let highest = self
+            .s
+            .defects
+            .iter()
+            .map(|defect| match defect.on {
+                Surface::OuterRaceway => ("BPFO", z * cage),
+                Surface::InnerRaceway => ("BPFI", z * (shaft - cage)),
+                Surface::Roller(_) => ("2 BSF", 2.0 * bsf),
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((name, frequency)) = highest else {
+            return;
+        };
+        let needed = HARMONICS * frequency / PASSBAND;
+        if self.s.simulation.sample_rate_hz < needed {
+            self.warn(
+                RATE,
+                format!(
+                    "too low for {HARMONICS} harmonics of {name} = {} Hz below {PASSBAND} of the sample rate",
+                    short(frequency)
+                ),
+                format!(">= {}", short(needed)),
+                &[SPEED],
+            );
+        }
+    }
+
+    fn record(&mut self) {
+        const RECORD: &str = "simulation.record";
+        let fits = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '*';
+        let bad = |name: &&String| name.is_empty() || !name.chars().all(fits);
+        if let Some(name) = self.s.simulation.record.iter().find(bad) {
+            self.error(
+                RECORD,
+                format!("no channel can match {}", crate::scenario::source::quote(name)),
+                "names of letters, digits, _ and *".into(),
+                &[],
+            );
+        }
+    }
+}

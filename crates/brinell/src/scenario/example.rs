@@ -1,0 +1,49 @@
+//! The scenario that `brinell init` starts from: the NN3007 with the rectangle defect.
+
+use super::load::{Loaded, by_key, read, write};
+use super::types::Scenario;
+use super::writer::Style;
+
+/// What such a scenario must give; everything else has a default.
+const SHORTEST: &str = r#"
+name = "nn3007-rectangle"
+[bearing]
+preset = "NN3007"
+[operation]
+speed_rpm = 1800.0
+load_n = [300.0, 0.0]
+[[defects]]
+on = "outer-raceway"
+row = 1
+center_deg = 0.0
+depth_um = 20.0
+shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }
+[simulation]
+duration_s = 0.5
+sample_rate_hz = 25600.0
+"#;
+
+const HEAD: &str = "\
+# A brinell scenario: one file is the whole truth of a run.
+# Lines without a leading # are live. The others show what holds if they are left out; remove the # to change one.
+# Every key carries its unit in its name. Values left out are listed as assumed in the results.
+
+";
+
+fn example() -> Loaded {
+    read(SHORTEST, &[]).expect("the example reads: a test holds it to that")
+}
+
+/// A commented scenario to edit, which reads without problems.
+pub fn template() -> String {
+    let example = example();
+    let style = Style::Template(by_key(&example.provenance));
+    HEAD.to_string() + &write(&example.scenario, style)
+}
+
+impl Scenario {
+    /// The NN3007 with the paper's rectangle defect, 3 x 4 mm on the outer raceway.
+    pub fn example() -> Scenario {
+        example().scenario
+    }
+}

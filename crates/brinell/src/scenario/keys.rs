@@ -1,0 +1,248 @@
+//! The vocabulary in which [`super::sections`] lists the keys of a scenario, once.
+//!
+//! A listing is a walk: it names each key with its meaning, unit, range and default, and hands over the field that
+//! holds its value. Whoever implements [`Keys`] decides what the walk does: read the field from TOML, write it, or
+//! describe it. Keys are visited in order, so a default may be computed from the fields before it.
+
+use std::fmt;
+
+use super::leaf::Leaf;
+
+/// Name, meaning, unit and range of one key.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spec {
+    pub(crate) name: &'static str,
+    pub(crate) doc: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) range: Range,
+}
+
+/// A key without a range; its unit is the one in its name.
+pub(crate) const fn key(name: &'static str, doc: &'static str) -> Spec {
+    Spec {
+        name,
+        doc,
+        unit: unit_of(name),
+        range: Range::ANY,
+    }
+}
+
+impl Spec {
+    /// A unit that the name does not carry.
+    pub(crate) const fn unit(mut self, unit: &'static str) -> Spec {
+        self.unit = unit;
+        self
+    }
+
+    /// Greater than `low`.
+    pub(crate) const fn above(mut self, low: f64) -> Spec {
+        self.range.low = Some((low, false));
+        self
+    }
+
+    /// At least `low`.
+    pub(crate) const fn from(mut self, low: f64) -> Spec {
+        self.range.low = Some((low, true));
+        self
+    }
+
+    /// At most `high`.
+    pub(crate) const fn to(mut self, high: f64) -> Spec {
+        self.range.high = Some((high, true));
+        self
+    }
+}
+
+/// The unit in a key's name: its longest suffix that is one.
+pub(crate) const fn unit_of(name: &str) -> &'static str {
+    const SUFFIXES: [(&str, &str); 14] = [
+        ("_kg_per_m3", "kg/m^3"),
+        ("_ns_per_m", "N s/m"),
+        ("_m_per_s2", "m/s^2"),
+        ("_n_per_m", "N/m"),
+        ("_m_per_s", "m/s"),
+        ("_pa_s", "Pa s"),
+        ("_deg", "deg"),
+        ("_rpm", "r/min"),
+        ("_mm", "mm"),
+        ("_um", "um"),
+        ("_kg", "kg"),
+        ("_hz", "Hz"),
+        ("_n", "N"),
+        ("_s", "s"),
+    ];
+    let mut i = 0;
+    while i < SUFFIXES.len() {
+        if ends_with(name.as_bytes(), SUFFIXES[i].0.as_bytes()) {
+            return SUFFIXES[i].1;
+        }
+        i += 1;
+    }
+    ""
+}
+
+const fn ends_with(name: &[u8], suffix: &[u8]) -> bool {
+    if name.len() < suffix.len() {
+        return false;
+    }
+    let mut i = 0;
+    while i < suffix.len() {
+        if name[name.len() - suffix.len() + i] != suffix[i] {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
+/// Interval of finite numbers; each bound says whether it belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Range {
+    pub(crate) low: Option<(f64, bool)>,
+    pub(crate) high: Option<(f64, bool)>,
+}
+
+impl Range {
+    pub(crate) const ANY: Range = Range {
+        low: None,
+        high: None,
+    };
+
+    pub(crate) fn contains(&self, x: f64) -> bool {
+        x.is_finite()
+            && self
+                .low
+                .is_none_or(|(low, closed)| x > low || (closed && x == low))
+            && self
+                .high
+                .is_none_or(|(high, closed)| x < high || (closed && x == high))
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
+        match (self.low, self.high) {
+            (None, None) => write!(f, "any finite number"),
+            (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
+            (None, Some((high, closed))) => write!(f, "{} {high}", sign(closed, "<", "<=")),
+            (Some((low, true)), Some((high, true))) => write!(f, "{low} to {high}"),
+            (Some((low, a)), Some((high, b))) => write!(
+                f,
+                "{} {low} and {} {high}",
+                sign(a, ">", ">="),
+                sign(b, "<", "<=")
+            ),
+        }
+    }
+}
+
+/// What stands in for a key that the file leaves out.
+#[derive(Debug, Clone)]
+pub(crate) enum Fallback<T> {
+    /// Nothing: the key must be given.
+    Required,
+    /// Only a catalogue bearing.
+    Catalogued,
+    /// Nothing in the present case; says which case that is.
+    Needed(&'static str),
+    /// Computed from earlier keys; always an assumption.
+    Derived {
+        /// The value.
+        value: T,
+        /// The formula in words.
+        how: &'static str,
+    },
+    /// A fixed value.
+    Fixed {
+        /// The value.
+        value: T,
+        /// Why this one.
+        why: &'static str,
+        /// True where no source states it.
+        assumed: bool,
+    },
+}
+
+pub(crate) fn derived<T>(value: T, how: &'static str) -> Fallback<T> {
+    Fallback::Derived { value, how }
+}
+
+/// A default that nobody stated: it goes on the assumption sheet.
+pub(crate) fn assumed<T>(value: T, why: &'static str) -> Fallback<T> {
+    Fallback::Fixed {
+        value,
+        why,
+        assumed: true,
+    }
+}
+
+/// A default that the source of the model states, or that is no statement about the bearing.
+pub(crate) fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
+    Fallback::Fixed {
+        value,
+        why,
+        assumed: false,
+    }
+}
+
+/// One of the alternatives of [`Keys::one_of`].
+pub(crate) struct Variant<T> {
+    pub(crate) name: &'static str,
+    pub(crate) doc: &'static str,
+    pub(crate) blank: fn() -> T,
+}
+
+/// The alternative that `value` is.
+pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'static Variant<T> {
+    variants
+        .iter()
+        .find(|variant| {
+            std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value)
+        })
+        .unwrap_or(&variants[0])
+}
+
+/// A walk over the keys of a scenario.
+pub(crate) trait Keys: Sized {
+    /// A key with one value.
+    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T);
+
+    /// A key that may be absent, which then means something of its own.
+    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>);
+
+    /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
+    fn only_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        wanted: bool,
+        case: &'static str,
+        value: &mut T,
+    );
+
+    /// The key that names the catalogue bearing, whose values stand in for keys left out after it.
+    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+        self.optional(spec, value);
+    }
+
+    /// A table of keys.
+    fn section(&mut self, spec: Spec, keys: impl FnMut(&mut Self));
+
+    /// Any number of tables.
+    fn tables<T>(
+        &mut self,
+        spec: Spec,
+        items: &mut Vec<T>,
+        blank: fn() -> T,
+        keys: impl FnMut(&mut Self, &mut T),
+    );
+
+    /// A table with exactly one of several keys, each a table.
+    fn one_of<T: 'static>(
+        &mut self,
+        spec: Spec,
+        variants: &'static [Variant<T>],
+        value: &mut T,
+        keys: impl FnMut(&mut Self, &mut T),
+    );
+}

@@ -1,0 +1,409 @@
+//! Kinds of value that a key can hold: how each is read, written and described.
+
+use serde_json::{Value as Json, json};
+
+use super::keys::Spec;
+use super::source::{Node, Value, float, quote};
+use super::types::Speed;
+
+/// A value that does not fit its key.
+#[derive(Debug)]
+pub(crate) struct Misfit {
+    pub(crate) message: String,
+    pub(crate) allowed: String,
+    /// The element at fault, where the value is a list.
+    pub(crate) element: Option<Node>,
+}
+
+impl Misfit {
+    fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
+        Misfit {
+            message: message.into(),
+            allowed: allowed.into(),
+            element: None,
+        }
+    }
+
+    fn in_element(mut self, node: &Node) -> Misfit {
+        self.element.get_or_insert_with(|| node.clone());
+        self
+    }
+}
+
+/// The value of one key.
+pub(crate) trait Leaf: Sized + Clone {
+    /// Stands in for a value that could not be read; no check objects to it.
+    fn blank() -> Self;
+    /// What the key expects, with its article.
+    fn expected(spec: &Spec) -> String;
+    fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit>;
+    fn write(&self) -> String;
+    fn schema(spec: &Spec) -> Json;
+    /// Values accepted, in the words of the template.
+    fn range(spec: &Spec) -> String {
+        let _ = spec;
+        String::new()
+    }
+    /// Whether a computed default is usable.
+    fn fits(&self, _spec: &Spec) -> bool {
+        true
+    }
+    /// False for what comes of computing with values that could not be read.
+    fn is_defined(&self) -> bool {
+        true
+    }
+}
+
+fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
+    let message = format!("expected {}, found {}", T::expected(spec), node.kind());
+    Misfit::new(message, T::range(spec))
+}
+
+fn in_unit(what: &str, spec: &Spec) -> String {
+    match spec.unit {
+        "" => what.to_string(),
+        unit => format!("{what} in {unit}"),
+    }
+}
+
+fn number_schema(kind: &str, spec: &Spec) -> Json {
+    let mut schema = json!({ "type": kind });
+    if let Some((low, closed)) = spec.range.low {
+        schema[if closed { "minimum" } else { "exclusiveMinimum" }] = json_number(low);
+    }
+    if let Some((high, closed)) = spec.range.high {
+        schema[if closed { "maximum" } else { "exclusiveMaximum" }] = json_number(high);
+    }
+    schema
+}
+
+fn json_number(x: f64) -> Json {
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        json!(x as i64)
+    } else {
+        json!(x)
+    }
+}
+
+fn out_of_range(x: f64, spec: &Spec) -> Misfit {
+    let allowed = spec.range.to_string();
+    if x.is_finite() {
+        Misfit::new("out of range", allowed)
+    } else {
+        Misfit::new("not a finite number", allowed)
+    }
+}
+
+impl Leaf for f64 {
+    fn blank() -> f64 {
+        f64::NAN
+    }
+
+    fn expected(spec: &Spec) -> String {
+        in_unit("a number", spec)
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<f64, Misfit> {
+        let x = match &node.value {
+            Value::Float(x) => *x,
+            Value::Integer(n) => *n as f64,
+            Value::HugeInteger(_) => {
+                return Err(Misfit::new("number too large", spec.range.to_string()));
+            }
+            _ => return Err(wrong_type::<f64>(node, spec)),
+        };
+        if spec.range.contains(x) {
+            Ok(x)
+        } else {
+            Err(out_of_range(x, spec))
+        }
+    }
+
+    fn write(&self) -> String {
+        float(*self)
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        number_schema("number", spec)
+    }
+
+    fn range(spec: &Spec) -> String {
+        spec.range.to_string()
+    }
+
+    fn fits(&self, spec: &Spec) -> bool {
+        spec.range.contains(*self)
+    }
+
+    fn is_defined(&self) -> bool {
+        self.is_finite()
+    }
+}
+
+impl Leaf for usize {
+    fn blank() -> usize {
+        0
+    }
+
+    fn expected(spec: &Spec) -> String {
+        in_unit("a whole number", spec)
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<usize, Misfit> {
+        match &node.value {
+            Value::Integer(n) => match usize::try_from(*n) {
+                Ok(count) if spec.range.contains(*n as f64) => Ok(count),
+                _ => Err(out_of_range(*n as f64, spec)),
+            },
+            Value::HugeInteger(_) => Err(out_of_range(0.0, spec)),
+            _ => Err(wrong_type::<usize>(node, spec)),
+        }
+    }
+
+    fn write(&self) -> String {
+        self.to_string()
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        number_schema("integer", spec)
+    }
+
+    fn range(spec: &Spec) -> String {
+        spec.range.to_string()
+    }
+
+    fn fits(&self, spec: &Spec) -> bool {
+        spec.range.contains(*self as f64)
+    }
+}
+
+impl Leaf for String {
+    fn blank() -> String {
+        String::new()
+    }
+
+    fn expected(_: &Spec) -> String {
+        "a string".into()
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<String, Misfit> {
+        match &node.value {
+            Value::Text(text) => Ok(text.clone()),
+            _ => Err(wrong_type::<String>(node, spec)),
+        }
+    }
+
+    fn write(&self) -> String {
+        quote(self)
+    }
+
+    fn schema(_: &Spec) -> Json {
+        json!({ "type": "string" })
+    }
+}
+
+fn elements<'a, T: Leaf>(node: &'a Node, spec: &Spec) -> Result<&'a [Node], Misfit> {
+    match &node.value {
+        Value::Array(items) => Ok(items),
+        _ => Err(wrong_type::<T>(node, spec)),
+    }
+}
+
+fn read_each<T: Leaf>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
+    items
+        .iter()
+        .map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item)))
+        .collect()
+}
+
+fn write_each<T: Leaf>(items: &[T]) -> String {
+    let texts: Vec<String> = items.iter().map(Leaf::write).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+impl Leaf for Vec<f64> {
+    fn blank() -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn expected(spec: &Spec) -> String {
+        in_unit("a list of numbers", spec)
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<Vec<f64>, Misfit> {
+        read_each(elements::<Vec<f64>>(node, spec)?, spec)
+    }
+
+    fn write(&self) -> String {
+        write_each(self)
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        json!({ "type": "array", "items": f64::schema(spec) })
+    }
+
+    fn range(spec: &Spec) -> String {
+        spec.range.to_string()
+    }
+}
+
+impl Leaf for [f64; 2] {
+    fn blank() -> [f64; 2] {
+        [f64::NAN; 2]
+    }
+
+    fn expected(spec: &Spec) -> String {
+        in_unit("a list [x, y] of two numbers", spec)
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<[f64; 2], Misfit> {
+        let items = elements::<[f64; 2]>(node, spec)?;
+        let numbers: Vec<f64> = read_each(items, spec)?;
+        numbers.try_into().map_err(|numbers: Vec<f64>| {
+            let expected = <[f64; 2]>::expected(spec);
+            let message = format!("expected {expected}, found {} of them", numbers.len());
+            Misfit::new(message, <[f64; 2]>::range(spec))
+        })
+    }
+
+    fn write(&self) -> String {
+        write_each(self)
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        json!({ "type": "array", "items": f64::schema(spec), "minItems": 2, "maxItems": 2 })
+    }
+
+    fn range(spec: &Spec) -> String {
+        spec.range.to_string()
+    }
+}
+
+impl Leaf for Vec<String> {
+    fn blank() -> Vec<String> {
+        Vec::new()
+    }
+
+    fn expected(_: &Spec) -> String {
+        "a list of strings".into()
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<Vec<String>, Misfit> {
+        read_each(elements::<Vec<String>>(node, spec)?, spec)
+    }
+
+    fn write(&self) -> String {
+        write_each(self)
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        json!({ "type": "array", "items": String::schema(spec) })
+    }
+}
+
+impl Leaf for Speed {
+    fn blank() -> Speed {
+        Speed::Constant(f64::NAN)
+    }
+
+    fn expected(spec: &Spec) -> String {
+        format!(
+            "{} or a list of points [t in s, speed in {}]",
+            f64::expected(spec),
+            spec.unit
+        )
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<Speed, Misfit> {
+        match &node.value {
+            Value::Array(items) => {
+                let point = |item: &Node| match &item.value {
+                    Value::Array(_) => <[f64; 2]>::read(item, spec),
+                    _ => Err(wrong_type::<Speed>(item, spec)),
+                };
+                let points = items
+                    .iter()
+                    .map(|item| point(item).map_err(|misfit| misfit.in_element(item)));
+                Ok(Speed::Profile(points.collect::<Result<_, _>>()?))
+            }
+            Value::Integer(_) | Value::HugeInteger(_) | Value::Float(_) => {
+                f64::read(node, spec).map(Speed::Constant)
+            }
+            _ => Err(wrong_type::<Speed>(node, spec)),
+        }
+    }
+
+    fn write(&self) -> String {
+        match self {
+            Speed::Constant(speed) => speed.write(),
+            Speed::Profile(points) => write_each(points),
+        }
+    }
+
+    fn schema(spec: &Spec) -> Json {
+        json!({ "oneOf": [
+            f64::schema(spec),
+            { "type": "array", "items": <[f64; 2]>::schema(spec), "minItems": 1 },
+        ] })
+    }
+}
+
+/// A closed set of words.
+pub(crate) trait Choice: Copy + PartialEq + 'static {
+    /// Word, value, meaning; the first stands in where none could be read.
+    const WORDS: &'static [(&'static str, Self, &'static str)];
+}
+
+fn word_list<T: Choice>() -> String {
+    let words: Vec<String> = T::WORDS.iter().map(|(word, ..)| quote(word)).collect();
+    words.join(", ")
+}
+
+impl<T: Choice> Leaf for T {
+    fn blank() -> T {
+        T::WORDS[0].1
+    }
+
+    fn expected(_: &Spec) -> String {
+        match T::WORDS {
+            [(word, ..)] => quote(word),
+            _ => format!("one of {}", word_list::<T>()),
+        }
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<T, Misfit> {
+        let Value::Text(text) = &node.value else {
+            let misfit = wrong_type::<T>(node, spec);
+            return Err(Misfit::new(misfit.message, word_list::<T>()));
+        };
+        let known = T::WORDS.iter().find(|(word, ..)| word == text);
+        known.map(|(_, value, _)| *value).ok_or_else(|| {
+            let words = T::WORDS.iter().map(|(word, ..)| *word);
+            let hint = super::nearest::nearest(text, words)
+                .map(|word| format!("; did you mean {}?", quote(word)))
+                .unwrap_or_default();
+            Misfit::new(format!("unknown word{hint}"), word_list::<T>())
+        })
+    }
+
+    fn write(&self) -> String {
+        let word = T::WORDS.iter().find(|(_, value, _)| value == self);
+        quote(word.unwrap_or(&T::WORDS[0]).0)
+    }
+
+    fn schema(_: &Spec) -> Json {
+        let words: Vec<Json> = T::WORDS
+            .iter()
+            .map(|(word, _, meaning)| json!({ "const": word, "description": meaning }))
+            .collect();
+        json!({ "type": "string", "oneOf": words })
+    }
+
+    fn range(_: &Spec) -> String {
+        let words: Vec<String> = T::WORDS
+            .iter()
+            .map(|(word, _, meaning)| format!("{} ({meaning})", quote(word)))
+            .collect();
+        words.join(" | ")
+    }
+}

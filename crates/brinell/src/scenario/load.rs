@@ -1,0 +1,106 @@
+//! From a file's text to a scenario, and back.
+
+use std::collections::HashMap;
+
+use super::checks::{self, Finder};
+use super::problem::{Place, Problem, Severity};
+use super::provenance::Provenance;
+use super::reader::Reader;
+use super::types::Scenario;
+use super::writer::{Style, Writer};
+use super::{blank, sections, source};
+
+/// A scenario that can run, and where its values come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loaded {
+    /// The scenario with every default filled in.
+    pub scenario: Scenario,
+    /// Origin of every value, in the order of the file format.
+    pub provenance: Vec<Provenance>,
+    /// What the author should know.
+    pub warnings: Vec<Problem>,
+}
+
+/// Reads a scenario file's text. Overrides are pairs of a dotted path and a TOML value, a bare word being a string;
+/// elements of lists go by number from 0 (`defects.0.depth_um`).
+///
+/// # Errors
+/// Every problem of the text at once, warnings after errors.
+pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
+    let root = source::parse(text, overrides)?;
+    let mut scenario = blank::scenario();
+    let mut reader = Reader::new(text, &root);
+    sections::scenario(&mut reader, &mut scenario);
+    reader.finish();
+    let finder = Finder::new(&reader.found, &reader.provenance);
+    let mut problems = checks::check(&scenario, &finder);
+    problems.append(&mut reader.problems);
+    problems.sort_by_key(Problem::order);
+    if problems.iter().any(|problem| problem.severity == Severity::Error) {
+        return Err(problems);
+    }
+    Ok(Loaded {
+        scenario,
+        provenance: reader.provenance,
+        warnings: problems,
+    })
+}
+
+/// Reads a scenario file's bytes, which must be UTF-8.
+///
+/// # Errors
+/// As [`read`]; the first byte that is not UTF-8 is a problem of its own.
+pub fn read_bytes(bytes: &[u8], overrides: &[(String, String)]) -> Result<Loaded, Vec<Problem>> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => read(text, overrides),
+        Err(error) => {
+            let good = error.valid_up_to();
+            let text = String::from_utf8_lossy(&bytes[..good]);
+            let mut place = Place::new(&text, good..good);
+            place.span = good..good + error.error_len().unwrap_or(bytes.len() - good);
+            let message = "not a text file in UTF-8, as TOML must be";
+            let problem = Problem::error("", message)
+                .value(format!("byte 0x{:02x}", bytes[good]))
+                .at(Some(place));
+            Err(vec![problem])
+        }
+    }
+}
+
+impl Loaded {
+    /// The scenario as TOML with every default filled in, each assumed value with its reason beside it.
+    pub fn to_toml(&self) -> String {
+        write(&self.scenario, Style::Resolved(by_key(&self.provenance)))
+    }
+}
+
+impl Scenario {
+    /// The scenario as TOML with every key given; it reads back to the same scenario, bit for bit.
+    pub fn to_toml(&self) -> String {
+        write(self, Style::Resolved(HashMap::new()))
+    }
+
+    /// Everything wrong with a scenario built or changed in code, errors first; keys are those of the file.
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = match read(&self.to_toml(), &[]) {
+            Ok(loaded) => loaded.warnings,
+            Err(problems) => problems,
+        };
+        for problem in &mut problems {
+            // Lines of a text that nobody has seen.
+            (problem.line, problem.column, problem.span) = (None, None, None);
+            problem.also.iter_mut().for_each(|(_, place)| *place = None);
+        }
+        problems
+    }
+}
+
+pub(crate) fn by_key(provenance: &[Provenance]) -> HashMap<&str, &Provenance> {
+    provenance.iter().map(|entry| (entry.key.as_str(), entry)).collect()
+}
+
+pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {
+    let mut writer = Writer::new(style);
+    sections::scenario(&mut writer, &mut scenario.clone());
+    writer.finish()
+}

@@ -1,0 +1,26 @@
+//! The known word that a misspelt one most likely meant.
+
+/// The nearest of `known` to `word`, if any is near.
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    // Edit distance is quadratic: a word that long was never a misspelt key.
+    const LONGEST: usize = 80;
+    if word.len() > LONGEST {
+        return None;
+    }
+    let word = word.to_lowercase().replace('-', "_");
+    known
+        .map(|candidate| {
+            let plain = candidate.to_lowercase().replace('-', "_");
+            let stem = |a: &str, b: &str| a.len() >= 4 && b.starts_with(a);
+            // Most often the unit is missing or another one: `load`, `speed_hz`.
+            let distance = if stem(&word, &plain) || stem(&plain, &word) {
+                1
+            } else {
+                strsim::damerau_levenshtein(&word, &plain)
+            };
+            (distance, plain.len().max(word.len()), candidate)
+        })
+        .filter(|(distance, length, _)| *distance <= (*length / 3).max(1))
+        .min_by_key(|(distance, ..)| *distance)
+        .map(|(.., candidate)| candidate)
+}

@@ -1,0 +1,56 @@
+//! Where every value of a run comes from: the assumption sheet.
+
+/// Who gave a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// The scenario file.
+    File,
+    /// An override of the scenario file.
+    Override,
+    /// The catalogue bearing.
+    Preset {
+        /// Where the catalogue has it from.
+        source: String,
+        /// True where the catalogue itself estimates it.
+        estimated: bool,
+    },
+    /// Computed from other keys; says how.
+    Derived(&'static str),
+    /// Fixed default; says why.
+    Default(&'static str),
+}
+
+/// Origin of one key's value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// Path of the key, `defects.0.depth_um`.
+    pub key: String,
+    /// The value as TOML.
+    pub value: String,
+    /// Unit, empty where there is none.
+    pub unit: &'static str,
+    /// Who gave it.
+    pub origin: Origin,
+    /// True where neither the user nor a cited source states the value.
+    pub assumed: bool,
+}
+
+impl Provenance {
+    /// One line on where the value comes from.
+    pub fn reason(&self) -> String {
+        match &self.origin {
+            Origin::File => "scenario file".into(),
+            Origin::Override => "override".into(),
+            Origin::Preset {
+                source,
+                estimated: false,
+            } => format!("catalogue: {source}"),
+            Origin::Preset {
+                source,
+                estimated: true,
+            } => format!("catalogue estimate: {source}"),
+            Origin::Derived(how) => format!("derived: {how}"),
+            Origin::Default(why) => format!("default: {why}"),
+        }
+    }
+}

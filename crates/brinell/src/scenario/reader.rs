@@ -1,0 +1,458 @@
+//! The walk that fills a scenario from a tree of values, and reports everything that does not fit.
+
+use std::collections::HashMap;
+
+use super::keys::{Fallback, Keys, Spec, Variant};
+use super::leaf::{Leaf, Misfit};
+use super::nearest::nearest;
+use super::problem::{Place, Problem};
+use super::provenance::{Origin, Provenance};
+use super::schema::known_keys;
+use super::source::{Entry, Node, Table, Value, quote};
+use crate::bearing::catalogue;
+
+/// Where a key of the scenario stands, and what it says there.
+#[derive(Debug, Clone)]
+pub(crate) struct Found {
+    pub(crate) place: Option<Place>,
+    pub(crate) text: String,
+}
+
+/// A table being read.
+struct Frame<'a> {
+    path: String,
+    table: Option<&'a Table>,
+    /// Where the table begins, for keys that are missing from it.
+    header: Option<Place>,
+    /// Keys that the walk has named so far.
+    named: Vec<&'static str>,
+    /// The table itself was unusable: what it lacks is not worth a word.
+    broken: bool,
+}
+
+pub(crate) struct Reader<'a> {
+    text: &'a str,
+    frames: Vec<Frame<'a>>,
+    preset: Option<&'static catalogue::Entry>,
+    /// A preset was asked for and is unknown: what it would have filled is not worth a word.
+    preset_unknown: bool,
+    pub(crate) problems: Vec<Problem>,
+    pub(crate) provenance: Vec<Provenance>,
+    pub(crate) found: HashMap<String, Found>,
+}
+
+fn join(path: &str, name: &str) -> String {
+    if path.is_empty() {
+        name.to_string()
+    } else {
+        format!("{path}.{name}")
+    }
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(text: &'a str, root: &'a Table) -> Reader<'a> {
+        let root = Frame {
+            path: String::new(),
+            table: Some(root),
+            header: None,
+            named: Vec::new(),
+            broken: false,
+        };
+        Reader {
+            text,
+            frames: vec![root],
+            preset: None,
+            preset_unknown: false,
+            problems: Vec::new(),
+            provenance: Vec::new(),
+            found: HashMap::new(),
+        }
+    }
+
+    /// Ends the walk: what the file holds beyond the keys named is unknown.
+    pub(crate) fn finish(&mut self) {
+        self.leave();
+    }
+
+    fn frame(&mut self) -> &mut Frame<'a> {
+        self.frames.last_mut().expect("the root frame stays until the walk ends")
+    }
+
+    /// Names a key of the present table; its path and what the file says of it.
+    fn name(&mut self, spec: &Spec) -> (String, Option<&'a Entry>) {
+        let frame = self.frame();
+        frame.named.push(spec.name);
+        let entry = frame.table.and_then(|table| table.get(spec.name));
+        let path = join(&frame.path, spec.name);
+        if let Some(entry) = entry {
+            let found = Found {
+                place: self.place(&entry.node),
+                text: entry.node.brief(),
+            };
+            self.found.insert(path.clone(), found);
+        }
+        (path, entry)
+    }
+
+    fn place(&self, node: &Node) -> Option<Place> {
+        node.span.clone().map(|span| Place::new(self.text, span))
+    }
+
+    fn enter(&mut self, path: String, node: Option<&'a Node>) {
+        let header = node.and_then(|node| self.place(node));
+        let table = node.and_then(|node| match &node.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        });
+        self.frames.push(Frame {
+            path,
+            table,
+            header,
+            named: Vec::new(),
+            broken: node.is_some() && table.is_none(),
+        });
+    }
+
+    fn leave(&mut self) {
+        let Some(frame) = self.frames.pop() else {
+            return;
+        };
+        for (name, entry) in frame.table.into_iter().flatten() {
+            if !frame.named.contains(&name.as_str()) {
+                self.unknown(&frame, name, entry);
+            }
+        }
+    }
+
+    fn unknown(&mut self, frame: &Frame<'_>, name: &str, entry: &Entry) {
+        let path = join(&frame.path, name);
+        let home = |section: &str| match section {
+            "" => "the top of the file, before any section".to_string(),
+            section => format!("[{section}]"),
+        };
+        let elsewhere = |wanted: &str| {
+            let sections = known_keys().iter().filter(|(_, name)| name == wanted);
+            let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
+            homes.join(" or ")
+        };
+        let hint = if known_keys().iter().any(|(_, known)| known == name) {
+            format!("; it belongs in {}", elsewhere(name))
+        } else if let Some(known) = nearest(name, frame.named.iter().copied()) {
+            format!("; did you mean `{known}`?")
+        } else if let Some(known) = nearest(name, known_keys().iter().map(|(_, k)| k.as_str())) {
+            format!("; did you mean `{known}` in {}?", elsewhere(known))
+        } else {
+            String::new()
+        };
+        let place = entry
+            .key_span
+            .clone()
+            .map(|span| Place::new(self.text, span));
+        let allowed = if hint.is_empty() { frame.named.join(", ") } else { String::new() };
+        let problem = Problem::error(path, format!("unknown key{hint}"))
+            .value(entry.node.brief())
+            .allowed(allowed);
+        self.problems.push(problem.at(place));
+    }
+
+    fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
+        let element = misfit.element.as_ref().unwrap_or(node);
+        let place = self.place(element).or_else(|| self.place(node));
+        let source = if place.is_none() { " (given as an override)" } else { "" };
+        let problem = Problem::error(path, misfit.message + source)
+            .value(element.brief())
+            .allowed(misfit.allowed)
+            .unit(spec.unit);
+        self.problems.push(problem.at(place));
+    }
+
+    fn missing(&mut self, path: String, unit: &'static str, expected: String, why: &str) {
+        let frame = self.frame();
+        if frame.broken {
+            return;
+        }
+        let place = frame.header.clone();
+        let problem = Problem::error(path, format!("missing: {expected} is required{why}"));
+        self.problems.push(problem.unit(unit).at(place));
+    }
+
+    fn record<T: Leaf>(
+        &mut self,
+        path: &str,
+        spec: &Spec,
+        value: &T,
+        origin: Origin,
+        assumed: bool,
+    ) {
+        self.provenance.push(Provenance {
+            key: path.to_string(),
+            value: value.write(),
+            unit: spec.unit,
+            origin,
+            assumed,
+        });
+    }
+
+    /// Reads a key that the file gives.
+    fn read<T: Leaf>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
+        match T::read(node, spec) {
+            Ok(value) => {
+                let origin = match node.span {
+                    Some(_) => Origin::File,
+                    None => Origin::Override,
+                };
+                self.record(path, spec, &value, origin, false);
+                Some(value)
+            }
+            Err(misfit) => {
+                self.misfit(path.to_string(), spec, node, misfit);
+                None
+            }
+        }
+    }
+
+    /// Reads a key from the catalogue bearing.
+    fn catalogued<T: Leaf>(&mut self, path: &str, spec: &Spec) -> Option<T> {
+        let datum = self.preset?.values.iter().find(|value| value.key == path)?;
+        match T::read(&Node::from_datum(&datum.value), spec) {
+            Ok(value) => {
+                let origin = Origin::Preset {
+                    source: datum.source.clone(),
+                    estimated: datum.estimated,
+                };
+                self.record(path, spec, &value, origin, datum.estimated);
+                Some(value)
+            }
+            Err(misfit) => {
+                let message = format!("the catalogue's value does not fit: {}", misfit.message);
+                self.problems.push(Problem::error(path, message));
+                None
+            }
+        }
+    }
+
+    fn fall_back<T: Leaf>(
+        &mut self,
+        path: String,
+        spec: &Spec,
+        fallback: Fallback<T>,
+    ) -> Option<T> {
+        let expected = T::expected(spec);
+        match fallback {
+            Fallback::Required => self.missing(path, spec.unit, expected, ""),
+            Fallback::Catalogued if self.preset_unknown => {}
+            Fallback::Catalogued => {
+                let why = " without a bearing.preset that states it";
+                self.missing(path, spec.unit, expected, why);
+            }
+            Fallback::Needed(case) => {
+                self.missing(path, spec.unit, expected, &format!(" ({case})"));
+            }
+            Fallback::Derived { value, how } => {
+                if value.fits(spec) {
+                    self.record(&path, spec, &value, Origin::Derived(how), true);
+                    return Some(value);
+                }
+                // Otherwise what it derives from is at fault, and reported already.
+                if value.is_defined() || self.problems.is_empty() {
+                    let message = format!("cannot be derived ({how}): give it");
+                    let problem = Problem::error(path, message).value(value.write());
+                    self.problems.push(problem.allowed(T::range(spec)).unit(spec.unit));
+                }
+            }
+            Fallback::Fixed {
+                value,
+                why,
+                assumed,
+            } => {
+                self.record(&path, spec, &value, Origin::Default(why), assumed);
+                return Some(value);
+            }
+        }
+        None
+    }
+}
+
+impl Keys for Reader<'_> {
+    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
+        let (path, entry) = self.name(&spec);
+        let read = match entry {
+            Some(entry) => self.read(&path, &spec, &entry.node),
+            None => self
+                .catalogued(&path, &spec)
+                .or_else(|| self.fall_back(path, &spec, fallback)),
+        };
+        *value = read.unwrap_or_else(T::blank);
+    }
+
+    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
+        let (path, entry) = self.name(&spec);
+        *value = entry.map(|entry| {
+            self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank)
+        });
+    }
+
+    fn only_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        wanted: bool,
+        case: &'static str,
+        value: &mut T,
+    ) {
+        let (path, entry) = self.name(&spec);
+        *value = T::blank();
+        match entry {
+            Some(entry) if wanted => {
+                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank);
+            }
+            Some(entry) => {
+                let problem = Problem::error(path, format!("has a meaning only where {case}"))
+                    .value(entry.node.brief());
+                let place = self.place(&entry.node);
+                self.problems.push(problem.at(place));
+            }
+            None if wanted => {
+                let expected = T::expected(&spec);
+                self.missing(path, spec.unit, expected, &format!(" where {case}"));
+            }
+            None => {}
+        }
+    }
+
+    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+        self.optional(spec, value);
+        let Some(name) = value.as_ref().filter(|name| !name.is_empty()) else {
+            // Given, and not a name: reported as such.
+            self.preset_unknown = value.take().is_some();
+            return;
+        };
+        if let Some(entry) = catalogue::find(name) {
+            self.preset = Some(entry);
+            value.replace(entry.name.clone());
+            return;
+        }
+        self.preset_unknown = true;
+        let names = || catalogue::all().iter().map(|entry| entry.name.as_str());
+        let hint = nearest(name, names())
+            .map(|known| format!("; did you mean {}?", quote(known)))
+            .unwrap_or_default();
+        let path = join(&self.frame().path, spec.name);
+        let place = self.found.get(&path).and_then(|found| found.place.clone());
+        let problem = Problem::error(path, format!("not in the catalogue{hint}"))
+            .value(quote(name))
+            .allowed(names().collect::<Vec<_>>().join(", "));
+        self.problems.push(problem.at(place));
+    }
+
+    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+        let (path, entry) = self.name(&spec);
+        if let Some(entry) = entry
+            && !matches!(entry.node.value, Value::Table(_))
+        {
+            let message = format!("expected a section [{path}], found {}", entry.node.kind());
+            let problem = Problem::error(path.clone(), message).value(entry.node.brief());
+            let place = self.place(&entry.node);
+            self.problems.push(problem.at(place));
+        }
+        self.enter(path, entry.map(|entry| &entry.node));
+        keys(self);
+        self.leave();
+    }
+
+    fn tables<T>(
+        &mut self,
+        spec: Spec,
+        items: &mut Vec<T>,
+        blank: fn() -> T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        let (path, entry) = self.name(&spec);
+        items.clear();
+        let Some(entry) = entry else {
+            return;
+        };
+        let wrong = |node: &Node| {
+            let kind = node.kind();
+            let message = format!("expected tables, each headed [[{path}]], found {kind}");
+            Problem::error(path.clone(), message).value(node.brief())
+        };
+        let Value::Array(nodes) = &entry.node.value else {
+            let problem = wrong(&entry.node).at(self.place(&entry.node));
+            self.problems.push(problem);
+            return;
+        };
+        for (i, node) in nodes.iter().enumerate() {
+            if !matches!(node.value, Value::Table(_)) {
+                let problem = wrong(node).at(self.place(node));
+                self.problems.push(problem);
+                continue;
+            }
+            let mut item = blank();
+            self.enter(format!("{path}.{i}"), Some(node));
+            keys(self, &mut item);
+            self.leave();
+            items.push(item);
+        }
+    }
+
+    fn one_of<T: 'static>(
+        &mut self,
+        spec: Spec,
+        variants: &'static [Variant<T>],
+        value: &mut T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        let (path, entry) = self.name(&spec);
+        *value = (variants[0].blank)();
+        let known: Vec<&str> = variants.iter().map(|variant| variant.name).collect();
+        let list = known.join(", ");
+        let Some(entry) = entry else {
+            self.missing(path, "", format!("a table with one of {list}"), "");
+            return;
+        };
+        let place = self.place(&entry.node);
+        let wrong = |message: String| {
+            Problem::error(path.clone(), message)
+                .value(entry.node.brief())
+                .allowed(format!("exactly one of {list}"))
+                .at(place.clone())
+        };
+        let Value::Table(table) = &entry.node.value else {
+            let message = format!(
+                "expected a table such as {{ {} = {{ ... }} }}, found {}",
+                known[0],
+                entry.node.kind()
+            );
+            self.problems.push(wrong(message));
+            return;
+        };
+        if table.len() != 1 {
+            self.problems.push(wrong(format!("it has {} keys", table.len())));
+        }
+        for (name, inner) in table {
+            let inner_path = join(&path, name);
+            let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+                let hint = nearest(name, known.iter().copied())
+                    .map(|known| format!("; did you mean `{known}`?"))
+                    .unwrap_or_default();
+                let key_place = inner.key_span.clone().map(|span| Place::new(self.text, span));
+                let problem = Problem::error(inner_path, format!("unknown {}{hint}", spec.name))
+                    .value(inner.node.brief())
+                    .allowed(list.clone());
+                self.problems.push(problem.at(key_place));
+                continue;
+            };
+            if !matches!(inner.node.value, Value::Table(_)) {
+                let message = format!("expected a table, found {}", inner.node.kind());
+                let problem = Problem::error(inner_path.clone(), message)
+                    .value(inner.node.brief())
+                    .at(self.place(&inner.node));
+                self.problems.push(problem);
+            }
+            *value = (variant.blank)();
+            self.enter(inner_path, Some(&inner.node));
+            keys(self, value);
+            self.leave();
+        }
+    }
+}

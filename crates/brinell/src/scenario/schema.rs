@@ -1,0 +1,196 @@
+//! The walk that describes a scenario file as a JSON Schema (draft 2020-12).
+
+use std::sync::LazyLock;
+
+use serde_json::{Map, Value as Json, json};
+
+use super::keys::{Fallback, Keys, Spec, Variant};
+use super::leaf::Leaf;
+use super::{blank, sections};
+
+#[derive(Default)]
+struct Object {
+    properties: Map<String, Json>,
+    required: Vec<&'static str>,
+    /// Required unless a catalogue bearing states them.
+    catalogued: Vec<&'static str>,
+    preset: Option<&'static str>,
+}
+
+impl Object {
+    fn needs_anything(&self) -> bool {
+        !self.required.is_empty() || !self.catalogued.is_empty()
+    }
+
+    fn schema(self, doc: &str) -> Json {
+        let mut schema = json!({
+            "type": "object",
+            "description": doc,
+            "properties": self.properties,
+            "additionalProperties": false,
+        });
+        if !self.required.is_empty() {
+            schema["required"] = json!(self.required);
+        }
+        if !self.catalogued.is_empty() {
+            let mut ways = Vec::new();
+            if let Some(preset) = self.preset {
+                ways.push(json!({ "required": [preset] }));
+            }
+            ways.push(json!({ "required": self.catalogued }));
+            schema["anyOf"] = json!(ways);
+        }
+        schema
+    }
+}
+
+struct Schema {
+    objects: Vec<Object>,
+}
+
+impl Schema {
+    fn object(&mut self) -> &mut Object {
+        self.objects.last_mut().expect("the root object stays until the walk ends")
+    }
+
+    fn put(&mut self, spec: &Spec, mut schema: Json, doc: String) {
+        schema["description"] = json!(doc);
+        if !spec.unit.is_empty() {
+            schema["x-unit"] = json!(spec.unit);
+        }
+        self.object().properties.insert(spec.name.into(), schema);
+    }
+
+    fn nested(&mut self, keys: impl FnOnce(&mut Self)) -> Object {
+        self.objects.push(Object::default());
+        keys(self);
+        self.objects.pop().unwrap_or_default()
+    }
+}
+
+fn describe(spec: &Spec) -> String {
+    match spec.unit {
+        "" => spec.doc.to_string(),
+        unit => format!("{} ({unit})", spec.doc),
+    }
+}
+
+impl Keys for Schema {
+    fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, _: &mut T) {
+        let mut schema = T::schema(&spec);
+        let mut doc = describe(&spec);
+        match fallback {
+            Fallback::Required => self.object().required.push(spec.name),
+            Fallback::Catalogued => {
+                self.object().catalogued.push(spec.name);
+                doc.push_str("; required without a preset that states it");
+            }
+            Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
+            Fallback::Derived { how, .. } => doc.push_str(&format!("; default: {how}")),
+            Fallback::Fixed { value, why, .. } => {
+                // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
+                if let Ok(value) = serde_json::from_str::<Json>(&value.write()) {
+                    schema["default"] = value;
+                }
+                doc.push_str(&format!("; default: {why}"));
+            }
+        }
+        self.put(&spec, schema, doc);
+    }
+
+    fn optional<T: Leaf>(&mut self, spec: Spec, _: &mut Option<T>) {
+        self.put(&spec, T::schema(&spec), describe(&spec));
+    }
+
+    fn only_where<T: Leaf>(&mut self, spec: Spec, _: bool, case: &'static str, _: &mut T) {
+        let doc = format!("{}; required where {case}, and only there", describe(&spec));
+        self.put(&spec, T::schema(&spec), doc);
+    }
+
+    fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+        self.object().preset = Some(spec.name);
+        self.optional(spec, value);
+    }
+
+    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+        let object = self.nested(|schema| keys(schema));
+        if object.needs_anything() {
+            self.object().required.push(spec.name);
+        }
+        let schema = object.schema(spec.doc);
+        self.object().properties.insert(spec.name.into(), schema);
+    }
+
+    fn tables<T>(
+        &mut self,
+        spec: Spec,
+        _: &mut Vec<T>,
+        blank: fn() -> T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        let object = self.nested(|schema| keys(schema, &mut blank()));
+        let schema = json!({ "type": "array", "items": object.schema(spec.doc) });
+        self.put(&spec, schema, spec.doc.to_string());
+    }
+
+    fn one_of<T: 'static>(
+        &mut self,
+        spec: Spec,
+        variants: &'static [Variant<T>],
+        _: &mut T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        let shapes = self.nested(|schema| {
+            for variant in variants {
+                let inner = schema.nested(|schema| keys(schema, &mut (variant.blank)()));
+                let inner = inner.schema(variant.doc);
+                schema.object().properties.insert(variant.name.into(), inner);
+            }
+        });
+        let mut schema = shapes.schema(spec.doc);
+        schema["minProperties"] = json!(1);
+        schema["maxProperties"] = json!(1);
+        self.object().required.push(spec.name);
+        self.object().properties.insert(spec.name.into(), schema);
+    }
+}
+
+/// JSON Schema (draft 2020-12) of a scenario file; TOML tables are objects.
+pub fn json_schema() -> Json {
+    let mut walk = Schema {
+        objects: vec![Object::default()],
+    };
+    sections::scenario(&mut walk, &mut blank::scenario());
+    let root = walk.objects.pop().unwrap_or_default();
+    let mut schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "brinell scenario",
+    });
+    let body = root.schema("one run of brinell, completely described");
+    if let (Json::Object(schema), Json::Object(body)) = (&mut schema, body) {
+        schema.extend(body);
+    }
+    schema
+}
+
+/// Every key as (section, name); the section of a table in a list is written without index.
+pub(crate) fn known_keys() -> &'static [(String, String)] {
+    static KEYS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
+        let mut keys = Vec::new();
+        collect("", &json_schema(), &mut keys);
+        keys
+    });
+    &KEYS
+}
+
+fn collect(section: &str, schema: &Json, keys: &mut Vec<(String, String)>) {
+    for (name, inner) in schema["properties"].as_object().into_iter().flatten() {
+        keys.push((section.to_string(), name.clone()));
+        let path = match section {
+            "" => name.clone(),
+            section => format!("{section}.{name}"),
+        };
+        collect(&path, inner, keys);
+        collect(&path, &inner["items"], keys);
+    }
+}

@@ -1,0 +1,495 @@
+//! Every key of a scenario file: name, meaning, range, default, once and in order.
+
+use std::f64::consts::PI;
+
+use super::blank;
+use super::keys::Fallback::{Catalogued, Needed, Required};
+use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
+use super::types::*;
+use super::words::SurfaceWord;
+
+/// Exponent of a line contact (model.md, section 1).
+const LINE_EXPONENT: f64 = 10.0 / 9.0;
+/// Rolling bearing steel, kg/mm^3.
+const STEEL: f64 = 7.85e-6;
+/// Palmgren's line contact, N/mm^(10/9) for L in mm (model.md, section 2).
+const PALMGREN: f64 = 8.06e4;
+
+const POINT_OF_SCOPE: &str = "not in the paper's model";
+const PAPER: &str = "Li et al. 2023";
+
+pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
+    let name = key("name", "name of the run, free text");
+    k.key(name, stated("unnamed".into(), "no name given"), &mut s.name);
+    k.section(key("bearing", "geometry and masses"), |k| {
+        bearing(k, &mut s.bearing)
+    });
+    k.section(key("cage", "one cage for each row"), |k| {
+        cage(k, &s.bearing, &mut s.cage)
+    });
+    k.section(key("contact", "rollers on raceways, along the normal"), |k| {
+        contact(k, &s.bearing, &mut s.contact)
+    });
+    k.section(key("friction", "rollers on raceways, along the surface"), |k| {
+        friction(k, &mut s.friction)
+    });
+    k.section(key("lubricant", "oil"), |k| lubricant(k, &mut s.lubricant));
+    k.section(key("operation", "speed, load and gravity"), |k| {
+        operation(k, &mut s.operation)
+    });
+    k.section(
+        key("support", "springs and dampers that hold the rings"),
+        |k| support(k, s.operation.load_on, &mut s.support),
+    );
+    let load = s.operation.load_n;
+    k.tables(
+        key("defects", "damage: none, one or many"),
+        &mut s.defects,
+        blank::defect,
+        |k, d| defect(k, load, d),
+    );
+    k.section(key("simulation", "what to compute and to record"), |k| {
+        simulation(k, &mut s.simulation)
+    });
+}
+
+fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
+    k.preset(
+        key("preset", "catalogue bearing that fills the keys left out"),
+        &mut b.preset,
+    );
+    k.key(
+        key("inner_raceway_diameter_mm", "D_i").above(0.0),
+        Catalogued,
+        &mut b.inner_raceway_diameter_mm,
+    );
+    k.key(
+        key("outer_raceway_diameter_mm", "D_o").above(0.0),
+        Catalogued,
+        &mut b.outer_raceway_diameter_mm,
+    );
+    let mean = 0.5 * (b.inner_raceway_diameter_mm + b.outer_raceway_diameter_mm);
+    k.key(
+        key("pitch_diameter_mm", "D_m, circle of the roller centres").above(0.0),
+        derived(mean, "mean of the raceway diameters"),
+        &mut b.pitch_diameter_mm,
+    );
+    k.key(
+        key("roller_diameter_mm", "d").above(0.0),
+        Catalogued,
+        &mut b.roller_diameter_mm,
+    );
+    k.key(
+        key("roller_length_mm", "L, effective contact length").above(0.0),
+        Catalogued,
+        &mut b.roller_length_mm,
+    );
+    k.key(
+        key("rollers_per_row", "Z").from(3.0).to(1000.0),
+        Catalogued,
+        &mut b.rollers_per_row,
+    );
+    k.key(
+        key("rows", "N_r").from(1.0).to(100.0),
+        assumed(1, "a single row"),
+        &mut b.rows,
+    );
+    let stagger = key("row_stagger_deg", "row i starts (i - 1) times this later");
+    let stagger_default = if b.rows == 1 {
+        stated(0.0, "a single row")
+    } else {
+        derived(180.0 / b.rollers_per_row as f64, "half a roller pitch")
+    };
+    k.key(stagger, stagger_default, &mut b.row_stagger_deg);
+    k.key(
+        key(
+            "radial_clearance_um",
+            "C_r, gap on one side, half of ISO 5753's; negative is preload",
+        ),
+        assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
+        &mut b.radial_clearance_um,
+    );
+    k.key(
+        key("outer_gap_um", "gap subtracted at the outer contact too").from(0.0),
+        stated(0.0, "all clearance is at the inner contact"),
+        &mut b.outer_gap_um,
+    );
+    // Rings of rectangular section: wall 0.6 d, width 1.6 L for each row. The NN3007's lie within 20 % of it.
+    let wall = 0.6 * b.roller_diameter_mm;
+    let ring = |mean_diameter: f64| {
+        STEEL * PI * mean_diameter * wall * 1.6 * b.roller_length_mm * b.rows as f64
+    };
+    let ring_how = "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row";
+    let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
+    let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
+    k.key(
+        key("inner_ring_mass_kg", "m_i, with all that moves with it").above(0.0),
+        derived(inner_ring, ring_how),
+        &mut b.inner_ring_mass_kg,
+    );
+    k.key(
+        key("outer_ring_mass_kg", "m_o, with all that moves with it").above(0.0),
+        derived(outer_ring, ring_how),
+        &mut b.outer_ring_mass_kg,
+    );
+    let roller = STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm;
+    k.key(
+        key("roller_mass_kg", "m").above(0.0),
+        derived(roller, "steel cylinder"),
+        &mut b.roller_mass_kg,
+    );
+}
+
+fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
+    let d = b.roller_diameter_mm;
+    k.key(
+        key("inner_diameter_mm", "2 a").above(0.0),
+        derived(b.pitch_diameter_mm - 2.0 / 3.0 * d, "pitch less 2/3 roller diameter"),
+        &mut c.inner_diameter_mm,
+    );
+    k.key(
+        key("outer_diameter_mm", "2 b").above(0.0),
+        derived(b.pitch_diameter_mm + 2.0 / 3.0 * d, "pitch plus 2/3 roller diameter"),
+        &mut c.outer_diameter_mm,
+    );
+    // A ring of width 1.25 L with its pockets cut out.
+    let thickness = 0.5 * (c.outer_diameter_mm - c.inner_diameter_mm);
+    let area = 1.25 * PI * b.pitch_diameter_mm - b.rollers_per_row as f64 * d;
+    k.key(
+        key("mass_kg", "m_c").above(0.0),
+        derived(
+            STEEL * thickness * b.roller_length_mm * area,
+            "steel ring, width 1.25 roller lengths, pockets cut out",
+        ),
+        &mut c.mass_kg,
+    );
+    k.key(
+        key("pocket_clearance_mm", "C_p, to each side").from(0.0),
+        derived(0.015 * d, "1.5 % of the roller diameter"),
+        &mut c.pocket_clearance_mm,
+    );
+    k.key(
+        key("guidance", "what centres the cage"),
+        assumed(Guidance::OuterRing, PAPER),
+        &mut c.guidance,
+    );
+    let (gap, how) = match c.guidance {
+        Guidance::InnerRing => (
+            0.5 * (c.inner_diameter_mm - b.inner_raceway_diameter_mm),
+            "gap between cage and inner raceway",
+        ),
+        Guidance::OuterRing | Guidance::Rollers => (
+            0.5 * (b.outer_raceway_diameter_mm - c.outer_diameter_mm),
+            "gap between cage and outer raceway",
+        ),
+    };
+    k.key(
+        key("guide_clearance_mm", "C_g, radial gap of the land").above(0.0),
+        derived(gap, how),
+        &mut c.guide_clearance_mm,
+    );
+    k.key(
+        key("guide_width_mm", "L_1, width of the land").above(0.0),
+        derived(b.roller_length_mm, "the roller's length"),
+        &mut c.guide_width_mm,
+    );
+    k.key(
+        key("contact_stiffness_n_per_m", "k_c, of pockets and land").above(0.0),
+        assumed(1e7, "the paper does not state it"),
+        &mut c.contact_stiffness_n_per_m,
+    );
+    k.key(
+        key("contact_damping_ns_per_m", "c_c, of pockets").from(0.0),
+        assumed(20.0, "the paper does not state it"),
+        &mut c.contact_damping_ns_per_m,
+    );
+}
+
+fn contact<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
+    k.key(
+        key("law", "force of a damaged contact"),
+        stated(Law::Ecl, PAPER),
+        &mut c.law,
+    );
+    k.key(
+        key("roller_path", "how a roller follows the damage's floor"),
+        stated(RollerPath::Point, PAPER),
+        &mut c.roller_path,
+    );
+    k.key(
+        key("slices", "slices across the roller; ecl does not use them").from(1.0).to(10000.0),
+        stated(30, "ecl does not use them"),
+        &mut c.slices,
+    );
+    k.key(
+        key("edge_reaction", "push of the damage's slopes along the orbit"),
+        stated(EdgeReaction::None, PAPER),
+        &mut c.edge_reaction,
+    );
+    k.key(
+        key("exponent", "n of Q = K delta^n").from(1.0).to(2.0),
+        stated(LINE_EXPONENT, "line contact, 10/9"),
+        &mut c.exponent,
+    );
+    let palmgren = || {
+        if (c.exponent - LINE_EXPONENT).abs() < 1e-9 {
+            let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
+            derived(k_mm * 1000f64.powf(LINE_EXPONENT), "Palmgren, 8.06e4 L^(8/9)")
+        } else {
+            Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
+        }
+    };
+    let (inner, outer) = (palmgren(), palmgren());
+    k.key(
+        key("inner_stiffness", "K_in of a healthy contact").above(0.0).unit("N/m^n"),
+        inner,
+        &mut c.inner_stiffness,
+    );
+    k.key(
+        key("outer_stiffness", "K_out of a healthy contact").above(0.0).unit("N/m^n"),
+        outer,
+        &mut c.outer_stiffness,
+    );
+    k.key(
+        key("damping_ns_per_m", "c, at each raceway").from(0.0),
+        assumed(200.0, PAPER),
+        &mut c.damping_ns_per_m,
+    );
+}
+
+fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
+    k.key(
+        key("raceway_coefficient", "mu").from(0.0),
+        assumed(0.02, PAPER),
+        &mut f.raceway_coefficient,
+    );
+    k.key(
+        key("slip_velocity_m_per_s", "v_s of tanh(slip / v_s)").above(0.0),
+        assumed(0.05, "regularises friction; the paper does not state it"),
+        &mut f.slip_velocity_m_per_s,
+    );
+}
+
+fn lubricant<K: Keys>(k: &mut K, l: &mut Lubricant) {
+    k.key(
+        key("viscosity_pa_s", "eta of the cage's guidance film").from(0.0),
+        assumed(0.01, "warm spindle oil; the paper does not state it"),
+        &mut l.viscosity_pa_s,
+    );
+    k.key(
+        key("drag_coefficient", "C_d of a roller in the oil-air mixture").from(0.0),
+        stated(0.0, POINT_OF_SCOPE),
+        &mut l.drag_coefficient,
+    );
+    k.key(
+        key("effective_density_kg_per_m3", "rho_f of the oil-air mixture").from(0.0),
+        stated(0.0, POINT_OF_SCOPE),
+        &mut l.effective_density_kg_per_m3,
+    );
+}
+
+fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
+    k.key(
+        key(
+            "speed_rpm",
+            "inner ring, counter-clockwise; a number other than 0, or points [[t_s, rpm], ...]",
+        ),
+        Required,
+        &mut o.speed_rpm,
+    );
+    k.key(
+        key("load_n", "F = [x, y], from the bearing's centre to the load zone"),
+        Required,
+        &mut o.load_n,
+    );
+    k.key(
+        key("load_on", "ring that carries the load"),
+        stated(LoadOn::OuterRing, "the paper's rig"),
+        &mut o.load_on,
+    );
+    k.key(
+        key("load_ramp_s", "time over which the load rises").from(0.0),
+        assumed(0.02, "the paper does not state it"),
+        &mut o.load_ramp_s,
+    );
+    k.key(
+        key("gravity_m_per_s2", "g = [x, y], on every body"),
+        stated([0.0, 0.0], POINT_OF_SCOPE),
+        &mut o.gravity_m_per_s2,
+    );
+}
+
+fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
+    // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
+    let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
+    let (inner, outer) = match load_on {
+        LoadOn::OuterRing => (5e7, 1e6),
+        LoadOn::InnerRing => (1e6, 5e7),
+    };
+    k.key(
+        key("inner_stiffness_n_per_m", "k_i").from(0.0),
+        assumed(inner, why),
+        &mut s.inner_stiffness_n_per_m,
+    );
+    k.key(
+        key("inner_damping_ns_per_m", "c_i").from(0.0),
+        assumed(500.0, "the paper does not state it"),
+        &mut s.inner_damping_ns_per_m,
+    );
+    k.key(
+        key("outer_stiffness_n_per_m", "k_o").from(0.0),
+        assumed(outer, why),
+        &mut s.outer_stiffness_n_per_m,
+    );
+    k.key(
+        key("outer_damping_ns_per_m", "c_o").from(0.0),
+        assumed(500.0, "the paper does not state it"),
+        &mut s.outer_damping_ns_per_m,
+    );
+}
+
+/// The shapes of a defect.
+const SHAPES: &[Variant<Shape>] = &[
+    Variant {
+        name: "rectangle",
+        doc: "as wide all along",
+        blank: blank::rectangle,
+    },
+    Variant {
+        name: "circle",
+        doc: "a round pit",
+        blank: blank::circle,
+    },
+    Variant {
+        name: "profile",
+        doc: "points joined by lines; where arc_mm repeats, it jumps",
+        blank: blank::profile,
+    },
+    Variant {
+        name: "li2023_irregular",
+        doc: "the paper's irregular spall, 7 mm long",
+        blank: blank::irregular,
+    },
+];
+
+fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
+    let (mut word, mut roller) = match d.on {
+        Surface::OuterRaceway => (SurfaceWord::OuterRaceway, 1),
+        Surface::InnerRaceway => (SurfaceWord::InnerRaceway, 1),
+        Surface::Roller(number) => (SurfaceWord::Roller, number),
+    };
+    k.key(key("on", "damaged surface"), Required, &mut word);
+    k.only_where(
+        key("roller", "which roller of the row, from 1").from(1.0),
+        word == SurfaceWord::Roller,
+        "on = \"roller\"",
+        &mut roller,
+    );
+    d.on = match word {
+        SurfaceWord::OuterRaceway => Surface::OuterRaceway,
+        SurfaceWord::InnerRaceway => Surface::InnerRaceway,
+        SurfaceWord::Roller => Surface::Roller(roller),
+    };
+    k.key(
+        key("row", "which row, from 1").from(1.0),
+        assumed(1, "the first row"),
+        &mut d.row,
+    );
+    let center = if word == SurfaceWord::OuterRaceway {
+        derived(
+            load[1].atan2(load[0]).to_degrees(),
+            "the middle of the load zone",
+        )
+    } else {
+        assumed(0.0, "it turns through the load anyway")
+    };
+    k.key(
+        key("center_deg", "psi, counter-clockwise from +x"),
+        center,
+        &mut d.center_deg,
+    );
+    k.one_of(
+        key("shape", "outline; length along the rolling direction, width along the axis"),
+        SHAPES,
+        &mut d.shape,
+        shape,
+    );
+    let depth = match &d.shape {
+        Shape::Profile {
+            depth_um: Some(_), ..
+        } => stated(0.0, "the profile has depths of its own"),
+        _ => Needed("a profile with depth_um of its own does without"),
+    };
+    k.key(
+        key("depth_um", "h; a profile's own depths override it").from(0.0),
+        depth,
+        &mut d.depth_um,
+    );
+}
+
+fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
+    const WIDTH: Spec = key("width_mm", "L_s, along the axis, at most the roller's length").from(0.0);
+    match shape {
+        Shape::Rectangle {
+            length_mm,
+            width_mm,
+        } => {
+            let length = key("length_mm", "along the rolling direction").above(0.0);
+            k.key(length, Required, length_mm);
+            k.key(WIDTH, Required, width_mm);
+        }
+        Shape::Circle { diameter_mm } => {
+            let diameter = key("diameter_mm", "2 a, at most the roller's length").above(0.0);
+            k.key(diameter, Required, diameter_mm);
+        }
+        Shape::Profile {
+            arc_mm,
+            width_mm,
+            depth_um,
+        } => {
+            let arc = key("arc_mm", "s of each point, never decreasing");
+            k.key(arc, Required, arc_mm);
+            k.key(WIDTH, Required, width_mm);
+            let depth = key("depth_um", "h_s at each point; left out: the defect's depth");
+            k.optional(depth.from(0.0), depth_um);
+        }
+        Shape::Li2023Irregular { max_width_mm } => {
+            let width = key("max_width_mm", "largest L_s, at most the roller's length");
+            k.key(width.from(0.0), stated(4.0, PAPER), max_width_mm);
+        }
+    }
+}
+
+fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
+    k.key(
+        key("model", "equations"),
+        stated(ModelKind::Full, "the model itself"),
+        &mut s.model,
+    );
+    k.key(
+        key("duration_s", "simulated time").above(0.0).to(1e6),
+        assumed(0.5, "the paper does not state it"),
+        &mut s.duration_s,
+    );
+    k.key(
+        key("sample_rate_hz", "f_s").above(0.0).to(1e9),
+        stated(25600.0, "the paper's data logger"),
+        &mut s.sample_rate_hz,
+    );
+    k.key(
+        key("start", "state at t = 0"),
+        stated(Start::Rolling, PAPER),
+        &mut s.start,
+    );
+    k.key(
+        key("accuracy", "tolerance of the integrator"),
+        assumed(Accuracy::Standard, "the paper does not state its integrator"),
+        &mut s.accuracy,
+    );
+    let usual = ["inner_*", "outer_*", "cage*", "measured_*"].map(String::from);
+    k.key(
+        key("record", "channels to keep; * matches any characters"),
+        stated(usual.to_vec(), "rings, cages and the measured pair"),
+        &mut s.record,
+    );
+}

@@ -1,0 +1,263 @@
+//! The tree of values that a scenario is read from: the TOML text with the overrides laid over it.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::problem::{Place, Problem};
+use crate::bearing::catalogue::Datum;
+
+/// A value and where it stands in the file; an override stands nowhere.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    pub(crate) value: Value,
+    pub(crate) span: Option<Range<usize>>,
+}
+
+/// A TOML value.
+#[derive(Debug, Clone)]
+pub(crate) enum Value {
+    Text(String),
+    Integer(i64),
+    /// A whole number that no 64 bits hold.
+    HugeInteger(String),
+    Float(f64),
+    Boolean(bool),
+    Datetime(String),
+    Array(Vec<Node>),
+    Table(Table),
+}
+
+pub(crate) type Table = BTreeMap<String, Entry>;
+
+/// A key of a table.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) key_span: Option<Range<usize>>,
+    pub(crate) node: Node,
+}
+
+impl Node {
+    fn unplaced(value: Value) -> Node {
+        Node { value, span: None }
+    }
+
+    pub(crate) fn from_datum(datum: &Datum) -> Node {
+        Node::unplaced(match datum {
+            Datum::Number(x) => Value::Float(*x),
+            Datum::Integer(n) => Value::Integer(*n),
+            Datum::Text(text) => Value::Text(text.clone()),
+        })
+    }
+
+    fn from_toml(value: &toml::Spanned<DeValue<'_>>, placed: bool) -> Node {
+        let inner = match value.get_ref() {
+            DeValue::String(text) => Value::Text(text.to_string()),
+            DeValue::Integer(number) => {
+                match i64::from_str_radix(number.as_str(), number.radix()) {
+                    Ok(n) => Value::Integer(n),
+                    Err(_) => Value::HugeInteger(number.to_string()),
+                }
+            }
+            DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(truth) => Value::Boolean(*truth),
+            DeValue::Datetime(time) => Value::Datetime(time.to_string()),
+            DeValue::Array(items) => {
+                Value::Array(items.iter().map(|item| Node::from_toml(item, placed)).collect())
+            }
+            DeValue::Table(table) => Value::Table(convert_table(table, placed)),
+        };
+        Node {
+            value: inner,
+            span: placed.then(|| value.span()),
+        }
+    }
+
+    /// The TOML type with its article.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.value {
+            Value::Text(_) => "a string",
+            Value::Integer(_) | Value::HugeInteger(_) => "a whole number",
+            Value::Float(_) => "a decimal number",
+            Value::Boolean(_) => "true or false",
+            Value::Datetime(_) => "a date or time",
+            Value::Array(_) => "a list",
+            Value::Table(_) => "a table",
+        }
+    }
+
+    /// The value on one short line, for messages.
+    pub(crate) fn brief(&self) -> String {
+        const LONGEST: usize = 60;
+        let mut text = String::new();
+        self.render(&mut text, LONGEST);
+        if text.chars().count() > LONGEST {
+            text = text.chars().take(LONGEST).collect();
+            text.push_str("...");
+        }
+        text
+    }
+
+    fn render(&self, out: &mut String, enough: usize) {
+        if out.len() > 4 * enough {
+            return;
+        }
+        match &self.value {
+            Value::Text(text) => out.push_str(&quote(text)),
+            Value::Integer(n) => out.push_str(&n.to_string()),
+            Value::HugeInteger(text) | Value::Datetime(text) => out.push_str(text),
+            Value::Float(x) => out.push_str(&float(*x)),
+            Value::Boolean(truth) => out.push_str(&truth.to_string()),
+            Value::Array(items) => {
+                out.push('[');
+                for (i, item) in items.iter().enumerate() {
+                    out.push_str(if i == 0 { "" } else { ", " });
+                    item.render(out, enough);
+                }
+                out.push(']');
+            }
+            Value::Table(table) => {
+                out.push_str("{ ");
+                for (i, (name, entry)) in table.iter().enumerate() {
+                    out.push_str(if i == 0 { "" } else { ", " });
+                    out.push_str(name);
+                    out.push_str(" = ");
+                    entry.node.render(out, enough);
+                }
+                out.push_str(" }");
+            }
+        }
+    }
+}
+
+fn convert_table(table: &DeTable<'_>, placed: bool) -> Table {
+    table
+        .iter()
+        .map(|(key, value)| {
+            let entry = Entry {
+                key_span: placed.then(|| key.span()),
+                node: Node::from_toml(value, placed),
+            };
+            (key.get_ref().to_string(), entry)
+        })
+        .collect()
+}
+
+/// A float as TOML writes it; it reads back to the same bits.
+pub(crate) fn float(x: f64) -> String {
+    let size = x.abs();
+    if x.is_nan() {
+        "nan".into()
+    } else if x.is_finite() && (size >= 1e6 || (size > 0.0 && size < 1e-3)) {
+        format!("{x:e}")
+    } else {
+        format!("{x:?}")
+    }
+}
+
+/// A string as TOML writes it, on one line.
+pub(crate) fn quote(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            '\r' => out.push_str("\\r"),
+            c if c.is_control() => out.push_str(&format!("\\u{:04X}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// Parses `text` and lays `overrides` over it. Every syntax error is reported.
+pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Problem>> {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let mut problems: Vec<Problem> = Vec::new();
+    for error in &errors {
+        let place = error.span().map(|span| Place::new(text, span));
+        let line = place.as_ref().map(|place| place.line);
+        // A broken line often breaks in several ways: the first says enough.
+        if !problems.iter().any(|other| other.line == line) {
+            let message = format!("not valid TOML: {}", error.message());
+            problems.push(Problem::error("", message).at(place));
+        }
+    }
+    let mut root = Node::unplaced(Value::Table(convert_table(table.get_ref(), true)));
+    for (path, value) in overrides {
+        if let Err(problem) = lay_over(&mut root, path, value) {
+            problems.push(problem);
+        }
+    }
+    match root.value {
+        Value::Table(table) if problems.is_empty() => Ok(table),
+        _ => Err(problems),
+    }
+}
+
+fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Problem> {
+    let wrong = |message: String| Problem::error(path, message).value(brief_text(text));
+    let value = override_value(text).map_err(wrong)?;
+    let mut node = root;
+    let mut walked = String::new();
+    for segment in path.split('.') {
+        let segment = segment.trim();
+        if segment.is_empty() {
+            return Err(wrong(
+                "an override names its key by a dotted path, such as operation.speed_rpm".into(),
+            ));
+        }
+        let kind = node.kind();
+        node = match &mut node.value {
+            Value::Table(table) => {
+                &mut table
+                    .entry(segment.to_string())
+                    .or_insert_with(|| Entry {
+                        key_span: None,
+                        node: Node::unplaced(Value::Table(Table::new())),
+                    })
+                    .node
+            }
+            Value::Array(items) => {
+                let count = items.len();
+                let index = segment.parse::<usize>().ok().filter(|i| *i <= count);
+                let Some(index) = index else {
+                    return Err(wrong(format!(
+                        "{walked} has {count} elements, counted from 0; \
+                         `{segment}` is neither one of them nor the next"
+                    )));
+                };
+                if index == count {
+                    items.push(Node::unplaced(Value::Table(Table::new())));
+                }
+                &mut items[index]
+            }
+            _ => return Err(wrong(format!("{walked} is {kind} and has no keys"))),
+        };
+        if !walked.is_empty() {
+            walked.push('.');
+        }
+        walked.push_str(segment);
+    }
+    *node = value;
+    Ok(())
+}
+
+/// A TOML value; a bare word is a string.
+fn override_value(text: &str) -> Result<Node, String> {
+    match DeValue::parse(text.trim()) {
+        Ok(value) => Ok(Node::from_toml(&value, false)),
+        Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => {
+            Err(format!("not a TOML value: {}", error.message()))
+        }
+        Err(_) => Ok(Node::unplaced(Value::Text(text.trim().to_string()))),
+    }
+}
+
+fn brief_text(text: &str) -> String {
+    Node::unplaced(Value::Text(text.to_string())).brief()
+}

@@ -1,0 +1,66 @@
+//! The words that keys with a closed choice accept.
+
+use super::leaf::Choice;
+use super::types::*;
+
+macro_rules! words {
+    ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
+        impl Choice for $type {
+            const WORDS: &'static [(&'static str, Self, &'static str)] =
+                &[$(($word, $type::$variant, $meaning)),+];
+        }
+    };
+}
+
+words! { Guidance:
+    OuterRing = "outer-ring", "a land on the outer ring";
+    InnerRing = "inner-ring", "a land on the inner ring";
+    Rollers = "rollers", "no land";
+}
+
+words! { Law:
+    Ecl = "ecl", "effective contact length";
+}
+
+words! { RollerPath:
+    Point = "point", "the depth under the contact line";
+}
+
+words! { EdgeReaction:
+    None = "none", "slopes of the damage do not push";
+}
+
+words! { LoadOn:
+    OuterRing = "outer-ring", "-F on the outer ring";
+    InnerRing = "inner-ring", "+F on the inner ring";
+}
+
+words! { ModelKind:
+    Full = "full", "every part moves";
+    Reference = "reference", "lumped rings, kinematic cage";
+}
+
+words! { Start:
+    Rolling = "rolling", "pure rolling, rings 1 um off centre";
+    Rest = "rest", "only the inner ring turns";
+    Equilibrium = "equilibrium", "pure rolling in static balance";
+}
+
+words! { Accuracy:
+    Standard = "standard", "about 1 % of an acceleration over 2.5 ms";
+    Reference = "reference", "as tight as makes sense";
+}
+
+/// The word of `on`; the roller's number is a key of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SurfaceWord {
+    OuterRaceway,
+    InnerRaceway,
+    Roller,
+}
+
+words! { SurfaceWord:
+    OuterRaceway = "outer-raceway", "fixed in space";
+    InnerRaceway = "inner-raceway", "turns with the ring";
+    Roller = "roller", "turns with that roller";
+}

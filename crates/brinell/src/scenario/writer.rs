@@ -1,0 +1,258 @@
+//! The walk that writes a scenario as TOML: with every default filled in, or as a template to edit.
+
+use std::collections::HashMap;
+
+use super::keys::{Fallback, Keys, Spec, Variant, variant_of};
+use super::leaf::Leaf;
+use super::provenance::{Origin, Provenance};
+
+/// What the comments say, and which keys are live.
+pub(crate) enum Style<'a> {
+    /// Every key, with the reason of those that are assumed.
+    Resolved(HashMap<&'a str, &'a Provenance>),
+    /// Every key explained; those that the file need not give are commented out.
+    Template(HashMap<&'a str, &'a Provenance>),
+}
+
+struct Line {
+    code: String,
+    comment: String,
+}
+
+pub(crate) struct Writer<'a> {
+    style: Style<'a>,
+    out: String,
+    lines: Vec<Line>,
+    path: Vec<String>,
+    /// Keys of the inline table being written.
+    inline: Option<Vec<String>>,
+    /// Explanations of an inline table's keys, and reasons of its assumed values.
+    asides: Vec<String>,
+}
+
+impl<'a> Writer<'a> {
+    pub(crate) fn new(style: Style<'a>) -> Writer<'a> {
+        Writer {
+            style,
+            out: String::new(),
+            lines: Vec::new(),
+            path: Vec::new(),
+            inline: None,
+            asides: Vec::new(),
+        }
+    }
+
+    pub(crate) fn finish(mut self) -> String {
+        self.flush();
+        self.out
+    }
+
+    fn path_of(&self, name: &str) -> String {
+        let mut path = self.path.join(".");
+        if !path.is_empty() {
+            path.push('.');
+        }
+        path + name
+    }
+
+    fn provenance(&self, name: &str) -> Option<&'a Provenance> {
+        let path = self.path_of(name);
+        match &self.style {
+            Style::Resolved(map) | Style::Template(map) => map.get(path.as_str()).copied(),
+        }
+    }
+
+    fn is_template(&self) -> bool {
+        matches!(self.style, Style::Template(_))
+    }
+
+    /// Comment of one key.
+    fn remark<T: Leaf>(&self, spec: &Spec) -> String {
+        let provenance = self.provenance(spec.name);
+        let text = match &self.style {
+            Style::Resolved(_) => match provenance {
+                Some(provenance) if provenance.assumed => {
+                    format!("assumed, {}", provenance.reason())
+                }
+                _ => String::new(),
+            },
+            Style::Template(_) => {
+                let origin = match provenance {
+                    Some(provenance) if provenance.assumed => "; assumed",
+                    Some(Provenance {
+                        origin: Origin::Preset { .. },
+                        ..
+                    }) => "; catalogue",
+                    _ => "",
+                };
+                explain::<T>(spec) + origin
+            }
+        };
+        text.replace(['\n', '\r'], " ")
+    }
+
+    fn add<T: Leaf>(&mut self, spec: &Spec, value: &str, live: bool) {
+        let code = format!("{} = {value}", spec.name);
+        let remark = self.remark::<T>(spec);
+        if let Some(inline) = &mut self.inline {
+            inline.push(code);
+            if !remark.is_empty() {
+                self.asides.push(format!("{}: {remark}", spec.name));
+            }
+            return;
+        }
+        let code = if live { code } else { format!("# {code}") };
+        self.lines.push(Line {
+            code,
+            comment: remark,
+        });
+    }
+
+    /// Writes the lines gathered, their comments in one column where the values are short.
+    fn flush(&mut self) {
+        const WIDEST: usize = 52;
+        let width = |line: &Line| line.code.chars().count();
+        let commented = self.lines.iter().filter(|line| !line.comment.is_empty());
+        let column = commented.map(width).filter(|w| *w <= WIDEST).max().unwrap_or(0);
+        for line in std::mem::take(&mut self.lines) {
+            self.out.push_str(&line.code);
+            if !line.comment.is_empty() {
+                if !line.code.is_empty() {
+                    let gap = column.saturating_sub(width(&line)) + 2;
+                    self.out.push_str(&" ".repeat(gap));
+                }
+                self.out.push_str("# ");
+                self.out.push_str(&line.comment);
+            }
+            self.out.push('\n');
+        }
+    }
+
+    fn header(&mut self, bracketed: String, doc: &str) {
+        self.flush();
+        self.out.push('\n');
+        self.out.push_str(&bracketed);
+        if self.is_template() {
+            self.out.push_str("  # ");
+            self.out.push_str(doc);
+        }
+        self.out.push('\n');
+    }
+}
+
+/// Meaning, range and unit in one phrase.
+fn explain<T: Leaf>(spec: &Spec) -> String {
+    let mut text = spec.doc.to_string();
+    let range = T::range(spec);
+    let bounded = !range.is_empty() && range != super::keys::Range::ANY.to_string();
+    match (bounded, spec.unit) {
+        (false, "") => {}
+        (false, unit) => text.push_str(&format!("; {unit}")),
+        (true, "") => text.push_str(&format!("; {range}")),
+        (true, unit) => text.push_str(&format!("; {range} {unit}")),
+    }
+    text
+}
+
+impl Keys for Writer<'_> {
+    fn key<T: Leaf>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
+        let given = self.provenance(spec.name).is_some_and(|provenance| {
+            matches!(provenance.origin, Origin::File | Origin::Override)
+        });
+        let live = !self.is_template() || given;
+        self.add::<T>(&spec, &value.write(), live);
+    }
+
+    fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
+        if let Some(value) = value {
+            self.add::<T>(&spec, &value.write(), true);
+        } else if self.is_template() && self.inline.is_some() {
+            self.asides.push(format!("{}: {}", spec.name, explain::<T>(&spec)));
+        }
+    }
+
+    fn only_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        wanted: bool,
+        case: &'static str,
+        value: &mut T,
+    ) {
+        if wanted {
+            self.add::<T>(&spec, &value.write(), true);
+        } else if self.is_template() {
+            self.add::<T>(&spec, &value.write(), false);
+            if let Some(line) = self.lines.last_mut() {
+                line.comment.push_str(&format!("; only where {case}"));
+            }
+        }
+    }
+
+    fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+        self.header(format!("[{}]", spec.name), spec.doc);
+        self.path.push(spec.name.to_string());
+        keys(self);
+        self.path.pop();
+    }
+
+    fn tables<T>(
+        &mut self,
+        spec: Spec,
+        items: &mut Vec<T>,
+        _: fn() -> T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        for (i, item) in items.iter_mut().enumerate() {
+            self.header(format!("[[{}]]", spec.name), spec.doc);
+            self.path.push(spec.name.to_string());
+            self.path.push(i.to_string());
+            keys(self, item);
+            self.path.truncate(self.path.len() - 2);
+        }
+    }
+
+    fn one_of<T: 'static>(
+        &mut self,
+        spec: Spec,
+        variants: &'static [Variant<T>],
+        value: &mut T,
+        mut keys: impl FnMut(&mut Self, &mut T),
+    ) {
+        let chosen = variant_of(variants, value).name;
+        self.path.push(spec.name.to_string());
+        let mut walk = |writer: &mut Self, name: &str, value: &mut T| {
+            writer.path.push(name.to_string());
+            writer.inline = Some(Vec::new());
+            writer.asides.clear();
+            keys(writer, value);
+            writer.path.pop();
+            writer.inline.take().unwrap_or_default().join(", ")
+        };
+        if self.is_template() {
+            let say = |writer: &mut Self, comment: String| {
+                writer.lines.push(Line {
+                    code: String::new(),
+                    comment,
+                });
+            };
+            say(self, format!("{}: {}; one of", spec.name, spec.doc));
+            for variant in variants {
+                walk(self, variant.name, &mut (variant.blank)());
+                say(self, format!("  {}: {}", variant.name, variant.doc));
+                for aside in std::mem::take(&mut self.asides) {
+                    say(self, format!("    {aside}"));
+                }
+            }
+        }
+        let inner = walk(self, chosen, value);
+        self.path.pop();
+        let comment = match self.style {
+            Style::Resolved(_) => std::mem::take(&mut self.asides).join("; "),
+            Style::Template(_) => String::new(),
+        };
+        self.lines.push(Line {
+            code: format!("{} = {{ {chosen} = {{ {inner} }} }}", spec.name),
+            comment,
+        });
+    }
+}
