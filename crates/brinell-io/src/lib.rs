@@ -1,1 +1,40 @@
-//! Signals in and out.
+//! Signals in and out of files.
+//!
+//! A writer takes rows one at a time and streams them: its memory does not grow with the number of rows beyond
+//! a few bytes per megabyte written. A file appears whole or not at all: rows go to `NAME.partial` beside it,
+//! which [`SignalWriter::finish`] forces to the disk and renames to `NAME`. A writer dropped before that removes
+//! its partial file; only a killed process leaves one behind, and the next run of the same name replaces it.
+//!
+//! ```
+//! use brinell_io::{Column, Format, Metadata, Outcome};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let folder = folder.path();
+//! let columns = [
+//!     Column::new("t", "s", "time"),
+//!     Column::new("outer_ax", "m/s^2", "outer ring, acceleration along x"),
+//! ];
+//! let mut writer = Format::Csv.create(folder, &columns, &Metadata::default())?;
+//! writer.write_row(&[0.0, 1.5])?;
+//! let path = writer.finish(Outcome::Complete)?;
+//! assert_eq!(std::fs::read_to_string(path)?, "t,outer_ax\n0.0,1.5\n");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod atomic;
+mod csv;
+mod error;
+#[cfg(feature = "parquet")]
+mod parquet_read;
+#[cfg(feature = "parquet-write")]
+mod parquet_write;
+mod signals;
+
+pub use atomic::atomic_write;
+pub use csv::{CsvWriter, read_csv, read_csv_from};
+pub use error::IoError;
+#[cfg(feature = "parquet")]
+pub use parquet_read::read_parquet;
+#[cfg(feature = "parquet-write")]
+pub use parquet_write::ParquetWriter;
+pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};

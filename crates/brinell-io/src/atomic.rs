@@ -1,0 +1,155 @@
+//! A file that appears whole or not at all.
+//!
+//! The order is: lock and empty `NAME.partial`, write, force to the disk, rename to `NAME`, force the folder to
+//! the disk. After a crash at any point `NAME` is either absent, the old file, or the whole new one.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::IoError;
+
+/// A file under construction. Dropped before [`PartialFile::commit`], it is removed.
+#[derive(Debug)]
+pub(crate) struct PartialFile {
+    file: File,
+    partial: PathBuf,
+    path: PathBuf,
+    committed: bool,
+    failed: bool,
+}
+
+impl PartialFile {
+    /// Opens `path`.partial, emptied of what a killed run may have left in it.
+    pub(crate) fn create(path: &Path) -> Result<Self, IoError> {
+        let Some(name) = path.file_name().filter(|_| !path.is_dir()) else {
+            return Err(IoError::NotAFileName {
+                path: path.to_owned(),
+            });
+        };
+        let mut name = name.to_owned();
+        name.push(".partial");
+        let partial = path.with_file_name(name);
+        let file = open_alone(&partial, path)?;
+        let this = Self {
+            file,
+            partial,
+            path: path.to_owned(),
+            committed: false,
+            failed: false,
+        };
+        let empty = || {
+            if this.file.metadata()?.len() > 0 {
+                this.file.set_len(0)
+            } else {
+                Ok(())
+            }
+        };
+        empty().map_err(|e| IoError::writing(path, e))?;
+        Ok(this)
+    }
+
+    /// The path that the file will have.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Appends bytes. After a failure every further call fails: the file has a hole that nobody could see.
+    pub(crate) fn append(&mut self, bytes: &[u8]) -> Result<(), IoError> {
+        self.check()?;
+        self.file.write_all(bytes).map_err(|e| {
+            self.failed = true;
+            IoError::writing(&self.path, e)
+        })
+    }
+
+    /// Refuses where an earlier append failed.
+    pub(crate) fn check(&self) -> Result<(), IoError> {
+        if self.failed {
+            Err(IoError::AlreadyFailed {
+                path: self.path.clone(),
+            })
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Forces the contents to the disk and gives the file its name.
+    pub(crate) fn commit(mut self) -> Result<PathBuf, IoError> {
+        self.check()?;
+        let publish = || {
+            self.file.sync_all()?;
+            std::fs::rename(&self.partial, &self.path)
+        };
+        publish().map_err(|e| IoError::writing(&self.path, e))?;
+        self.committed = true;
+        sync_folder_of(&self.path);
+        Ok(self.path.clone())
+    }
+}
+
+impl Drop for PartialFile {
+    fn drop(&mut self) {
+        if !self.committed {
+            // Nobody is left to tell of a failure here; the name says that the file is partial.
+            let _ = std::fs::remove_file(&self.partial);
+        }
+    }
+}
+
+/// Opens the partial file and holds its lock, so that two runs into one folder cannot mix their rows.
+fn open_alone(partial: &Path, path: &Path) -> Result<File, IoError> {
+    loop {
+        let file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(partial)
+            .map_err(|e| IoError::writing(path, e))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(IoError::Busy {
+                    path: path.to_owned(),
+                });
+            }
+            // Some network file systems have no locks; there the user keeps runs apart.
+            Err(TryLockError::Error(_)) => return Ok(file),
+        }
+        // Between our open and our lock the former owner may have renamed or removed it; then start over.
+        if is_still_at(&file, partial) {
+            return Ok(file);
+        }
+    }
+}
+
+#[cfg(unix)]
+fn is_still_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let id = |m: io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
+    let here = id(file.metadata());
+    here.is_some() && here == id(std::fs::metadata(path))
+}
+
+#[cfg(not(unix))]
+fn is_still_at(_: &File, _: &Path) -> bool {
+    true
+}
+
+/// Makes the rename itself durable. The file is complete either way, so a system without this is no error.
+fn sync_folder_of(path: &Path) {
+    if cfg!(unix) {
+        let folder = path
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        let _ = File::open(folder).and_then(|f| f.sync_all());
+    }
+}
+
+/// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name.
+pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(), IoError> {
+    let mut file = PartialFile::create(path.as_ref())?;
+    file.append(bytes.as_ref())?;
+    file.commit().map(drop)
+}

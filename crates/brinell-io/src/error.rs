@@ -1,0 +1,202 @@
+//! What can go wrong with a file, and what to do about it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// An error about one file. Its text names the file and, where there is one, the way out.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum IoError {
+    /// No room on the disk, or in the quota.
+    #[error("{}: the disk is full; free some space or write to another disk (the unfinished file is removed)", path.display())]
+    DiskFull {
+        /// The file being written.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// The file or its folder may not be written.
+    #[error("{}: writing is not permitted here; choose a folder that you may write to", path.display())]
+    NotPermitted {
+        /// The file being written.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// The folder is missing, or is a file.
+    #[error("{}: there is no such folder as {}; create it first", path.display(), path.parent().unwrap_or(path).display())]
+    NoFolder {
+        /// The file to be written.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// The name is that of a folder, or ends in `..`.
+    #[error("{}: this is not the name of a file; give a file name", path.display())]
+    NotAFileName {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// Another writer has the file in hand.
+    #[error("{}: another run is writing this file; wait for it or choose another folder", path.display())]
+    Busy {
+        /// The file to be written.
+        path: PathBuf,
+    },
+    /// Any other failure to write.
+    #[error("{}: cannot write: {source}", path.display())]
+    Write {
+        /// The file being written.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A row or the end was given to a writer that had already failed.
+    #[error("{}: an earlier write failed, so this file cannot be completed; run again", path.display())]
+    AlreadyFailed {
+        /// The file being written.
+        path: PathBuf,
+    },
+    /// A failure to read.
+    #[error("{}: cannot read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A table needs a column.
+    #[error("{}: there are no columns to write; record at least one channel", path.display())]
+    NoColumns {
+        /// The file to be written.
+        path: PathBuf,
+    },
+    /// A column's name would not survive.
+    #[error("{}: the column name `{name}` cannot be used: {why}", path.display())]
+    ColumnName {
+        /// The file to be written.
+        path: PathBuf,
+        /// The name.
+        name: String,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// A metadata key that the writer fills in itself.
+    #[error("{}: the metadata key `{key}` is filled in by the writer; use another key", path.display())]
+    ReservedKey {
+        /// The file to be written.
+        path: PathBuf,
+        /// The key.
+        key: String,
+    },
+    /// A row of the wrong length.
+    #[error("{}: a row has {got} values for {expected} columns", path.display())]
+    RowLength {
+        /// The file being written.
+        path: PathBuf,
+        /// Columns of the file.
+        expected: usize,
+        /// Values of the row.
+        got: usize,
+    },
+    /// A format that is not among [`crate::Format::ALL`].
+    #[error("unknown signal format `{0}`; known are csv and parquet")]
+    UnknownFormat(String),
+    /// A format that this build does not have.
+    #[error("{}: this build has no {format}; build with the feature `{feature}` or choose csv", path.display())]
+    FormatLeftOut {
+        /// The file to be written.
+        path: PathBuf,
+        /// The format's name.
+        format: &'static str,
+        /// The cargo feature that brings it.
+        feature: &'static str,
+    },
+    /// A CSV file without the line of channel names.
+    #[error("{}: line 1 must name the columns, such as `t,outer_ax`; {why}", path.display())]
+    CsvHeader {
+        /// The file.
+        path: PathBuf,
+        /// What is there instead.
+        why: &'static str,
+    },
+    /// A CSV line with more or fewer values than the header has names.
+    #[error("{}: line {line} has {got} values where the header names {expected} columns", path.display())]
+    CsvRow {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// Columns of the header.
+        expected: usize,
+        /// Values of the line.
+        got: usize,
+    },
+    /// A CSV value that is no number.
+    #[error("{}: line {line}, column `{column}`: `{text}` is not a number", path.display())]
+    CsvNumber {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// The column's name.
+        column: String,
+        /// The value as it stands, cut to a few words.
+        text: String,
+    },
+    /// A damaged or unsupported Parquet file.
+    #[error("{}: cannot read this Parquet file: {why}", path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        why: String,
+    },
+}
+
+impl IoError {
+    /// Sorts a system error met while writing `path` by what its reader can do about it.
+    pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
+        use io::ErrorKind as K;
+        let path = path.to_owned();
+        match source.kind() {
+            K::StorageFull | K::QuotaExceeded => Self::DiskFull { path, source },
+            K::PermissionDenied | K::ReadOnlyFilesystem => Self::NotPermitted { path, source },
+            K::NotFound | K::NotADirectory => Self::NoFolder { path, source },
+            K::IsADirectory => Self::NotAFileName { path },
+            _ => Self::Write { path, source },
+        }
+    }
+
+    /// A system error met while reading `path`.
+    pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_errors_say_which_file_and_what_to_do() {
+        let say = |kind: io::ErrorKind| {
+            IoError::writing(Path::new("out/signals.csv"), kind.into()).to_string()
+        };
+        assert_eq!(
+            say(io::ErrorKind::StorageFull),
+            "out/signals.csv: the disk is full; free some space or write to another disk (the unfinished file is removed)"
+        );
+        assert_eq!(
+            say(io::ErrorKind::PermissionDenied),
+            "out/signals.csv: writing is not permitted here; choose a folder that you may write to"
+        );
+        assert_eq!(
+            say(io::ErrorKind::NotFound),
+            "out/signals.csv: there is no such folder as out; create it first"
+        );
+    }
+}

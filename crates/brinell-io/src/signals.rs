@@ -1,0 +1,243 @@
+//! What a table of signals is, whatever the file format.
+
+use std::collections::HashSet;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::{CsvWriter, IoError};
+
+/// Keys of the metadata that a Parquet file carries.
+pub mod keys {
+    /// The scenario, as TOML with every default filled in. Given by the caller.
+    pub const SCENARIO: &str = "brinell.scenario";
+    /// The version of brinell that wrote the file. Given by the caller.
+    pub const VERSION: &str = "brinell.version";
+    /// The sample rate in hertz. Given by the caller.
+    pub const SAMPLE_RATE_HZ: &str = "brinell.sample_rate_hz";
+    /// The unit of each column, a JSON object. Filled in by the writer.
+    pub const UNITS: &str = "brinell.units";
+    /// The description of each column, a JSON object. Filled in by the writer.
+    pub const DESCRIPTIONS: &str = "brinell.descriptions";
+    /// `complete`, or `partial: ` and why. Filled in by the writer.
+    pub const OUTCOME: &str = "brinell.outcome";
+    /// The units once more, where pandas looks: `pandas.read_parquet(path).attrs["units"]`. Filled in by the writer.
+    pub const PANDAS_ATTRS: &str = "PANDAS_ATTRS";
+
+    #[cfg(feature = "parquet-write")]
+    pub(crate) const RESERVED: [&str; 4] = [UNITS, DESCRIPTIONS, OUTCOME, PANDAS_ATTRS];
+}
+
+/// One signal of a table.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Column {
+    /// The channel's name, the same in every format.
+    pub name: String,
+    /// The SI unit, such as `m/s^2`; `1` where there is none; empty where a file does not tell.
+    pub unit: String,
+    /// What the channel is, in a few words.
+    pub description: String,
+}
+
+impl Column {
+    /// A column of this name, unit and description.
+    pub fn new(
+        name: impl Into<String>,
+        unit: impl Into<String>,
+        description: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            description: description.into(),
+        }
+    }
+}
+
+/// Facts about a whole table, in order. The keys that brinell uses are in [`keys`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Metadata {
+    /// Key and value.
+    pub pairs: Vec<(String, String)>,
+}
+
+impl Metadata {
+    /// The same with one more pair.
+    #[must_use]
+    pub fn with(mut self, key: impl Into<String>, value: impl Into<String>) -> Self {
+        self.pairs.push((key.into(), value.into()));
+        self
+    }
+
+    /// The value of a key: the first, should a file repeat it.
+    pub fn get(&self, key: &str) -> Option<&str> {
+        self.pairs
+            .iter()
+            .find(|(k, _)| k == key)
+            .map(|(_, value)| value.as_str())
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Every row that was asked for is there.
+    Complete,
+    /// The run stopped early; the rows up to then are there. Holds the reason.
+    Partial(String),
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Complete => f.write_str("complete"),
+            Self::Partial(reason) => write!(f, "partial: {reason}"),
+        }
+    }
+}
+
+/// Takes a table row by row and makes one file of it.
+///
+/// After an error of the disk the writer takes no more rows and cannot be finished; dropping it leaves no file.
+pub trait SignalWriter: Send {
+    /// Appends one row: a value per column, in the order of the columns.
+    fn write_row(&mut self, row: &[f64]) -> Result<(), IoError>;
+
+    /// Completes the file, gives it its name and returns its path.
+    fn finish(self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError>;
+}
+
+/// A file format for signals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// A header line of channel names, then numbers.
+    Csv,
+    /// Apache Parquet with units, scenario and version in its metadata.
+    Parquet,
+}
+
+impl Format {
+    /// Every format there is, also those that this build left out.
+    pub const ALL: [Self; 2] = [Self::Csv, Self::Parquet];
+
+    /// The name that selects it: `csv` or `parquet`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+        }
+    }
+
+    /// The file's name within the folder of a run.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::Csv => "signals.csv",
+            Self::Parquet => "signals.parquet",
+        }
+    }
+
+    /// A writer of this format's file in an existing folder. CSV has no place for metadata and leaves it out.
+    pub fn create(
+        self,
+        folder: &Path,
+        columns: &[Column],
+        metadata: &Metadata,
+    ) -> Result<Box<dyn SignalWriter>, IoError> {
+        let path = folder.join(self.file_name());
+        match self {
+            Self::Csv => Ok(Box::new(CsvWriter::create(&path, columns)?)),
+            #[cfg(feature = "parquet-write")]
+            Self::Parquet => Ok(Box::new(crate::ParquetWriter::create(
+                &path, columns, metadata,
+            )?)),
+            #[cfg(not(feature = "parquet-write"))]
+            Self::Parquet => {
+                let _ = metadata;
+                Err(IoError::FormatLeftOut {
+                    path,
+                    format: self.name(),
+                    feature: "parquet",
+                })
+            }
+        }
+    }
+}
+
+impl FromStr for Format {
+    type Err = IoError;
+
+    fn from_str(name: &str) -> Result<Self, IoError> {
+        Self::ALL
+            .into_iter()
+            .find(|f| f.name() == name)
+            .ok_or_else(|| IoError::UnknownFormat(name.to_owned()))
+    }
+}
+
+/// A table read back whole from a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Signals {
+    /// The columns; unit and description are empty where the file has none.
+    pub columns: Vec<Column>,
+    /// The values of each column, all of one length.
+    pub data: Vec<Vec<f64>>,
+    /// The file's own metadata; none in CSV.
+    pub metadata: Metadata,
+}
+
+impl Signals {
+    /// The values of the first column of this name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let i = self.columns.iter().position(|c| c.name == name)?;
+        self.data.get(i).map(Vec::as_slice)
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.data.first().map_or(0, Vec::len)
+    }
+}
+
+/// Refuses names that some reader would take apart or take for data.
+pub(crate) fn check_columns(path: &Path, columns: &[Column]) -> Result<(), IoError> {
+    if columns.is_empty() {
+        return Err(IoError::NoColumns {
+            path: path.to_owned(),
+        });
+    }
+    let mut seen = HashSet::new();
+    for Column { name, .. } in columns {
+        let why = if name.is_empty() {
+            "it is empty"
+        } else if name.contains([',', '"']) || name.contains(char::is_control) {
+            "it holds a comma, a quote or a control character"
+        } else if name.trim() != name {
+            "it starts or ends with a space"
+        } else if name.parse::<f64>().is_ok() {
+            "it reads as a number"
+        } else if !seen.insert(name) {
+            "another column has it"
+        } else {
+            continue;
+        };
+        return Err(IoError::ColumnName {
+            path: path.to_owned(),
+            name: name.clone(),
+            why,
+        });
+    }
+    Ok(())
+}
+
+/// Checks a row against the number of columns.
+pub(crate) fn check_row(path: &Path, columns: usize, row: &[f64]) -> Result<(), IoError> {
+    if row.len() == columns {
+        Ok(())
+    } else {
+        Err(IoError::RowLength {
+            path: path.to_owned(),
+            expected: columns,
+            got: row.len(),
+        })
+    }
+}

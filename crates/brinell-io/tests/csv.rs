@@ -1,0 +1,135 @@
+//! CSV: exact numbers, a plain header, clear words for bad files.
+
+mod common;
+
+use brinell_io::{Column, CsvWriter, IoError, Outcome, SignalWriter, read_csv, read_csv_from};
+use common::{any_table, columns, names_in, numbered, write};
+use proptest::prelude::*;
+
+proptest! {
+    #[test]
+    fn prop_csv_gives_back_every_bit(rows in any_table()) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = Box::new(CsvWriter::create(folder.path().join("a.csv"), &numbered(rows[0].len())).unwrap());
+        write(&mut *writer, &rows).unwrap();
+        let signals = read_csv(writer.finish(Outcome::Complete).unwrap()).unwrap();
+        prop_assert_eq!(signals.rows(), rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            for (value, column) in row.iter().zip(&signals.data) {
+                // Text keeps that a value is not a number, not which of the many.
+                prop_assert!(value.to_bits() == column[i].to_bits() || (value.is_nan() && column[i].is_nan()));
+            }
+        }
+    }
+
+    #[test]
+    fn prop_reading_any_bytes_as_csv_never_panics(bytes in prop::collection::vec(any::<u8>(), 0..200), text in "[t,\"0-9.e\\-\n\r ]{0,80}") {
+        let _ = read_csv_from(&bytes[..], "any.csv");
+        let _ = read_csv_from(text.as_bytes(), "any.csv");
+    }
+}
+
+#[test]
+fn regress_csv_is_a_header_and_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer =
+        Box::new(CsvWriter::create(folder.path().join("signals.csv"), &columns()).unwrap());
+    let rows = [
+        vec![0.0, -0.0],
+        vec![3.90625e-5, 1e-7],
+        vec![5e-324, f64::MAX],
+        vec![f64::NAN, f64::NEG_INFINITY],
+    ];
+    write(&mut *writer, &rows).unwrap();
+    let path = writer
+        .finish(Outcome::Partial("interrupted".into()))
+        .unwrap();
+    assert_eq!(
+        std::fs::read_to_string(path).unwrap(),
+        "t,outer_ax\n0.0,-0.0\n0.0000390625,1e-7\n5e-324,1.7976931348623157e+308\nNaN,-inf\n"
+    );
+    assert_eq!(names_in(folder.path()), ["signals.csv"]);
+}
+
+#[test]
+fn regress_csv_of_others_is_read() {
+    let text = "\u{feff}t, \"force, N\"\r\n0,1\r\n\r\n 1e-3 ,+2.5\r\n";
+    let signals = read_csv_from(text.as_bytes(), "theirs.csv").unwrap();
+    assert_eq!(signals.column("force, N").unwrap(), [1.0, 2.5]);
+    assert_eq!(signals.column("t").unwrap(), [0.0, 1e-3]);
+    assert_eq!(signals.column("force"), None);
+}
+
+#[test]
+fn regress_bad_csv_gets_the_line_and_the_column() {
+    let say = |text: &str| {
+        read_csv_from(text.as_bytes(), "a.csv")
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        say(""),
+        "a.csv: line 1 must name the columns, such as `t,outer_ax`; the file is empty"
+    );
+    assert_eq!(
+        say("0,1\n1,2\n"),
+        "a.csv: line 1 must name the columns, such as `t,outer_ax`; it holds numbers"
+    );
+    assert_eq!(
+        say("t,x\n0,1\n1\n"),
+        "a.csv: line 3 has 1 values where the header names 2 columns"
+    );
+    assert_eq!(
+        say("t,x\n0,1,2\n"),
+        "a.csv: line 2 has 3 values where the header names 2 columns"
+    );
+    assert_eq!(
+        say("t,x\n0,one\n"),
+        "a.csv: line 2, column `x`: `one` is not a number"
+    );
+}
+
+#[test]
+fn regress_names_that_csv_would_break_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |names: &[&str]| {
+        let columns: Vec<Column> = names.iter().map(|&n| Column::new(n, "", "")).collect();
+        CsvWriter::create(folder.path().join("a.csv"), &columns)
+            .map(drop)
+            .unwrap_err()
+    };
+    assert!(matches!(refused(&[]), IoError::NoColumns { .. }));
+    for names in [
+        &["a,b"][..],
+        &["a\n"],
+        &["\"a"],
+        &[""],
+        &[" a"],
+        &["1.5"],
+        &["t", "t"],
+    ] {
+        assert!(
+            matches!(refused(names), IoError::ColumnName { .. }),
+            "{names:?}"
+        );
+    }
+    assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn regress_a_row_of_the_wrong_length_is_refused_and_the_file_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = Box::new(CsvWriter::create(folder.path().join("a.csv"), &columns()).unwrap());
+    let error = writer.write_row(&[1.0]).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .ends_with("a row has 1 values for 2 columns")
+    );
+    writer.write_row(&[1.0, 2.0]).unwrap();
+    let path = writer.finish(Outcome::Complete).unwrap();
+    assert_eq!(
+        std::fs::read_to_string(path).unwrap(),
+        "t,outer_ax\n1.0,2.0\n"
+    );
+}
