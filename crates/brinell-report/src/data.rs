@@ -1,0 +1,306 @@
+//! What a report is made of: plain numbers and words, no solver types.
+//!
+//! Times are seconds, frequencies hertz and angles degrees; every other quantity carries its unit as text. A unit may
+//! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
+//! `None`, and a value that could not be computed is NaN: both are shown as such.
+
+/// Everything one page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct Report {
+    /// The run's name.
+    pub title: String,
+    /// One line under it: bearing, defect, speed, load.
+    pub subtitle: String,
+    /// The version of the program that made the run.
+    pub version: String,
+    /// Why the run ended early, where it did.
+    pub partial: Option<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The measured acceleration.
+    pub waveform: Waveform,
+    /// Its amplitude spectrum.
+    pub spectrum: Spectrum,
+    /// The amplitude spectrum of its envelope; the band belongs in the label.
+    pub envelope_spectrum: Spectrum,
+    /// The bearing's defect frequencies.
+    pub markers: Vec<Marker>,
+    /// Rollers passing a defect.
+    pub passes: Vec<Pass>,
+    /// Contact force around the bearing, a row each.
+    pub load_distribution: Vec<RowLoad>,
+    /// Indicators of the signals.
+    pub indicators: IndicatorTable,
+    /// Slip of rollers and cages.
+    pub slip: Vec<Fact>,
+    /// Momentum and energy audit, solver error.
+    pub audits: Vec<Fact>,
+    /// Steps, rejections, right-hand sides, time taken.
+    pub solver_work: Vec<Fact>,
+    /// What was given and what was assumed.
+    pub assumptions: Vec<Assumption>,
+    /// The scenario, complete.
+    pub scenario_toml: String,
+}
+
+/// A number, or words where no number will do.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(untagged))]
+pub enum Value {
+    /// A quantity in the unit beside it.
+    Number(f64),
+    /// A word or a phrase.
+    Text(String),
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(value: &str) -> Self {
+        Self::Text(value.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(value: String) -> Self {
+        Self::Text(value)
+    }
+}
+
+/// One labelled value: a headline number, a line of the audit, the slip of a row.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Fact {
+    /// What it is.
+    pub label: String,
+    /// How much.
+    pub value: Value,
+    /// In what; empty where it has no unit.
+    pub unit: String,
+    /// What to know about it; may be empty.
+    pub note: String,
+    /// Whether it kept its limit, where it has one.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ok: Option<bool>,
+}
+
+impl Fact {
+    /// A fact without limit.
+    pub fn new(
+        label: impl Into<String>,
+        value: impl Into<Value>,
+        unit: impl Into<String>,
+        note: impl Into<String>,
+    ) -> Self {
+        Self {
+            label: label.into(),
+            value: value.into(),
+            unit: unit.into(),
+            note: note.into(),
+            ok: None,
+        }
+    }
+
+    /// The same fact, judged against its limit.
+    #[must_use]
+    pub fn judged(mut self, ok: bool) -> Self {
+        self.ok = Some(ok);
+        self
+    }
+}
+
+/// An evenly sampled signal.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Series {
+    /// The axis label without unit: "Outer ring acceleration, x (measured)".
+    pub label: String,
+    /// Its unit: "m/s^2".
+    pub unit: String,
+    /// Time of the first sample.
+    pub t0_s: f64,
+    /// Sample interval.
+    pub dt_s: f64,
+    /// The samples.
+    pub values: Vec<f64>,
+}
+
+/// Smallest and largest value in each of a row of equal time bins.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MinMax {
+    /// Start of the first bin.
+    pub t0_s: f64,
+    /// Width of a bin.
+    pub dt_s: f64,
+    /// Smallest value of each bin.
+    pub min: Vec<f64>,
+    /// Largest value of each bin.
+    pub max: Vec<f64>,
+}
+
+/// What an [`Event`] marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum EventKind {
+    /// A roller comes onto a defect.
+    Enter,
+    /// A roller leaves it.
+    Leave,
+}
+
+/// An instant to mark on the waveform.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Event {
+    /// When.
+    pub t_s: f64,
+    /// What happens.
+    pub kind: EventKind,
+    /// Which roller, briefly: "1·07" for row 1, roller 7.
+    pub label: String,
+}
+
+/// The measured signal: a part of it sample by sample, all of it as an envelope.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Waveform {
+    /// The part that is kept sample by sample, usually the end of the run (65 536 samples are plenty).
+    pub series: Series,
+    /// The whole run; without it the overview shows `series`.
+    pub overview: Option<MinMax>,
+    /// Rollers entering and leaving defects.
+    pub events: Vec<Event>,
+}
+
+/// One-sided amplitude spectrum, first line at 0 Hz.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Spectrum {
+    /// What the amplitude is of, without unit: "Acceleration amplitude".
+    pub label: String,
+    /// Distance between lines.
+    pub df_hz: f64,
+    /// Amplitude of each line.
+    pub amplitude: Vec<f64>,
+    /// Unit of the amplitude.
+    pub unit: String,
+    /// How it was made: window, averages, demodulation band; may be empty.
+    pub note: String,
+}
+
+/// A frequency to look for, with its harmonics.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Marker {
+    /// The field's name: "BPFO", "BPFI", "2 BSF", "FTF".
+    pub label: String,
+    /// What it is in words: "roller passes a point of the outer raceway".
+    pub meaning: String,
+    /// Where it lies.
+    pub frequency_hz: f64,
+    /// How many multiples to mark, the first included.
+    pub harmonics: usize,
+    /// Whether the scenario holds damage that strikes at this frequency.
+    pub present: bool,
+}
+
+/// One roller on its way over a defect; vectors are as long as `angle_deg`, or empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Pass {
+    /// Which roller, which defect.
+    pub title: String,
+    /// Angle of the roller from the defect's centre, along the damaged surface.
+    pub angle_deg: Vec<f64>,
+    /// Effective contact length at the damaged contact.
+    pub length_mm: Vec<f64>,
+    /// The same at the other contact, where it matters.
+    pub other_length_mm: Option<Vec<f64>>,
+    /// Contact stiffness.
+    pub stiffness: Vec<f64>,
+    /// Its unit: "N/m^(10/9)".
+    pub stiffness_unit: String,
+    /// Contact force.
+    pub force_n: Vec<f64>,
+    /// What `length_mm`, `stiffness` and `force_n` belong to: "outer contact".
+    pub contact: String,
+    /// What `other_length_mm` belongs to: "inner contact".
+    pub other_contact: String,
+}
+
+/// Contact force of one row's rollers around the bearing.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RowLoad {
+    /// "Row 1, outer contact".
+    pub title: String,
+    /// Bin centres, counter-clockwise from +X; equal bins that cover the circle.
+    pub angle_deg: Vec<f64>,
+    /// Mean force of the rollers in each bin.
+    pub mean_n: Vec<f64>,
+    /// Largest force in each bin.
+    pub max_n: Vec<f64>,
+    /// Static equilibrium: one (angle in degrees, force in newtons) per roller.
+    pub static_points: Vec<(f64, f64)>,
+}
+
+/// A value and the half width of its interval.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Half width of its interval, where there is one.
+    pub half_width: Option<f64>,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+}
+
+/// The indicators of one signal.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct IndicatorRow {
+    /// Channel name: "outer_ax".
+    pub channel: String,
+    /// "measured (anti-aliased)" or "instantaneous".
+    pub kind: String,
+    /// One for each column of the table.
+    pub cells: Vec<Estimate>,
+}
+
+/// Indicators: signals down, kinds of indicator across.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct IndicatorTable {
+    /// Column heads: "RMS", "Peak to peak", "Crest factor", "Kurtosis".
+    pub columns: Vec<String>,
+    /// The signals.
+    pub rows: Vec<IndicatorRow>,
+    /// What the intervals are: "95 % intervals from 12 blocks of whole revolutions".
+    pub note: String,
+}
+
+/// A line of the assumption sheet.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Assumption {
+    /// The scenario's key: "support.outer_stiffness_n_per_m".
+    pub key: String,
+    /// Its value.
+    pub value: Value,
+    /// Its unit.
+    pub unit: String,
+    /// Where it comes from, or why this value.
+    pub source: String,
+    /// True where it is assumed or estimated, false where somebody stated it.
+    pub estimated: bool,
+}

@@ -1,0 +1,113 @@
+//! The typeface that pictures are measured with and, in PNG, drawn with. See `font/README.md`.
+
+use std::sync::LazyLock;
+
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
+
+pub(crate) const REGULAR: &[u8] = include_bytes!("../font/Inter-Regular-subset.otf");
+pub(crate) const SEMI_BOLD: &[u8] = include_bytes!("../font/Inter-SemiBold-subset.otf");
+
+/// What an SVG asks for: the embedded face on the page, something close elsewhere.
+pub(crate) const FAMILY: &str = "Inter, 'Helvetica Neue', Arial, sans-serif";
+
+static FACES: LazyLock<[Option<Face<'static>>; 2]> =
+    LazyLock::new(|| [Face::parse(REGULAR, 0).ok(), Face::parse(SEMI_BOLD, 0).ok()]);
+
+fn face(bold: bool) -> Option<&'static Face<'static>> {
+    FACES[usize::from(bold)].as_ref()
+}
+
+fn glyph(face: &Face<'_>, c: char) -> GlyphId {
+    face.glyph_index(c)
+        .or_else(|| face.glyph_index('\u{fffd}'))
+        .unwrap_or(GlyphId(0))
+}
+
+/// Width of `text` at `size`.
+pub(crate) fn width(text: &str, size: f64, bold: bool) -> f64 {
+    let Some(face) = face(bold) else {
+        return 0.6 * size * text.chars().count() as f64;
+    };
+    let units: f64 = text
+        .chars()
+        .map(|c| f64::from(face.glyph_hor_advance(glyph(face, c)).unwrap_or(0)))
+        .sum();
+    units * size / f64::from(face.units_per_em())
+}
+
+/// `text` cut to `limit`, with an ellipsis where it was cut.
+pub(crate) fn fitted(text: &str, size: f64, bold: bool, limit: f64) -> String {
+    if width(text, size, bold) <= limit {
+        return text.to_owned();
+    }
+    let mut kept: String = text.to_owned();
+    while kept.pop().is_some() {
+        let candidate = format!("{}…", kept.trim_end());
+        if width(&candidate, size, bold) <= limit {
+            return candidate;
+        }
+    }
+    String::new()
+}
+
+/// Sends the outline of `text` to `draw`, pen at (x, y) on the baseline, y down; returns the pen's x after it.
+pub(crate) fn outline(
+    text: &str,
+    size: f64,
+    bold: bool,
+    x: f64,
+    y: f64,
+    draw: &mut impl OutlineBuilder,
+) -> f64 {
+    let Some(face) = face(bold) else { return x };
+    let scale = size / f64::from(face.units_per_em());
+    let mut pen = x;
+    for c in text.chars() {
+        let id = glyph(face, c);
+        let mut placed = Placed {
+            draw,
+            scale: scale as f32,
+            x: pen as f32,
+            y: y as f32,
+        };
+        face.outline_glyph(id, &mut placed);
+        pen += f64::from(face.glyph_hor_advance(id).unwrap_or(0)) * scale;
+    }
+    pen
+}
+
+/// Scales a glyph from font units, y up, to the page, y down.
+struct Placed<'a, D> {
+    draw: &'a mut D,
+    scale: f32,
+    x: f32,
+    y: f32,
+}
+
+impl<D> Placed<'_, D> {
+    fn at(&self, x: f32, y: f32) -> (f32, f32) {
+        (self.x + x * self.scale, self.y - y * self.scale)
+    }
+}
+
+impl<D: OutlineBuilder> OutlineBuilder for Placed<'_, D> {
+    fn move_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.at(x, y);
+        self.draw.move_to(x, y);
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.at(x, y);
+        self.draw.line_to(x, y);
+    }
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        let ((x1, y1), (x, y)) = (self.at(x1, y1), self.at(x, y));
+        self.draw.quad_to(x1, y1, x, y);
+    }
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        let ((x1, y1), (x2, y2), (x, y)) = (self.at(x1, y1), self.at(x2, y2), self.at(x, y));
+        self.draw.curve_to(x1, y1, x2, y2, x, y);
+    }
+    fn close(&mut self) {
+        self.draw.close();
+    }
+}

@@ -1,0 +1,275 @@
+//! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents.
+
+/// A number with about `digits` significant digits: "1 800", "0.0123", "1.9×10⁸"; "not available" for NaN.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    if value.is_nan() {
+        return "not available".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "∞" } else { "−∞" }.to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = digits.max(1);
+    // Round first: 9.9996 is a two-digit number once it has four digits.
+    let scientific = format!("{:.*e}", digits - 1, value);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-4..7).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        let text = trim_zeros(&format!("{value:.decimals$}"));
+        return group_thousands(&text).replace('-', "−");
+    }
+    format!("{}×10{}", trim_zeros(mantissa), superscript(exponent)).replace('-', "−")
+}
+
+/// `value` with as many decimals as `half_width` deserves (two significant digits), and the half width itself.
+pub(crate) fn with_interval(value: f64, half_width: f64) -> (String, String) {
+    if !value.is_finite() || !half_width.is_finite() || half_width <= 0.0 {
+        return (significant(value, 4), significant(half_width, 2));
+    }
+    let order = half_width.log10().floor() as i32;
+    let decimals = (1 - order).clamp(0, 12) as usize;
+    if value.abs() >= 1e7 || order < -8 {
+        return (significant(value, 4), significant(half_width, 2));
+    }
+    let show = |x: f64| group_thousands(&format!("{x:.decimals$}")).replace('-', "−");
+    (show(value), show(half_width))
+}
+
+fn trim_zeros(text: &str) -> String {
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+/// Thin spaces between groups of three digits before the decimal point, from five digits on.
+fn group_thousands(text: &str) -> String {
+    let (sign, rest) = text
+        .strip_prefix('-')
+        .map_or(("", text), |rest| ("-", rest));
+    let (whole, fraction) = rest
+        .split_once('.')
+        .map_or((rest, None), |(w, f)| (w, Some(f)));
+    let mut grouped = String::with_capacity(text.len() + 4);
+    grouped.push_str(sign);
+    for (place, digit) in whole.chars().enumerate() {
+        if whole.len() > 4 && place > 0 && (whole.len() - place) % 3 == 0 {
+            grouped.push('\u{2009}');
+        }
+        grouped.push(digit);
+    }
+    if let Some(fraction) = fraction {
+        grouped.push('.');
+        grouped.push_str(fraction);
+    }
+    grouped
+}
+
+pub(crate) fn superscript(exponent: i32) -> String {
+    exponent
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => char::from_u32(0x2070 + digit as u32 - '0' as u32).unwrap_or(digit),
+        })
+        .collect()
+}
+
+/// A run of text at normal height or raised, as in the unit `N/m^(10/9)`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Run {
+    pub(crate) text: String,
+    pub(crate) raised: bool,
+}
+
+/// Splits text at `^`: what follows, in brackets or up to the next character that is no letter, digit or sign, is raised.
+/// Squares and cubes become the characters made for them.
+pub(crate) fn runs(text: &str) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    let push = |runs: &mut Vec<Run>, text: &str, raised: bool| match runs.last_mut() {
+        _ if text.is_empty() => {}
+        Some(last) if last.raised == raised => last.text.push_str(text),
+        _ => runs.push(Run {
+            text: text.to_owned(),
+            raised,
+        }),
+    };
+    let mut rest = text;
+    while let Some(at) = rest.find('^') {
+        push(&mut runs, &rest[..at], false);
+        let after = &rest[at + 1..];
+        let (exponent, tail) = match after
+            .strip_prefix('(')
+            .and_then(|inner| inner.split_once(')'))
+        {
+            Some(pair) => pair,
+            None => {
+                let end = after
+                    .find(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '−'))
+                    .unwrap_or(after.len());
+                after.split_at(end)
+            }
+        };
+        match exponent {
+            "2" => push(&mut runs, "²", false),
+            "3" => push(&mut runs, "³", false),
+            "" => push(&mut runs, "^", false),
+            _ => push(&mut runs, &exponent.replace('-', "−"), true),
+        }
+        rest = tail;
+    }
+    push(&mut runs, rest, false);
+    runs
+}
+
+/// Round values inside [lo, hi], about `target` of them.
+pub(crate) fn linear_ticks(lo: f64, hi: f64, target: usize) -> Vec<f64> {
+    let span = hi - lo;
+    if !span.is_finite() || span <= 0.0 {
+        return vec![];
+    }
+    let step = nice_step(span / target.max(1) as f64);
+    let first = (lo / step - 1e-9).ceil();
+    let last = (hi / step + 1e-9).floor();
+    let count = (last - first).clamp(-1.0, 100.0) as i64;
+    (0..=count)
+        .map(|i| (first + i as f64) * step)
+        .map(|tick| if tick == 0.0 { 0.0 } else { tick })
+        .collect()
+}
+
+fn nice_step(raw: f64) -> f64 {
+    let magnitude = 10f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|m| m * magnitude >= raw * (1.0 - 1e-9))
+        .unwrap_or(10.0);
+    step * magnitude
+}
+
+/// Ticks at 1, 10, 100, ... with every `skip`-th decade kept.
+pub(crate) fn log_ticks(lo: f64, hi: f64, target: usize) -> Vec<f64> {
+    if !(lo > 0.0 && hi > lo) {
+        return vec![];
+    }
+    let first = (lo.log10() - 1e-9).ceil() as i32;
+    let last = (hi.log10() + 1e-9).floor() as i32;
+    let skip = (((last - first).max(0) as usize) / target.max(1) + 1) as i32;
+    (first..=last)
+        .filter(|decade| decade.rem_euclid(skip) == 0)
+        .map(|decade| 10f64.powi(decade))
+        .collect()
+}
+
+/// Labels for evenly spaced ticks, and the power of ten that they leave to the axis label (0 mostly).
+pub(crate) fn tick_labels(ticks: &[f64]) -> (Vec<String>, i32) {
+    let largest = ticks.iter().fold(0.0f64, |m, t| m.max(t.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return (ticks.iter().map(|_| "0".to_owned()).collect(), 0);
+    }
+    let order = largest.log10().floor() as i32;
+    let power = if (-3..5).contains(&order) {
+        0
+    } else {
+        order.div_euclid(3) * 3
+    };
+    let scale = 10f64.powi(-power);
+    let step = ticks
+        .windows(2)
+        .map(|w| (w[1] - w[0]).abs() * scale)
+        .fold(f64::INFINITY, f64::min);
+    let step = if step.is_finite() && step > 0.0 {
+        step
+    } else {
+        largest * scale
+    };
+    let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 9.0) as usize;
+    let labels = ticks
+        .iter()
+        .map(|t| {
+            let text = format!("{:.*}", decimals, t * scale);
+            let text = if text
+                .trim_start_matches('-')
+                .chars()
+                .all(|c| c == '0' || c == '.')
+            {
+                "0".into()
+            } else {
+                text
+            };
+            group_thousands(&text).replace('-', "−")
+        })
+        .collect();
+    (labels, power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_numbers_read_well() {
+        for (value, text) in [
+            (250.102, "250.1"),
+            (0.0, "0"),
+            (-3.5, "−3.5"),
+            (500_000.0, "500\u{2009}000"),
+            (1.898e8, "1.898×10⁸"),
+            (1.2e-9, "1.2×10⁻⁹"),
+            (0.012_34, "0.01234"),
+            (9.9999, "10"),
+            (f64::NAN, "not available"),
+            (f64::NEG_INFINITY, "−∞"),
+        ] {
+            assert_eq!(significant(value, 4), text);
+        }
+        assert_eq!(
+            with_interval(22.913, 0.4213),
+            ("22.91".into(), "0.42".into())
+        );
+        assert_eq!(with_interval(1234.5, 37.0), ("1234".into(), "37".into()));
+    }
+
+    #[test]
+    fn regress_units_are_split_at_exponents() {
+        let plain = |t: &str| Run {
+            text: t.into(),
+            raised: false,
+        };
+        let raised = |t: &str| Run {
+            text: t.into(),
+            raised: true,
+        };
+        assert_eq!(runs("m/s^2"), [plain("m/s²")]);
+        assert_eq!(runs("N/m^(10/9)"), [plain("N/m"), raised("10/9")]);
+        assert_eq!(
+            runs("N/m^n, outer"),
+            [plain("N/m"), raised("n"), plain(", outer")]
+        );
+        assert_eq!(runs("a^"), [plain("a^")]);
+        assert_eq!(runs("^(2"), [plain("^(2")]);
+    }
+
+    #[test]
+    fn regress_ticks_are_round_and_inside() {
+        assert_eq!(linear_ticks(-1.0, 1.0, 4), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(
+            tick_labels(&[0.0, 5e7, 1e8, 1.5e8]),
+            (vec!["0".into(), "50".into(), "100".into(), "150".into()], 6)
+        );
+        assert_eq!(
+            tick_labels(&[-0.5, 0.0, 0.5]),
+            (vec!["−0.5".into(), "0".into(), "0.5".into()], 0)
+        );
+        assert!(linear_ticks(0.0, 0.0, 5).is_empty());
+        assert_eq!(log_ticks(1e-3, 1.0, 5), [1e-3, 1e-2, 1e-1, 1.0]);
+    }
+}

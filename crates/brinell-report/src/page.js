@@ -1,0 +1,287 @@
+// Zoom, cursor and saving for the plots. The page is complete without it.
+"use strict";
+(() => {
+  const charts = {};
+  const decode = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+  const shown = (svg) => svg.getBoundingClientRect().width > 0;
+  const short = (v, digits) => {
+    if (!Number.isFinite(v)) return "no value";
+    const size = Math.abs(v);
+    const text = v !== 0 && (size >= 1e6 || size < 1e-3) ? v.toExponential(digits - 1) : String(Number(v.toPrecision(digits)));
+    return text.replace("-", "−");
+  };
+
+  function ticks(lo, hi, target) {
+    const raw = (hi - lo) / target, magnitude = 10 ** Math.floor(Math.log10(raw));
+    const step = magnitude * [1, 2, 5, 10].find((m) => m * magnitude >= raw * (1 - 1e-9));
+    const decimals = Math.max(0, -Math.floor(Math.log10(step * (1 + 1e-9))));
+    const list = [];
+    for (let i = Math.ceil(lo / step - 1e-9); i <= Math.floor(hi / step + 1e-9); i++) list.push(i * step);
+    return list.map((v) => [v, (Math.abs(v) < step / 2 ? "0" : v.toFixed(Math.min(decimals, 9))).replace("-", "−")]);
+  }
+
+  function path(chart, view, frame, y) {
+    // As on paper: smallest and largest value of each pixel column, or the largest alone.
+    const { x0, dx, values, peak } = chart, [l, , r] = frame;
+    const first = Math.max(0, Math.floor((view[0] - x0) / dx) - 1);
+    const last = Math.min(values.length, Math.ceil((view[1] - x0) / dx) + 2);
+    let d = "", pen = false, column = null, kept = [];
+    const flush = () => {
+      for (const i of [...new Set(kept)].sort((a, b) => a - b)) {
+        const x = l + (r - l) * (x0 + i * dx - view[0]) / (view[1] - view[0]);
+        d += (pen ? "L" : "M") + x.toFixed(1) + " " + y(values[i]).toFixed(1);
+        pen = true;
+      }
+    };
+    for (let i = first; i < last; i++) {
+      if (!Number.isFinite(values[i])) { flush(); kept = []; column = null; pen = false; continue; }
+      const at = Math.floor((r - l) * (x0 + i * dx - view[0]) / (view[1] - view[0]));
+      if (at !== column) { flush(); column = at; kept = peak ? [i] : [i, i, i, i]; continue; }
+      if (peak) { if (values[i] > values[kept[0]]) kept[0] = i; continue; }
+      if (values[i] < values[kept[1]]) kept[1] = i;
+      if (values[i] > values[kept[2]]) kept[2] = i;
+      kept[3] = i;
+    }
+    flush();
+    return d;
+  }
+
+  function clone(node, parent, attributes, text) {
+    const copy = node.cloneNode(false);
+    for (const key in attributes) copy.setAttribute(key, attributes[key]);
+    if (text !== undefined) copy.textContent = text;
+    parent.append(copy);
+    return copy;
+  }
+
+  function draw(plot, view) {
+    const { svg, chart, frame: [l, t, r, b], home } = plot;
+    plot.view = view;
+    const atHome = view[0] === home[0] && view[1] === home[1];
+    if (atHome) { svg.innerHTML = plot.original; plot.yRange = null; return; }
+    svg.innerHTML = plot.original;
+    const X = (v) => l + (r - l) * (v - view[0]) / (view[1] - view[0]);
+    const font = plot.font;
+
+    const tx = svg.querySelector(".ticks-x"), text = tx.querySelector("text"), grid = tx.querySelector("path");
+    if (text && grid) {
+      tx.replaceChildren();
+      let target = Math.max(3, Math.min(10, (r - l) / 90)), list = ticks(view[0], view[1], target);
+      while (target > 1 && list.reduce((n, k) => Math.max(n, k[1].length), 0) * font * 0.66 * list.length > r - l) list = ticks(view[0], view[1], --target);
+      for (const [v, label] of list) {
+        clone(grid, tx, { d: `M${X(v).toFixed(1)} ${t}L${X(v).toFixed(1)} ${b}` });
+        clone(text, tx, { x: X(v).toFixed(1) }, label);
+      }
+    }
+
+    let Y = plot.y;
+    if (!chart.log) {
+      let lo = Infinity, hi = -Infinity;
+      const first = Math.max(0, Math.ceil((view[0] - chart.x0) / chart.dx)), last = Math.min(chart.values.length - 1, Math.floor((view[1] - chart.x0) / chart.dx));
+      for (let i = first; i <= last; i++) {
+        const v = chart.values[i];
+        if (v < lo) lo = v;
+        if (v > hi) hi = v;
+      }
+      if (hi > lo) {
+        const room = 0.06 * (hi - lo);
+        const range = [chart.peak ? Math.min(0, lo) : lo - room, hi + room];
+        const ty = svg.querySelector(".ticks-y"), label = ty.querySelector("text"), line = ty.querySelector("path");
+        if (label && line) {
+          Y = (v) => b + (t - b) * (v - range[0]) / (range[1] - range[0]);
+          ty.replaceChildren();
+          const scale = plot.yScale;
+          for (const [v, name] of ticks(range[0] / scale, range[1] / scale, Math.max(2, Math.min(8, Math.floor((b - t) / 3.2 / font))))) {
+            const at = Y(v * scale);
+            clone(line, ty, { d: `M${l} ${at.toFixed(1)}L${r} ${at.toFixed(1)}` });
+            clone(label, ty, { y: (at + 0.36 * font).toFixed(1) }, name);
+          }
+        }
+      }
+    }
+    const curve = svg.querySelector(".series path");
+    if (curve) curve.setAttribute("d", path(chart, view, plot.frame, Y));
+    svg.querySelectorAll(".series circle").forEach((dot) => dot.remove());
+
+    svg.querySelectorAll(".lane").forEach((lane, index) => {
+      const marks = (chart.lanes[index] || []).filter((m) => m[0] >= view[0] && m[0] <= view[1]);
+      const base = 5 + plot.lane * (index + 1), ruler = base - plot.lane / 2;
+      const [tick, line] = lane.querySelectorAll("path");
+      const span = (y1, y2) => marks.map((m) => `M${X(m[0]).toFixed(1)} ${y1}L${X(m[0]).toFixed(1)} ${y2}`).join("");
+      tick.setAttribute("d", span(ruler - 5.5, ruler + 5.5));
+      if (line) line.setAttribute("d", marks.length * 3 < r - l ? span(t, b) : "");
+      lane.querySelectorAll("text").forEach((node) => node.remove());
+      const sample = plot.laneText;
+      if (!sample) return;
+      marks.forEach((m, i) => {
+        const x = X(m[0]) + 4, next = i + 1 < marks.length ? X(marks[i + 1][0]) : r + 8;
+        if (m[2] && x + m[2].length * font * 0.62 < next) clone(sample, lane, { x: x.toFixed(1), y: (base - 0.5 * (plot.lane - 0.72 * font) - 0.4).toFixed(1) }, m[2]);
+      });
+    });
+  }
+
+  function clamp(chart, view) {
+    const lo = chart.x0, hi = chart.x0 + chart.dx * (chart.values.length - 1);
+    const width = Math.min(Math.max(view[1] - view[0], 8 * chart.dx), hi - lo);
+    const middle = Math.min(Math.max((view[0] + view[1]) / 2, lo + width / 2), hi - width / 2);
+    return [middle - width / 2, middle + width / 2];
+  }
+
+  const zoom = (name, view) => charts[name].plots.forEach((plot) => draw(plot, view ? clamp(charts[name], view) : plot.home));
+
+  function watch(plot, tools) {
+    const { svg, chart, name } = plot;
+    const at = (event) => {
+      const box = svg.getBoundingClientRect(), [l, , r] = plot.frame;
+      const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
+      return [x, plot.view[0] + (plot.view[1] - plot.view[0]) * (Math.min(Math.max(x, l), r) - l) / (r - l)];
+    };
+    let from = null;
+    const overlay = (x1, x2, wash) => {
+      svg.querySelector(".cursor")?.remove();
+      const line = svg.querySelector("path");
+      if (!line) return;
+      const [, t, , b] = plot.frame, node = line.cloneNode(false);
+      for (const key of [...node.getAttributeNames()]) node.removeAttribute(key);
+      node.setAttribute("class", "cursor");
+      node.setAttribute("d", `M${x1} ${t}H${x2}V${b}H${x1}Z`);
+      node.setAttribute("stroke", "#1b1f24");
+      node.setAttribute("fill", wash ? "#0072B2" : "none");
+      node.setAttribute("fill-opacity", "0.15");
+      node.setAttribute("stroke-width", "0.7");
+      node.setAttribute("pointer-events", "none");
+      svg.append(node);
+    };
+    const read = (x, px) => {
+      const nearest = Math.round((x - chart.x0) / chart.dx);
+      let index = Math.min(Math.max(nearest, 0), chart.values.length - 1);
+      if (chart.peak) {
+        // The highest line near the pointer is the one meant.
+        const reach = Math.ceil(3 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]) / chart.dx);
+        for (let i = Math.max(0, nearest - reach); i <= Math.min(chart.values.length - 1, nearest + reach); i++) if (chart.values[i] > chart.values[index]) index = i;
+      }
+      const place = chart.x0 + index * chart.dx, limit = 5 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]);
+      const near = chart.lanes.flat().filter((m) => Math.abs(m[0] - place) <= limit).map((m) => m[1]).slice(0, 2);
+      tools.readout.textContent = `${short(place, 6)} ${chart.xUnit} · ${short(chart.values[index], 4)} ${chart.yUnit}${near.length ? " · near " + near.join(", ") : ""}`;
+      const [l, , r] = plot.frame, cx = l + (r - l) * (place - plot.view[0]) / (plot.view[1] - plot.view[0]);
+      if (cx >= l && cx <= r) overlay(cx, cx, false);
+    };
+    svg.addEventListener("pointerdown", (event) => { if (event.button === 0) { from = at(event); try { svg.setPointerCapture(event.pointerId); } catch { /* gone already */ } } });
+    svg.addEventListener("pointermove", (event) => {
+      const [px, x] = at(event), [l, , r] = plot.frame;
+      if (from) overlay(Math.min(Math.max(from[0], l), r), Math.min(Math.max(px, l), r), true);
+      else if (px >= l && px <= r) read(x, px);
+    });
+    svg.addEventListener("pointerup", (event) => {
+      if (!from) return;
+      const [px, x] = at(event), start = from;
+      from = null;
+      if (Math.abs(px - start[0]) > 6) zoom(name, [Math.min(x, start[1]), Math.max(x, start[1])]);
+      else read(x, px);
+    });
+    svg.addEventListener("pointercancel", () => { from = null; svg.querySelector(".cursor")?.remove(); });
+    svg.addEventListener("pointerleave", () => { if (!from) { svg.querySelector(".cursor")?.remove(); tools.readout.textContent = tools.hint; } });
+    svg.addEventListener("dblclick", () => zoom(name, null));
+    svg.classList.add("zoomable");
+  }
+
+  const button = (label, title, act) => {
+    const node = document.createElement("button");
+    node.type = "button";
+    node.textContent = label;
+    node.title = title;
+    node.addEventListener("click", act);
+    return node;
+  };
+
+  function file(svg) {
+    const copy = svg.cloneNode(true), { width, height } = svg.viewBox.baseVal;
+    copy.querySelector(".cursor")?.remove();
+    copy.removeAttribute("class");
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    copy.setAttribute("style", "background:#fff");
+    copy.setAttribute("font-family", "Inter, 'Helvetica Neue', Arial, sans-serif");
+    return new XMLSerializer().serializeToString(copy);
+  }
+  function save(name, blob) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+  function savePng(svg) {
+    const { width, height } = svg.viewBox.baseVal, image = new Image();
+    image.onload = () => {
+      const canvas = document.createElement("canvas");
+      canvas.width = 2 * width;
+      canvas.height = 2 * height;
+      const pen = canvas.getContext("2d");
+      pen.fillStyle = "#fff";
+      pen.fillRect(0, 0, canvas.width, canvas.height);
+      pen.drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => save(svg.dataset.name + ".png", blob));
+    };
+    image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(file(svg));
+  }
+
+  document.querySelectorAll("script[data-chart]").forEach((script) => {
+    const chart = JSON.parse(script.textContent);
+    chart.values = decode(chart.values);
+    chart.plots = [];
+    charts[script.dataset.chart] = chart;
+  });
+
+  document.querySelectorAll("figure").forEach((figure) => {
+    const drawings = [...figure.querySelectorAll("svg")];
+    if (!drawings.length) return;
+    const current = () => drawings.find(shown) || drawings[0];
+    const bar = document.createElement("div"), readout = document.createElement("div");
+    bar.className = "tools";
+    readout.className = "readout";
+    const chart = charts[drawings[0].dataset.plot];
+    const tools = { readout, hint: chart && chart.values.length > 8 ? "Drag to zoom, double click to go back" : "" };
+    readout.textContent = tools.hint;
+    bar.append(readout);
+    if (tools.hint) {
+      const name = drawings[0].dataset.plot;
+      bar.append(
+        button("−", "Zoom out", () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a - w / 2, b + w / 2]); }),
+        button("All", "Show everything that is kept", () => zoom(name, [-Infinity, Infinity].map((v) => Math.min(Math.max(v, chart.x0), chart.x0 + chart.dx * (chart.values.length - 1))))),
+        button("Reset", "Back to the first view", () => zoom(name, null)),
+      );
+    }
+    bar.append(
+      button("SVG", "Save this picture as SVG", () => save(current().dataset.name + ".svg", new Blob([file(current())], { type: "image/svg+xml" }))),
+      button("PNG", "Save this picture as PNG", () => savePng(current())),
+    );
+    figure.prepend(bar);
+    if (!tools.hint) return;
+    for (const svg of drawings) {
+      const frame = svg.dataset.frame.split(" ").map(Number), view = svg.dataset.view.split(" ").map(Number);
+      const [lo, hi] = chart.y, [, t, , b] = frame, L = Math.log10;
+      const y = chart.log
+        ? (v) => b + (t - b) * Math.max(-1, (L(Math.max(v, lo * 1e-3)) - L(lo)) / (L(hi) - L(lo)))
+        : (v) => b + (t - b) * (v - lo) / (hi - lo);
+      const plot = { svg, chart, name: svg.dataset.plot, frame, view, home: view, original: svg.innerHTML, y, font: Number(svg.dataset.font), lane: chart.laneHeight, yScale: chart.yScale, laneText: svg.querySelector(".lane text")?.cloneNode(false) };
+      chart.plots.push(plot);
+      watch(plot, tools);
+    }
+  });
+
+  // A click on the overview shows that instant below it.
+  document.querySelectorAll('svg[data-plot="overview"]').forEach((svg) => {
+    const wave = charts.waveform;
+    if (!wave || !wave.plots.length) return;
+    svg.style.cursor = "pointer";
+    svg.addEventListener("click", (event) => {
+      const box = svg.getBoundingClientRect(), [l, t, r, b] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
+      const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
+      const time = (lo + (hi - lo) * (x - l) / (r - l)) * wave.overviewScale, [a, c] = wave.plots[0].view;
+      zoom("waveform", [time - (c - a) / 2, time + (c - a) / 2]);
+      const mark = svg.querySelector(".window path"), view = wave.plots[0].view.map((v) => l + (r - l) * (v / wave.overviewScale - lo) / (hi - lo));
+      if (mark) mark.setAttribute("d", `M${view[0] - 1} ${t}H${view[1] + 1}V${b}H${view[0] - 1}Z`);
+    });
+  });
+})();

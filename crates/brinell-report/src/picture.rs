@@ -1,0 +1,710 @@
+//! A picture as a list of shapes, written as SVG or drawn as PNG.
+
+use std::fmt::Write as _;
+
+use tiny_skia as skia;
+use ttf_parser::OutlineBuilder;
+
+use crate::font;
+use crate::number::{Run, runs};
+
+/// Why a picture could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The pixels do not fit: zero, or too many.
+    #[error("a picture of {width} x {height} pixels cannot be drawn (1 to 16384 each way)")]
+    Size {
+        /// Pixels across.
+        width: f64,
+        /// Pixels down.
+        height: f64,
+    },
+    /// The PNG encoder failed.
+    #[error("the PNG could not be written: {0}")]
+    Png(String),
+}
+
+/// Colours: Okabe and Ito's set, told apart by the colour-blind, and greys.
+pub(crate) mod ink {
+    pub(crate) const BLUE: &str = "#0072B2";
+    pub(crate) const SKY: &str = "#56B4E9";
+    pub(crate) const VERMILLION: &str = "#D55E00";
+    pub(crate) const GREEN: &str = "#009E73";
+    pub(crate) const ORANGE: &str = "#E69F00";
+    pub(crate) const PURPLE: &str = "#CC79A7";
+    pub(crate) const BLACK: &str = "#1b1f24";
+    pub(crate) const TEXT: &str = "#3a424c";
+    pub(crate) const FAINT: &str = "#68727d";
+    pub(crate) const GRID: &str = "#e3e7eb";
+    pub(crate) const FRAME: &str = "#9aa4ae";
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rect {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) right: f64,
+    pub(crate) bottom: f64,
+}
+
+impl Rect {
+    pub(crate) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+    pub(crate) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a shape is drawn; a width of 0 means no line, no fill colour no fill.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Paint {
+    pub(crate) stroke: &'static str,
+    pub(crate) width: f64,
+    pub(crate) dash: &'static [f64],
+    pub(crate) fill: Option<(&'static str, f64)>,
+    pub(crate) opacity: f64,
+}
+
+impl Paint {
+    pub(crate) fn line(stroke: &'static str, width: f64) -> Self {
+        Self {
+            stroke,
+            width,
+            dash: &[],
+            fill: None,
+            opacity: 1.0,
+        }
+    }
+    pub(crate) fn fill(color: &'static str, opacity: f64) -> Self {
+        Self {
+            stroke: color,
+            width: 0.0,
+            dash: &[],
+            fill: Some((color, opacity)),
+            opacity: 1.0,
+        }
+    }
+    pub(crate) fn dashed(self, dash: &'static [f64]) -> Self {
+        Self { dash, ..self }
+    }
+    pub(crate) fn filled(self, color: &'static str, opacity: f64) -> Self {
+        Self {
+            fill: Some((color, opacity)),
+            ..self
+        }
+    }
+    pub(crate) fn faded(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Text {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) size: f64,
+    pub(crate) bold: bool,
+    pub(crate) anchor: Anchor,
+    pub(crate) color: &'static str,
+    /// Reads upwards, as a vertical axis' label does.
+    pub(crate) upright: bool,
+    pub(crate) runs: Vec<Run>,
+}
+
+impl Text {
+    pub(crate) fn new(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
+        let plain = vec![Run {
+            text: text.to_owned(),
+            raised: false,
+        }];
+        Self {
+            x,
+            y,
+            size,
+            bold: false,
+            anchor,
+            color: ink::TEXT,
+            upright: false,
+            runs: plain,
+        }
+    }
+    /// Text that may hold a unit with an exponent.
+    pub(crate) fn with_unit(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
+        Self {
+            runs: runs(text),
+            ..Self::new(x, y, size, anchor, "")
+        }
+    }
+    pub(crate) fn bold(self) -> Self {
+        Self { bold: true, ..self }
+    }
+    pub(crate) fn color(self, color: &'static str) -> Self {
+        Self { color, ..self }
+    }
+    pub(crate) fn upright(self) -> Self {
+        Self {
+            upright: true,
+            ..self
+        }
+    }
+    pub(crate) fn width(&self) -> f64 {
+        self.runs
+            .iter()
+            .map(|run| font::width(&run.text, run_size(self.size, run), self.bold))
+            .sum()
+    }
+}
+
+fn run_size(size: f64, run: &Run) -> f64 {
+    if run.raised { size * 0.72 } else { size }
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Shape {
+    /// Lines through points; NaN-free. `close` joins the ends.
+    Path {
+        lines: Vec<Vec<(f64, f64)>>,
+        close: bool,
+        paint: Paint,
+        clip: Option<Rect>,
+    },
+    Circle {
+        x: f64,
+        y: f64,
+        r: f64,
+        paint: Paint,
+    },
+    Text(Text),
+    /// Start of a named group, which the page's script may redraw.
+    Open(&'static str),
+    Close,
+}
+
+/// A plot, ready to be written as SVG or PNG.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// A name fit for a file: "envelope-spectrum".
+    pub name: String,
+    /// What it shows, in words.
+    pub title: String,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) shapes: Vec<Shape>,
+    /// Attributes for the page's script.
+    pub(crate) attributes: String,
+}
+
+impl Picture {
+    pub(crate) fn new(name: &str, title: &str, width: f64, height: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            width,
+            height,
+            shapes: vec![],
+            attributes: String::new(),
+        }
+    }
+
+    /// Width and height in CSS pixels.
+    pub fn size(&self) -> (f64, f64) {
+        (self.width, self.height)
+    }
+
+    pub(crate) fn path(&mut self, points: &[(f64, f64)], paint: Paint) {
+        self.shapes.push(Shape::Path {
+            lines: vec![points.to_vec()],
+            close: false,
+            paint,
+            clip: None,
+        });
+    }
+
+    pub(crate) fn rect(&mut self, rect: Rect, paint: Paint) {
+        let Rect {
+            left,
+            top,
+            right,
+            bottom,
+        } = rect;
+        let corners = vec![(left, top), (right, top), (right, bottom), (left, bottom)];
+        self.shapes.push(Shape::Path {
+            lines: vec![corners],
+            close: true,
+            paint,
+            clip: None,
+        });
+    }
+
+    pub(crate) fn text(&mut self, text: Text) {
+        self.shapes.push(Shape::Text(text));
+    }
+
+    /// Lays `other` over this picture, its corner at (dx, dy).
+    pub(crate) fn place(&mut self, other: Picture, dx: f64, dy: f64) {
+        for mut shape in other.shapes {
+            match &mut shape {
+                Shape::Path { lines, clip, .. } => {
+                    for point in lines.iter_mut().flatten() {
+                        *point = (point.0 + dx, point.1 + dy);
+                    }
+                    if let Some(clip) = clip {
+                        clip.left += dx;
+                        clip.right += dx;
+                        clip.top += dy;
+                        clip.bottom += dy;
+                    }
+                }
+                Shape::Circle { x, y, .. } => {
+                    *x += dx;
+                    *y += dy;
+                }
+                Shape::Text(text) => {
+                    text.x += dx;
+                    text.y += dy;
+                }
+                Shape::Open(_) | Shape::Close => {}
+            }
+            self.shapes.push(shape);
+        }
+    }
+
+    /// A stand-alone SVG file.
+    pub fn svg(&self) -> String {
+        let (width, height) = (coordinate(self.width), coordinate(self.height));
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+             role=\"img\" font-family=\"{}\"><title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+            font::FAMILY,
+            escape(&self.title)
+        );
+        self.body(&mut svg, &self.name);
+        svg.push_str("</svg>\n");
+        svg
+    }
+
+    /// The same inside a page: no background, no namespace, ids that start with `id`.
+    pub(crate) fn inline(&self, id: &str, class: &str) -> String {
+        let mut svg = format!(
+            "<svg class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-name=\"{}\"{}>",
+            class,
+            coordinate(self.width),
+            coordinate(self.height),
+            escape(&self.title),
+            escape(&self.name),
+            self.attributes
+        );
+        self.body(&mut svg, id);
+        svg.push_str("</svg>\n");
+        svg
+    }
+
+    fn body(&self, svg: &mut String, id: &str) {
+        let mut clips: Vec<Rect> = vec![];
+        for shape in &self.shapes {
+            if let Shape::Path {
+                clip: Some(clip), ..
+            } = shape
+                && !clips.contains(clip)
+            {
+                let _ = write!(
+                    svg,
+                    "<clipPath id=\"{}-clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
+                    escape(id),
+                    clips.len(),
+                    coordinate(clip.left),
+                    coordinate(clip.top),
+                    coordinate(clip.width()),
+                    coordinate(clip.height())
+                );
+                clips.push(*clip);
+            }
+        }
+        for shape in &self.shapes {
+            match shape {
+                Shape::Path {
+                    lines,
+                    close,
+                    paint,
+                    clip,
+                } => {
+                    svg.push_str("<path d=\"");
+                    for line in lines {
+                        write_line(svg, line, *close);
+                    }
+                    svg.push('"');
+                    write_paint(svg, paint);
+                    if let Some(at) = clip.and_then(|clip| clips.iter().position(|c| *c == clip)) {
+                        let _ = write!(svg, " clip-path=\"url(#{}-clip{at})\"", escape(id));
+                    }
+                    svg.push_str("/>\n");
+                }
+                Shape::Circle { x, y, r, paint } => {
+                    let _ = write!(
+                        svg,
+                        "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"",
+                        coordinate(*x),
+                        coordinate(*y),
+                        coordinate(*r)
+                    );
+                    write_paint(svg, paint);
+                    svg.push_str("/>\n");
+                }
+                Shape::Text(text) => write_text(svg, text),
+                Shape::Open(class) => {
+                    let _ = write!(svg, "<g class=\"{class}\">");
+                }
+                Shape::Close => svg.push_str("</g>"),
+            }
+        }
+    }
+
+    /// A PNG file, `scale` pixels to the CSS pixel, on white.
+    pub fn png(&self, scale: f64) -> Result<Vec<u8>, Error> {
+        let (width, height) = ((self.width * scale).round(), (self.height * scale).round());
+        let fits = |pixels: f64| (1.0..=16384.0).contains(&pixels);
+        let size = Error::Size { width, height };
+        if !fits(width) || !fits(height) {
+            return Err(size);
+        }
+        let Some(mut pixels) = skia::Pixmap::new(width as u32, height as u32) else {
+            return Err(size);
+        };
+        pixels.fill(skia::Color::WHITE);
+        let transform = skia::Transform::from_scale(scale as f32, scale as f32);
+        for shape in &self.shapes {
+            match shape {
+                Shape::Path {
+                    lines,
+                    close,
+                    paint,
+                    clip,
+                } => {
+                    let mask = clip
+                        .and_then(|clip| clip_mask(clip, width as u32, height as u32, transform));
+                    let mut builder = skia::PathBuilder::new();
+                    for line in lines {
+                        let mut points = line.iter();
+                        let Some(&(x, y)) = points.next() else {
+                            continue;
+                        };
+                        builder.move_to(x as f32, y as f32);
+                        for &(x, y) in points {
+                            builder.line_to(x as f32, y as f32);
+                        }
+                        if *close {
+                            builder.close();
+                        }
+                    }
+                    draw(&mut pixels, builder, paint, transform, mask.as_ref());
+                }
+                Shape::Circle { x, y, r, paint } => {
+                    let mut builder = skia::PathBuilder::new();
+                    builder.push_circle(*x as f32, *y as f32, *r as f32);
+                    draw(&mut pixels, builder, paint, transform, None);
+                }
+                Shape::Text(text) => draw_text(&mut pixels, text, transform),
+                Shape::Open(_) | Shape::Close => {}
+            }
+        }
+        pixels
+            .encode_png()
+            .map_err(|error| Error::Png(error.to_string()))
+    }
+}
+
+/// Escapes text for element content and double-quoted attributes; characters that XML forbids become U+FFFD.
+pub(crate) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(c),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// A coordinate to a tenth of a pixel; nothing a picture holds may be written as NaN.
+pub(crate) fn coordinate(value: f64) -> String {
+    let tenths = if value.is_finite() {
+        (value.clamp(-1e5, 1e5) * 10.0).round() as i64
+    } else {
+        0
+    };
+    let (whole, tenth) = (tenths / 10, (tenths % 10).abs());
+    let sign = if tenths < 0 && whole == 0 { "-" } else { "" };
+    if tenth == 0 {
+        format!("{whole}")
+    } else {
+        format!("{sign}{whole}.{tenth}")
+    }
+}
+
+fn write_line(svg: &mut String, line: &[(f64, f64)], close: bool) {
+    for (index, (x, y)) in line.iter().enumerate() {
+        svg.push(if index == 0 { 'M' } else { 'L' });
+        svg.push_str(&coordinate(*x));
+        svg.push(' ');
+        svg.push_str(&coordinate(*y));
+    }
+    if close && !line.is_empty() {
+        svg.push('Z');
+    }
+}
+
+fn write_paint(svg: &mut String, paint: &Paint) {
+    match paint.fill {
+        Some((color, opacity)) if opacity < 1.0 => {
+            let _ = write!(svg, " fill=\"{color}\" fill-opacity=\"{opacity}\"");
+        }
+        Some((color, _)) => {
+            let _ = write!(svg, " fill=\"{color}\"");
+        }
+        None => svg.push_str(" fill=\"none\""),
+    }
+    if paint.width > 0.0 {
+        let _ = write!(
+            svg,
+            " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+            paint.stroke, paint.width
+        );
+        if !paint.dash.is_empty() {
+            let dash: Vec<String> = paint.dash.iter().map(f64::to_string).collect();
+            let _ = write!(svg, " stroke-dasharray=\"{}\"", dash.join(" "));
+        }
+    }
+    if paint.opacity < 1.0 {
+        let _ = write!(svg, " opacity=\"{}\"", paint.opacity);
+    }
+}
+
+fn write_text(svg: &mut String, text: &Text) {
+    let (x, y) = (coordinate(text.x), coordinate(text.y));
+    svg.push_str("<text");
+    if text.upright {
+        let _ = write!(svg, " transform=\"translate({x} {y}) rotate(-90)\"");
+    } else {
+        let _ = write!(svg, " x=\"{x}\" y=\"{y}\"");
+    }
+    let _ = write!(svg, " font-size=\"{}\" fill=\"{}\"", text.size, text.color);
+    match text.anchor {
+        Anchor::Start => {}
+        Anchor::Middle => svg.push_str(" text-anchor=\"middle\""),
+        Anchor::End => svg.push_str(" text-anchor=\"end\""),
+    }
+    if text.bold {
+        svg.push_str(" font-weight=\"600\"");
+    }
+    svg.push('>');
+    let mut raised = false;
+    for run in &text.runs {
+        // Firefox knows no baseline-shift: move the baseline and move it back.
+        match (raised, run.raised) {
+            (false, false) => svg.push_str(&escape(&run.text)),
+            (_, true) => {
+                let size = run_size(text.size, run);
+                let _ = write!(
+                    svg,
+                    "<tspan dy=\"-0.45em\" font-size=\"{size:.1}\">{}</tspan>",
+                    escape(&run.text)
+                );
+            }
+            (true, false) => {
+                let back = 0.45
+                    * run_size(
+                        text.size,
+                        &Run {
+                            raised: true,
+                            text: String::new(),
+                        },
+                    );
+                let _ = write!(svg, "<tspan dy=\"{back:.1}\">{}</tspan>", escape(&run.text));
+            }
+        }
+        raised = run.raised;
+    }
+    svg.push_str("</text>\n");
+}
+
+fn clip_mask(
+    clip: Rect,
+    width: u32,
+    height: u32,
+    transform: skia::Transform,
+) -> Option<skia::Mask> {
+    let rect = skia::Rect::from_ltrb(
+        clip.left as f32,
+        clip.top as f32,
+        clip.right as f32,
+        clip.bottom as f32,
+    )?;
+    let mut mask = skia::Mask::new(width, height)?;
+    mask.fill_path(
+        &skia::PathBuilder::from_rect(rect),
+        skia::FillRule::Winding,
+        true,
+        transform,
+    );
+    Some(mask)
+}
+
+fn skia_paint(color: &str, opacity: f64) -> skia::Paint<'static> {
+    let part =
+        |at: usize| u8::from_str_radix(color.get(at..at + 2).unwrap_or("0"), 16).unwrap_or(0);
+    let mut paint = skia::Paint::default();
+    paint.set_color_rgba8(
+        part(1),
+        part(3),
+        part(5),
+        (opacity.clamp(0.0, 1.0) * 255.0).round() as u8,
+    );
+    paint.anti_alias = true;
+    paint
+}
+
+fn draw(
+    pixels: &mut skia::Pixmap,
+    builder: skia::PathBuilder,
+    paint: &Paint,
+    transform: skia::Transform,
+    mask: Option<&skia::Mask>,
+) {
+    let Some(path) = builder.finish() else { return };
+    if let Some((color, opacity)) = paint.fill {
+        let fill = skia_paint(color, opacity * paint.opacity);
+        pixels.fill_path(&path, &fill, skia::FillRule::Winding, transform, mask);
+    }
+    if paint.width > 0.0 {
+        let stroke = skia::Stroke {
+            width: paint.width as f32,
+            line_join: skia::LineJoin::Round,
+            dash: skia::StrokeDash::new(paint.dash.iter().map(|d| *d as f32).collect(), 0.0),
+            ..skia::Stroke::default()
+        };
+        pixels.stroke_path(
+            &path,
+            &skia_paint(paint.stroke, paint.opacity),
+            &stroke,
+            transform,
+            mask,
+        );
+    }
+}
+
+fn draw_text(pixels: &mut skia::Pixmap, text: &Text, transform: skia::Transform) {
+    let shift = match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => -0.5 * text.width(),
+        Anchor::End => -text.width(),
+    };
+    let mut glyphs = Glyphs(skia::PathBuilder::new());
+    let mut pen = shift;
+    for run in &text.runs {
+        let size = run_size(text.size, run);
+        let rise = if run.raised { -0.45 * size } else { 0.0 };
+        pen = font::outline(&run.text, size, text.bold, pen, rise, &mut glyphs);
+    }
+    let Some(path) = glyphs.0.finish() else {
+        return;
+    };
+    let mut place = transform.pre_translate(text.x as f32, text.y as f32);
+    if text.upright {
+        place = place.pre_rotate(-90.0);
+    }
+    pixels.fill_path(
+        &path,
+        &skia_paint(text.color, 1.0),
+        skia::FillRule::Winding,
+        place,
+        None,
+    );
+}
+
+struct Glyphs(skia::PathBuilder);
+
+impl OutlineBuilder for Glyphs {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to(x, y);
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to(x, y);
+    }
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.0.quad_to(x1, y1, x, y);
+    }
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.0.cubic_to(x1, y1, x2, y2, x, y);
+    }
+    fn close(&mut self) {
+        self.0.close();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_markup_is_escaped() {
+        assert_eq!(
+            escape("<a href=\"x\">&'\u{1}"),
+            "&lt;a href=&quot;x&quot;&gt;&amp;&#39;\u{fffd}"
+        );
+        let mut picture = Picture::new("p", "a < b", 10.0, 10.0);
+        picture.text(Text::with_unit(
+            0.0,
+            0.0,
+            10.0,
+            Anchor::Start,
+            "N/m^(10/9) <b>",
+        ));
+        let svg = picture.svg();
+        assert!(
+            svg.contains("<title>a &lt; b</title>")
+                && svg.contains("&lt;b&gt;")
+                && svg.contains("dy=\"-0.45em\"")
+        );
+    }
+
+    #[test]
+    fn regress_coordinates_are_short_and_finite() {
+        for (value, text) in [
+            (1.0, "1"),
+            (-0.04, "0"),
+            (-0.26, "-0.3"),
+            (12.35, "12.4"),
+            (-7.5, "-7.5"),
+        ] {
+            assert_eq!(coordinate(value), text);
+        }
+        assert_eq!(coordinate(f64::NAN), "0");
+        assert_eq!(coordinate(1e300), "100000");
+    }
+
+    #[test]
+    fn regress_impossible_sizes_are_errors() {
+        assert!(Picture::new("p", "", 0.0, 10.0).png(1.0).is_err());
+        assert!(Picture::new("p", "", 10.0, 10.0).png(1e9).is_err());
+        assert!(Picture::new("p", "", 10.0, 10.0).png(f64::NAN).is_err());
+        assert!(
+            Picture::new("p", "", 10.0, 10.0)
+                .png(1.0)
+                .is_ok_and(|png| png.starts_with(b"\x89PNG"))
+        );
+    }
+}

@@ -1,0 +1,729 @@
+//! The report's pictures, from its data.
+
+use std::f64::consts::TAU;
+
+use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, left_margin, range};
+use crate::data::{EventKind, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum};
+use crate::font;
+use crate::number::{linear_ticks, significant, tick_labels};
+use crate::picture::{Anchor, Error, Paint, Picture, Shape, Text, ink};
+
+/// What a picture is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A desktop page, print, a file: 960 pixels across.
+    Wide,
+    /// A phone: 360 pixels across.
+    Narrow,
+}
+
+impl Layout {
+    pub(crate) fn size(self, height: f64) -> Size {
+        match self {
+            Self::Wide => Size {
+                width: 960.0,
+                height,
+                font: 12.5,
+            },
+            Self::Narrow => Size {
+                width: 360.0,
+                height,
+                font: 11.0,
+            },
+        }
+    }
+}
+
+const CURVE: Paint = Paint {
+    stroke: ink::BLUE,
+    width: 1.2,
+    dash: &[],
+    fill: None,
+    opacity: 1.0,
+};
+
+/// Seconds or milliseconds, whichever reads better over `span`.
+pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {
+    if span.is_finite() && span >= 0.5 {
+        ("s", 1.0)
+    } else {
+        ("ms", 1e3)
+    }
+}
+
+fn spacing(d: f64) -> f64 {
+    if d.is_finite() && d > 0.0 { d } else { 1.0 }
+}
+
+fn start(t0: f64) -> f64 {
+    if t0.is_finite() { t0 } else { 0.0 }
+}
+
+fn span(series: &Series) -> (f64, f64) {
+    let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
+    (t0, t0 + dt * series.values.len().saturating_sub(1) as f64)
+}
+
+fn usable(markers: &[Marker]) -> impl Iterator<Item = &Marker> {
+    markers
+        .iter()
+        .filter(|m| m.frequency_hz.is_finite() && m.frequency_hz > 0.0)
+}
+
+/// The markers that decide what is shown: those of damage that is there, or all of them.
+fn telling(markers: &[Marker]) -> Vec<&Marker> {
+    let present: Vec<&Marker> = usable(markers).filter(|m| m.present).collect();
+    if present.is_empty() {
+        usable(markers).collect()
+    } else {
+        present
+    }
+}
+
+/// Start and end in seconds of the waveform shown close up: the last five periods of the quickest damage in the bearing.
+pub fn detail_window(report: &Report) -> (f64, f64) {
+    let series = &report.waveform.series;
+    let (first, last) = span(series);
+    let quickest = telling(&report.markers)
+        .iter()
+        .map(|m| m.frequency_hz)
+        .fold(0.0, f64::max);
+    let wanted = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
+    let width = wanted.max(32.0 * spacing(series.dt_s));
+    ((last - width).max(first), last)
+}
+
+/// The frequency up to which the envelope spectrum is shown: all harmonics of the damage in the bearing.
+fn envelope_top(report: &Report) -> f64 {
+    let spectrum = &report.envelope_spectrum;
+    let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
+    let top = telling(&report.markers)
+        .iter()
+        .map(|m| m.frequency_hz * (m.harmonics.clamp(1, 20) as f64 + 0.5))
+        .fold(0.0, f64::max);
+    if top > 0.0 { top.min(end) } else { end }
+}
+
+/// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
+pub fn overview(report: &Report, layout: Layout) -> Picture {
+    let series = &report.waveform.series;
+    let whole = MinMax {
+        t0_s: start(series.t0_s) - 0.5 * spacing(series.dt_s),
+        dt_s: series.dt_s,
+        min: series.values.clone(),
+        max: series.values.clone(),
+    };
+    let bins = report.waveform.overview.as_ref().unwrap_or(&whole);
+    let (t0, dt, count) = (
+        start(bins.t0_s),
+        spacing(bins.dt_s),
+        bins.min.len().min(bins.max.len()),
+    );
+    let end = t0 + dt * count as f64;
+    let (unit, scale) = time_unit(end - t0);
+    let mut chart = Chart::new(Spec {
+        name: "overview".into(),
+        title: format!("Whole run: {}", series.label),
+        size: layout.size(if layout == Layout::Wide { 190.0 } else { 170.0 }),
+        x: Domain::exact(t0 * scale, end * scale),
+        y: Domain::around(bins.min.iter().chain(&bins.max).copied()),
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: "Acceleration".into(),
+        y_unit: series.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        x_axis: true,
+    });
+    if range(bins.min.iter().copied()).is_none() {
+        chart.say("No samples");
+    } else {
+        let (low, high) = (&bins.min[..count], &bins.max[..count]);
+        let paint = Paint::line(ink::BLUE, 0.6).filled(ink::BLUE, 0.75);
+        chart.band(t0 * scale, dt * scale, low, high, paint);
+        let (lo, hi) = detail_window(report);
+        chart.highlight(lo * scale, hi * scale);
+    }
+    chart.interactive("overview");
+    chart.finish()
+}
+
+pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
+    let lane = |kind: EventKind, label: &str, color, dash: &'static [f64]| Lane {
+        label: label.into(),
+        value: String::new(),
+        color,
+        dash,
+        through: true,
+        marks: {
+            let mut marks: Vec<Mark> = report
+                .waveform
+                .events
+                .iter()
+                .filter(|event| event.kind == kind && event.t_s.is_finite())
+                .map(|event| Mark {
+                    x: event.t_s * scale,
+                    name: format!("Roller {} {label}", event.label),
+                    label: event.label.clone(),
+                })
+                .collect();
+            marks.sort_by(|a, b| a.x.total_cmp(&b.x));
+            marks
+        },
+    };
+    [
+        lane(EventKind::Enter, "enters", ink::VERMILLION, &[]),
+        lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0]),
+    ]
+    .into_iter()
+    .filter(|lane| !lane.marks.is_empty())
+    .collect()
+}
+
+/// The measured signal close up, with the instants at which rollers enter and leave defects.
+pub fn waveform(report: &Report, layout: Layout) -> Picture {
+    waveform_sized(
+        report,
+        layout.size(if layout == Layout::Wide { 340.0 } else { 300.0 }),
+        0.0,
+    )
+}
+
+fn waveform_sized(report: &Report, size: Size, left: f64) -> Picture {
+    let mut chart = Chart::new(Spec {
+        left,
+        ..waveform_spec(report, size)
+    });
+    let series = &report.waveform.series;
+    let (_, scale) = waveform_unit(report);
+    if range(series.values.iter().copied()).is_none() {
+        chart.say("No samples");
+    }
+    chart.curve(
+        start(series.t0_s) * scale,
+        spacing(series.dt_s) * scale,
+        &series.values,
+        false,
+        CURVE,
+    );
+    chart.interactive("waveform");
+    chart.finish()
+}
+
+pub(crate) fn waveform_unit(report: &Report) -> (&'static str, f64) {
+    let (lo, hi) = detail_window(report);
+    time_unit(hi - lo)
+}
+
+pub(crate) fn waveform_domain(report: &Report) -> Domain {
+    let series = &report.waveform.series;
+    let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
+    let first =
+        (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
+    Domain::around(series.values[first..].iter().copied())
+}
+
+fn waveform_spec(report: &Report, size: Size) -> Spec {
+    let series = &report.waveform.series;
+    let (lo, hi) = detail_window(report);
+    let (unit, scale) = waveform_unit(report);
+    Spec {
+        name: "waveform".into(),
+        title: format!("Waveform: {}", series.label),
+        size,
+        x: Domain::exact(lo * scale, hi * scale),
+        y: waveform_domain(report),
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: series.label.clone(),
+        y_unit: series.unit.clone(),
+        lanes: event_lanes(report, scale),
+        left: 0.0,
+        x_axis: true,
+    }
+}
+
+const MARKER_COLORS: [&str; 6] = [
+    ink::VERMILLION,
+    ink::GREEN,
+    ink::PURPLE,
+    ink::ORANGE,
+    ink::SKY,
+    ink::BLACK,
+];
+
+pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
+    usable(markers)
+        .enumerate()
+        .map(|(index, marker)| Lane {
+            label: marker.label.clone(),
+            value: format!("{} Hz", significant(marker.frequency_hz, 4)),
+            color: MARKER_COLORS[index % MARKER_COLORS.len()],
+            dash: &[4.0, 3.0],
+            through: marker.present,
+            marks: (1..=marker.harmonics.clamp(1, 200))
+                .map(|n| Mark {
+                    x: n as f64 * marker.frequency_hz,
+                    name: if n == 1 {
+                        marker.label.clone()
+                    } else {
+                        format!("{n} × {}", marker.label)
+                    },
+                    label: if n == 1 {
+                        String::new()
+                    } else {
+                        format!("×{n}")
+                    },
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+/// The whole amplitude spectrum over decades.
+pub fn spectrum(report: &Report, layout: Layout) -> Picture {
+    let size = layout.size(if layout == Layout::Wide { 320.0 } else { 270.0 });
+    let spectrum = &report.spectrum;
+    let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
+    let title = format!("Spectrum: {}", spectrum.label);
+    let y = Domain::decades(&spectrum.amplitude);
+    let mut chart = Chart::new(spectrum_spec(
+        "spectrum",
+        title,
+        spectrum,
+        size,
+        end,
+        y,
+        vec![],
+    ));
+    draw_spectrum(&mut chart, spectrum);
+    chart.interactive("spectrum");
+    chart.finish()
+}
+
+/// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
+pub fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
+    envelope_sized(
+        report,
+        layout.size(if layout == Layout::Wide { 370.0 } else { 330.0 }),
+        0.0,
+    )
+}
+
+pub(crate) fn envelope_domain(report: &Report) -> Domain {
+    let spectrum = &report.envelope_spectrum;
+    let top = envelope_top(report);
+    // The line at 0 Hz is the envelope's mean and says nothing about damage.
+    let shown =
+        ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));
+    Domain::from_zero(spectrum.amplitude.iter().take(shown + 1).skip(1).copied())
+}
+
+fn envelope_spec(report: &Report, size: Size) -> Spec {
+    let spectrum = &report.envelope_spectrum;
+    let (top, y) = (envelope_top(report), envelope_domain(report));
+    let title = format!("Envelope spectrum: {}", spectrum.label);
+    spectrum_spec(
+        "envelope-spectrum",
+        title,
+        spectrum,
+        size,
+        top,
+        y,
+        marker_lanes(&report.markers),
+    )
+}
+
+fn envelope_sized(report: &Report, size: Size, left: f64) -> Picture {
+    let mut chart = Chart::new(Spec {
+        left,
+        ..envelope_spec(report, size)
+    });
+    draw_spectrum(&mut chart, &report.envelope_spectrum);
+    chart.interactive("envelope");
+    chart.finish()
+}
+
+fn spectrum_spec(
+    name: &str,
+    title: String,
+    spectrum: &Spectrum,
+    size: Size,
+    top: f64,
+    y: Domain,
+    lanes: Vec<Lane>,
+) -> Spec {
+    Spec {
+        name: name.into(),
+        title,
+        size,
+        x: Domain::exact(0.0, if top > 0.0 { top } else { 1.0 }),
+        y,
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        y_label: if spectrum.label.is_empty() {
+            "Amplitude".into()
+        } else {
+            spectrum.label.clone()
+        },
+        y_unit: spectrum.unit.clone(),
+        lanes,
+        left: 0.0,
+        x_axis: true,
+    }
+}
+
+fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum) {
+    if range(spectrum.amplitude.iter().copied()).is_none() {
+        chart.say("No spectrum");
+    }
+    chart.curve(
+        0.0,
+        spacing(spectrum.df_hz),
+        &spectrum.amplitude,
+        true,
+        CURVE,
+    );
+}
+
+/// Boxes of line and text, from `left` on, wrapped at `right`; returns the height used.
+fn legend(
+    picture: &mut Picture,
+    entries: &[(&str, Paint)],
+    left: f64,
+    right: f64,
+    top: f64,
+    font: f64,
+) -> f64 {
+    let (mut x, mut y) = (left, top + font);
+    for (label, paint) in entries {
+        let width = 26.0 + font::width(label, font, false) + 18.0;
+        if x > left && x + width > right + 18.0 {
+            x = left;
+            y += 1.6 * font;
+        }
+        let middle = y - 0.36 * font;
+        if paint.width > 0.0 || paint.fill.is_none() {
+            picture.path(
+                &[(x, middle), (x + 20.0, middle)],
+                Paint {
+                    fill: None,
+                    ..*paint
+                },
+            );
+        } else {
+            picture.shapes.push(Shape::Circle {
+                x: x + 10.0,
+                y: middle,
+                r: 3.5,
+                paint: *paint,
+            });
+        }
+        picture.text(Text::new(x + 26.0, y, font, Anchor::Start, label));
+        x += width;
+    }
+    y - top + 0.6 * font
+}
+
+/// Contact length, stiffness and force of one roller over its angle from the defect's centre.
+pub fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
+    let size = layout.size(0.0);
+    let part = if layout == Layout::Wide { 130.0 } else { 120.0 };
+    let other = pass.other_length_mm.as_deref();
+    let second = Paint::line(ink::ORANGE, 1.8).dashed(&[6.0, 3.0]);
+    let first = Paint::line(ink::BLUE, 1.8);
+    let or = |name: &str, fallback: &str| {
+        if name.is_empty() {
+            fallback.to_owned()
+        } else {
+            name.to_owned()
+        }
+    };
+    let x = {
+        let (lo, hi) = range(pass.angle_deg.iter().copied()).unwrap_or((-1.0, 1.0));
+        Domain::exact(lo, hi)
+    };
+    let panel = |y_label: &str, unit: &str, y: Domain, last: bool| Spec {
+        name: String::new(),
+        title: String::new(),
+        size: Size {
+            height: part + if last { 3.4 * size.font } else { 0.0 },
+            ..size
+        },
+        x,
+        y,
+        x_label: "Angle from the defect’s centre".into(),
+        x_unit: "°".into(),
+        y_label: y_label.into(),
+        y_unit: unit.into(),
+        lanes: vec![],
+        left: 0.0,
+        x_axis: last,
+    };
+    let lengths = pass.length_mm.iter().chain(other.unwrap_or(&[])).copied();
+    let mut specs = [
+        panel("Contact length", "mm", Domain::from_zero(lengths), false),
+        panel(
+            "Stiffness",
+            &pass.stiffness_unit,
+            Domain::from_zero(pass.stiffness.iter().copied()),
+            false,
+        ),
+        panel(
+            "Force",
+            "N",
+            Domain::from_zero(pass.force_n.iter().copied()),
+            true,
+        ),
+    ];
+    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
+    specs.iter_mut().for_each(|spec| spec.left = left);
+
+    let total = 3.0 * part + 3.4 * size.font + 1.9 * size.font;
+    let name = format!("pass-{}", index + 1);
+    let mut picture = Picture::new(&name, &pass.title, size.width, total);
+    let mut entries = vec![];
+    let names = (
+        or(&pass.contact, "this contact"),
+        or(&pass.other_contact, "other contact"),
+    );
+    entries.push((names.0.as_str(), first));
+    if other.is_some() {
+        entries.push((names.1.as_str(), second));
+    }
+    let mut top = legend(&mut picture, &entries, left, size.width, 2.0, size.font);
+    let curves = [&pass.length_mm, &pass.stiffness, &pass.force_n];
+    for (index, (spec, curve)) in specs.into_iter().zip(curves).enumerate() {
+        let height = spec.size.height;
+        let mut chart = Chart::new(spec);
+        if range(curve.iter().copied()).is_none() || pass.angle_deg.is_empty() {
+            chart.say("Not recorded");
+        }
+        if let (0, Some(other)) = (index, other) {
+            chart.points(&pass.angle_deg, other, second);
+        }
+        chart.points(&pass.angle_deg, curve, first);
+        picture.place(chart.finish(), 0.0, top);
+        top += height;
+    }
+    picture
+}
+
+/// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
+pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
+    let Size { width, font, .. } = layout.size(0.0);
+    let per_line = if layout == Layout::Wide {
+        rows.len().clamp(1, 2)
+    } else {
+        1
+    };
+    let cell = if layout == Layout::Wide { 400.0 } else { 350.0 };
+    let lines = rows.len().div_ceil(per_line).max(1);
+    let entries = [
+        (
+            "largest force",
+            Paint::line(ink::VERMILLION, 1.8).dashed(&[5.0, 3.0]),
+        ),
+        (
+            "mean force",
+            Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18),
+        ),
+        ("static equilibrium", Paint::fill(ink::BLACK, 1.0)),
+    ];
+    let mut picture = Picture::new(
+        "load-distribution",
+        "Contact force around the bearing",
+        width,
+        0.0,
+    );
+    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, font);
+    picture.height = top + cell * lines as f64;
+    let forces = rows.iter().flat_map(|row| {
+        row.mean_n
+            .iter()
+            .chain(&row.max_n)
+            .copied()
+            .chain(row.static_points.iter().map(|(_, force)| *force))
+    });
+    let largest = range(forces).map_or(0.0, |(_, hi)| hi);
+    let largest = if largest > 0.0 { largest } else { 1.0 };
+    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 4)
+        .into_iter()
+        .filter(|r| *r > 0.0)
+        .collect();
+    let (labels, power) = tick_labels(&rings);
+    let radius = 0.5 * cell - 44.0;
+    for (index, row) in rows.iter().enumerate() {
+        let inset = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
+        let column = (index % per_line) as f64;
+        let x = inset + column * (cell + inset) + 0.5 * cell;
+        let y = top + cell * (index / per_line) as f64 + 0.5 * cell + 12.0;
+        let at = |degrees: f64, force: f64| {
+            let r = radius * (force.max(0.0) / (largest * 1.04)).min(1.05);
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            (x + r * cos, y - r * sin)
+        };
+        for spoke in 0..8 {
+            let degrees = 45.0 * f64::from(spoke);
+            picture.path(
+                &[(x, y), at(degrees, largest * 1.04)],
+                Paint::line(ink::GRID, 1.0),
+            );
+            let (dx, dy) = (
+                at(degrees, largest * 1.04).0 - x,
+                at(degrees, largest * 1.04).1 - y,
+            );
+            let reach = 1.0 + (0.5 * font + 7.0) / radius;
+            let anchor = match dx {
+                dx if dx > 0.3 * radius => Anchor::Start,
+                dx if dx < -0.3 * radius => Anchor::End,
+                _ => Anchor::Middle,
+            };
+            let label = format!("{degrees}°");
+            let (label_x, label_y) = (x + reach * dx, y + reach * dy + 0.36 * font);
+            picture.text(Text::new(label_x, label_y, font, anchor, &label).color(ink::FAINT));
+        }
+        for ring in &rings {
+            let r = radius * ring / (largest * 1.04);
+            picture.shapes.push(Shape::Circle {
+                x,
+                y,
+                r,
+                paint: Paint::line(ink::GRID, 1.0),
+            });
+        }
+        let rim = Paint::line(ink::FRAME, 1.0);
+        picture.shapes.push(Shape::Circle {
+            x,
+            y,
+            r: radius,
+            paint: rim,
+        });
+
+        let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
+            let known = row
+                .angle_deg
+                .iter()
+                .zip(forces)
+                .filter(|(angle, _)| angle.is_finite());
+            known
+                .map(|(angle, force)| at(*angle, if force.is_finite() { *force } else { 0.0 }))
+                .collect()
+        };
+        for (forces, paint) in [(&row.mean_n, entries[1].1), (&row.max_n, entries[0].1)] {
+            let lines = vec![curve(forces)];
+            picture.shapes.push(Shape::Path {
+                lines,
+                close: true,
+                paint,
+                clip: None,
+            });
+        }
+        for (angle, force) in row
+            .static_points
+            .iter()
+            .filter(|(a, f)| a.is_finite() && f.is_finite())
+        {
+            let (x, y) = at(*angle, *force);
+            picture.shapes.push(Shape::Circle {
+                x,
+                y,
+                r: 3.2,
+                paint: Paint::line("#ffffff", 1.0).filled(ink::BLACK, 1.0),
+            });
+        }
+        // Numbers where the load usually is not: the bottom, a little aside.
+        for (ring, label) in rings.iter().zip(&labels) {
+            let (x, y) = at(247.5, *ring);
+            let scale = if power == 0 {
+                String::new()
+            } else {
+                format!("·10{}", crate::number::superscript(power))
+            };
+            let label = Text::new(
+                x,
+                y + 0.36 * font,
+                font - 1.0,
+                Anchor::Middle,
+                &format!("{label}{scale} N"),
+            );
+            picture.text(label.color(ink::FAINT));
+        }
+        let title = font::fitted(&row.title, font, true, cell);
+        picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
+    }
+    picture
+}
+
+/// Every picture of the report, for saving as files.
+pub fn pictures(report: &Report) -> Vec<Picture> {
+    let mut pictures = vec![
+        overview(report, Layout::Wide),
+        waveform(report, Layout::Wide),
+        spectrum(report, Layout::Wide),
+        envelope_spectrum(report, Layout::Wide),
+    ];
+    pictures.extend(
+        report
+            .passes
+            .iter()
+            .enumerate()
+            .map(|(i, p)| pass(p, i, Layout::Wide)),
+    );
+    if !report.load_distribution.is_empty() {
+        pictures.push(load_distribution(&report.load_distribution, Layout::Wide));
+    }
+    pictures
+}
+
+/// Waveform over envelope spectrum under the report's title: the run in one picture.
+pub fn headline(report: &Report) -> Picture {
+    const WIDTH: f64 = 1400.0 / HEADLINE_SCALE;
+    const HEIGHT: f64 = 700.0 / HEADLINE_SCALE;
+    let mut picture = Picture::new("headline", &report.title, WIDTH, HEIGHT);
+    let size = |height| Size {
+        width: WIDTH - 12.0,
+        height,
+        font: 12.5,
+    };
+    let upper = size(0.46 * (HEIGHT - 34.0));
+    let lower = size(0.54 * (HEIGHT - 34.0));
+    let left =
+        left_margin(&waveform_spec(report, upper)).max(left_margin(&envelope_spec(report, lower)));
+    let title = font::fitted(&report.title, 16.0, true, 0.45 * WIDTH);
+    let used = font::width(&title, 16.0, true);
+    let subtitle = font::fitted(&report.subtitle, 13.0, false, WIDTH - used - left - 40.0);
+    picture.text(
+        Text::new(left, 24.0, 16.0, Anchor::Start, &title)
+            .bold()
+            .color(ink::BLACK),
+    );
+    picture.text(Text::new(
+        left + used + 14.0,
+        24.0,
+        13.0,
+        Anchor::Start,
+        &subtitle,
+    ));
+    picture.place(waveform_sized(report, upper, left), 0.0, 32.0);
+    picture.place(
+        envelope_sized(report, lower, left),
+        0.0,
+        32.0 + upper.height,
+    );
+    picture
+}
+
+const HEADLINE_SCALE: f64 = 1.5;
+
+/// [`headline`] as a PNG of 1400 x 700 pixels.
+pub fn headline_png(report: &Report) -> Result<Vec<u8>, Error> {
+    headline(report).png(HEADLINE_SCALE)
+}
+
+/// Angles of equal bins around the circle, degrees: what [`RowLoad::angle_deg`] holds.
+pub fn bin_centres(bins: usize) -> Vec<f64> {
+    (0..bins)
+        .map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees())
+        .collect()
+}
