@@ -3,7 +3,7 @@
 //! Impacts ring resonances far above their own rate; the envelope of such a band carries the rate and its harmonics.
 //! R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst. Signal Process. 25
 //! (2011) 485-520, section 5. A segment is transformed, the bins outside the band are removed, and the envelope is
-//! the modulus of the analytic signal, sqrt(x^2 + H[x]^2).
+//! the modulus of the analytic signal, `sqrt(x^2 + H[x]^2)`.
 //!
 //! The band's edges are sharp and the transform treats a segment as periodic, so the first and last few periods of
 //! the band's lower edge are disturbed where a segment's ends do not meet; the Hann window of the spectrum hides them.

@@ -1,7 +1,7 @@
 //! Signals: what a data logger would hold, and what an analyst reads off it.
 //!
 //! [`decimate`] is the anti-alias chain of the measured channels, [`indicators`] the condition indicators with their
-//! scatter, [`spectrum`] amplitude spectra and power spectral densities, [`envelope`] the envelope spectrum, and
+//! scatter, [`spectrum`] amplitude spectra and power spectral densities, [`mod@envelope`] the envelope spectrum, and
 //! [`frequency`] the precise repetition frequency of a train of impacts.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
