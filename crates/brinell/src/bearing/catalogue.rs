@@ -85,5 +85,7 @@ pub fn all() -> &'static [Entry] {
 
 /// The bearing of that name, whatever its case.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    all().iter().find(|entry| entry.name.eq_ignore_ascii_case(name))
+    all()
+        .iter()
+        .find(|entry| entry.name.eq_ignore_ascii_case(name))
 }

@@ -121,7 +121,8 @@ impl Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign = |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
+        let sign =
+            |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
         match (self.low, self.high) {
             (None, None) => write!(f, "any finite number"),
             (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
@@ -197,9 +198,7 @@ pub(crate) struct Variant<T> {
 pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'static Variant<T> {
     variants
         .iter()
-        .find(|variant| {
-            std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value)
-        })
+        .find(|variant| std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value))
         .unwrap_or(&variants[0])
 }
 
@@ -212,13 +211,7 @@ pub(crate) trait Keys: Sized {
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>);
 
     /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
-    fn only_where<T: Leaf>(
-        &mut self,
-        spec: Spec,
-        wanted: bool,
-        case: &'static str,
-        value: &mut T,
-    );
+    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
 
     /// The key that names the catalogue bearing, whose values stand in for keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
