@@ -123,7 +123,16 @@ impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sign =
             |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
-        match (self.low, self.high) {
+        let text = |x: f64| {
+            if x.abs() >= 1e6 {
+                format!("{x:e}")
+            } else {
+                x.to_string()
+            }
+        };
+        let low = self.low.map(|(low, closed)| (text(low), closed));
+        let high = self.high.map(|(high, closed)| (text(high), closed));
+        match (low, high) {
             (None, None) => write!(f, "any finite number"),
             (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
             (None, Some((high, closed))) => write!(f, "{} {high}", sign(closed, "<", "<=")),
