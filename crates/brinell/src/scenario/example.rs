@@ -26,7 +26,7 @@ sample_rate_hz = 25600.0
 const HEAD: &str = "\
 # A brinell scenario: one file is the whole truth of a run.
 # Lines without a leading # are live. The others show what holds if they are left out; remove the # to change one.
-# Every key carries its unit in its name. Values left out are listed as assumed in the results.
+# Every key carries its unit in its name. Values marked `assumed` are guesses, and the results list them as such.
 
 ";
 

@@ -121,8 +121,18 @@ impl Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign = |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
-        match (self.low, self.high) {
+        let sign =
+            |closed, open: &'static str, shut: &'static str| if closed { shut } else { open };
+        let text = |x: f64| {
+            if x.abs() >= 1e6 {
+                format!("{x:e}")
+            } else {
+                x.to_string()
+            }
+        };
+        let low = self.low.map(|(low, closed)| (text(low), closed));
+        let high = self.high.map(|(high, closed)| (text(high), closed));
+        match (low, high) {
             (None, None) => write!(f, "any finite number"),
             (Some((low, closed)), None) => write!(f, "{} {low}", sign(closed, ">", ">=")),
             (None, Some((high, closed))) => write!(f, "{} {high}", sign(closed, "<", "<=")),
@@ -197,9 +207,7 @@ pub(crate) struct Variant<T> {
 pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'static Variant<T> {
     variants
         .iter()
-        .find(|variant| {
-            std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value)
-        })
+        .find(|variant| std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value))
         .unwrap_or(&variants[0])
 }
 
@@ -212,13 +220,7 @@ pub(crate) trait Keys: Sized {
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>);
 
     /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
-    fn only_where<T: Leaf>(
-        &mut self,
-        spec: Spec,
-        wanted: bool,
-        case: &'static str,
-        value: &mut T,
-    );
+    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
 
     /// The key that names the catalogue bearing, whose values stand in for keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {

@@ -69,10 +69,18 @@ fn in_unit(what: &str, spec: &Spec) -> String {
 fn number_schema(kind: &str, spec: &Spec) -> Json {
     let mut schema = json!({ "type": kind });
     if let Some((low, closed)) = spec.range.low {
-        schema[if closed { "minimum" } else { "exclusiveMinimum" }] = json_number(low);
+        schema[if closed {
+            "minimum"
+        } else {
+            "exclusiveMinimum"
+        }] = json_number(low);
     }
     if let Some((high, closed)) = spec.range.high {
-        schema[if closed { "maximum" } else { "exclusiveMaximum" }] = json_number(high);
+        schema[if closed {
+            "maximum"
+        } else {
+            "exclusiveMaximum"
+        }] = json_number(high);
     }
     schema
 }

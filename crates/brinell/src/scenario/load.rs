@@ -36,7 +36,10 @@ pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Pr
     let mut problems = checks::check(&scenario, &finder);
     problems.append(&mut reader.problems);
     problems.sort_by_key(Problem::order);
-    if problems.iter().any(|problem| problem.severity == Severity::Error) {
+    if problems
+        .iter()
+        .any(|problem| problem.severity == Severity::Error)
+    {
         return Err(problems);
     }
     Ok(Loaded {
@@ -96,7 +99,10 @@ impl Scenario {
 }
 
 pub(crate) fn by_key(provenance: &[Provenance]) -> HashMap<&str, &Provenance> {
-    provenance.iter().map(|entry| (entry.key.as_str(), entry)).collect()
+    provenance
+        .iter()
+        .map(|entry| (entry.key.as_str(), entry))
+        .collect()
 }
 
 pub(crate) fn write(scenario: &Scenario, style: Style<'_>) -> String {

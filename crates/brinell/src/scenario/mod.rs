@@ -1,6 +1,6 @@
 //! Scenario files: one TOML file is the whole truth of a run.
 //!
-//! [`sections`] lists every key once; [`reader`], [`writer`] and [`schema`] are walks over that list. [`checks`] holds
+//! `sections` lists every key once; `reader`, `writer` and `schema` are walks over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
 mod blank;

@@ -75,7 +75,9 @@ impl<'a> Reader<'a> {
     }
 
     fn frame(&mut self) -> &mut Frame<'a> {
-        self.frames.last_mut().expect("the root frame stays until the walk ends")
+        self.frames
+            .last_mut()
+            .expect("the root frame stays until the walk ends")
     }
 
     /// Names a key of the present table; its path and what the file says of it.
@@ -148,7 +150,11 @@ impl<'a> Reader<'a> {
             .key_span
             .clone()
             .map(|span| Place::new(self.text, span));
-        let allowed = if hint.is_empty() { frame.named.join(", ") } else { String::new() };
+        let allowed = if hint.is_empty() {
+            frame.named.join(", ")
+        } else {
+            String::new()
+        };
         let problem = Problem::error(path, format!("unknown key{hint}"))
             .value(entry.node.brief())
             .allowed(allowed);
@@ -158,7 +164,11 @@ impl<'a> Reader<'a> {
     fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
         let element = misfit.element.as_ref().unwrap_or(node);
         let place = self.place(element).or_else(|| self.place(node));
-        let source = if place.is_none() { " (given as an override)" } else { "" };
+        let source = if place.is_none() {
+            " (given as an override)"
+        } else {
+            ""
+        };
         let problem = Problem::error(path, misfit.message + source)
             .value(element.brief())
             .allowed(misfit.allowed)
@@ -257,7 +267,8 @@ impl<'a> Reader<'a> {
                 if value.is_defined() || self.problems.is_empty() {
                     let message = format!("cannot be derived ({how}): give it");
                     let problem = Problem::error(path, message).value(value.write());
-                    self.problems.push(problem.allowed(T::range(spec)).unit(spec.unit));
+                    self.problems
+                        .push(problem.allowed(T::range(spec)).unit(spec.unit));
                 }
             }
             Fallback::Fixed {
@@ -288,22 +299,19 @@ impl Keys for Reader<'_> {
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
         let (path, entry) = self.name(&spec);
         *value = entry.map(|entry| {
-            self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank)
+            self.read(&path, &spec, &entry.node)
+                .unwrap_or_else(T::blank)
         });
     }
 
-    fn only_where<T: Leaf>(
-        &mut self,
-        spec: Spec,
-        wanted: bool,
-        case: &'static str,
-        value: &mut T,
-    ) {
+    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         let (path, entry) = self.name(&spec);
         *value = T::blank();
         match entry {
             Some(entry) if wanted => {
-                *value = self.read(&path, &spec, &entry.node).unwrap_or_else(T::blank);
+                *value = self
+                    .read(&path, &spec, &entry.node)
+                    .unwrap_or_else(T::blank);
             }
             Some(entry) => {
                 let problem = Problem::error(path, format!("has a meaning only where {case}"))
@@ -320,10 +328,13 @@ impl Keys for Reader<'_> {
     }
 
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
+        let before = self.problems.len();
         self.optional(spec, value);
-        let Some(name) = value.as_ref().filter(|name| !name.is_empty()) else {
-            // Given, and not a name: reported as such.
-            self.preset_unknown = value.take().is_some();
+        if self.problems.len() > before {
+            self.preset_unknown = true;
+            *value = None;
+        }
+        let Some(name) = value else {
             return;
         };
         if let Some(entry) = catalogue::find(name) {
@@ -427,7 +438,8 @@ impl Keys for Reader<'_> {
             return;
         };
         if table.len() != 1 {
-            self.problems.push(wrong(format!("it has {} keys", table.len())));
+            self.problems
+                .push(wrong(format!("it has {} keys", table.len())));
         }
         for (name, inner) in table {
             let inner_path = join(&path, name);
@@ -435,7 +447,10 @@ impl Keys for Reader<'_> {
                 let hint = nearest(name, known.iter().copied())
                     .map(|known| format!("; did you mean `{known}`?"))
                     .unwrap_or_default();
-                let key_place = inner.key_span.clone().map(|span| Place::new(self.text, span));
+                let key_place = inner
+                    .key_span
+                    .clone()
+                    .map(|span| Place::new(self.text, span));
                 let problem = Problem::error(inner_path, format!("unknown {}{hint}", spec.name))
                     .value(inner.node.brief())
                     .allowed(list.clone());

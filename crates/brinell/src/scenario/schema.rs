@@ -50,7 +50,9 @@ struct Schema {
 
 impl Schema {
     fn object(&mut self) -> &mut Object {
-        self.objects.last_mut().expect("the root object stays until the walk ends")
+        self.objects
+            .last_mut()
+            .expect("the root object stays until the walk ends")
     }
 
     fn put(&mut self, spec: &Spec, mut schema: Json, doc: String) {
@@ -144,7 +146,10 @@ impl Keys for Schema {
             for variant in variants {
                 let inner = schema.nested(|schema| keys(schema, &mut (variant.blank)()));
                 let inner = inner.schema(variant.doc);
-                schema.object().properties.insert(variant.name.into(), inner);
+                schema
+                    .object()
+                    .properties
+                    .insert(variant.name.into(), inner);
             }
         });
         let mut schema = shapes.schema(spec.doc);

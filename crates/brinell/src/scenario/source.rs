@@ -63,9 +63,12 @@ impl Node {
             DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(truth) => Value::Boolean(*truth),
             DeValue::Datetime(time) => Value::Datetime(time.to_string()),
-            DeValue::Array(items) => {
-                Value::Array(items.iter().map(|item| Node::from_toml(item, placed)).collect())
-            }
+            DeValue::Array(items) => Value::Array(
+                items
+                    .iter()
+                    .map(|item| Node::from_toml(item, placed))
+                    .collect(),
+            ),
             DeValue::Table(table) => Value::Table(convert_table(table, placed)),
         };
         Node {
@@ -190,7 +193,7 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
     let mut root = Node::unplaced(Value::Table(convert_table(table.get_ref(), true)));
     for (path, value) in overrides {
         if let Err(problem) = lay_over(&mut root, path, value) {
-            problems.push(problem);
+            problems.push(*problem);
         }
     }
     match root.value {
@@ -199,8 +202,8 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
     }
 }
 
-fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Problem> {
-    let wrong = |message: String| Problem::error(path, message).value(brief_text(text));
+fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {
+    let wrong = |message: String| Box::new(Problem::error(path, message).value(brief_text(text)));
     let value = override_value(text).map_err(wrong)?;
     let mut node = root;
     let mut walked = String::new();

@@ -113,7 +113,11 @@ impl<'a> Writer<'a> {
         const WIDEST: usize = 52;
         let width = |line: &Line| line.code.chars().count();
         let commented = self.lines.iter().filter(|line| !line.comment.is_empty());
-        let column = commented.map(width).filter(|w| *w <= WIDEST).max().unwrap_or(0);
+        let column = commented
+            .map(width)
+            .filter(|w| *w <= WIDEST)
+            .max()
+            .unwrap_or(0);
         for line in std::mem::take(&mut self.lines) {
             self.out.push_str(&line.code);
             if !line.comment.is_empty() {
@@ -156,9 +160,9 @@ fn explain<T: Leaf>(spec: &Spec) -> String {
 
 impl Keys for Writer<'_> {
     fn key<T: Leaf>(&mut self, spec: Spec, _: Fallback<T>, value: &mut T) {
-        let given = self.provenance(spec.name).is_some_and(|provenance| {
-            matches!(provenance.origin, Origin::File | Origin::Override)
-        });
+        let given = self
+            .provenance(spec.name)
+            .is_some_and(|provenance| matches!(provenance.origin, Origin::File | Origin::Override));
         let live = !self.is_template() || given;
         self.add::<T>(&spec, &value.write(), live);
     }
@@ -167,17 +171,12 @@ impl Keys for Writer<'_> {
         if let Some(value) = value {
             self.add::<T>(&spec, &value.write(), true);
         } else if self.is_template() && self.inline.is_some() {
-            self.asides.push(format!("{}: {}", spec.name, explain::<T>(&spec)));
+            self.asides
+                .push(format!("{}: {}", spec.name, explain::<T>(&spec)));
         }
     }
 
-    fn only_where<T: Leaf>(
-        &mut self,
-        spec: Spec,
-        wanted: bool,
-        case: &'static str,
-        value: &mut T,
-    ) {
+    fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add::<T>(&spec, &value.write(), true);
         } else if self.is_template() {

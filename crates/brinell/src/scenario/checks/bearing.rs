@@ -170,7 +170,8 @@ impl Checker<'_> {
     pub(super) fn contact(&mut self) {
         const EXPONENT: &str = "contact.exponent";
         for stiffness in ["contact.inner_stiffness", "contact.outer_stiffness"] {
-            if self.finder.is_preset(stiffness) && self.finder.place(EXPONENT).is_some()
+            if self.finder.is_preset(stiffness)
+                && self.finder.place(EXPONENT).is_some()
                 && (self.s.contact.exponent - 10.0 / 9.0).abs() > 1e-9
             {
                 self.warn(

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::{Checker, short};
 use crate::scenario::types::{Defect, Shape, Surface};
 
-/// Arcs of the paper's irregular shape, mm (model.md, section 12).
-const IRREGULAR_LENGTH_MM: f64 = 1.6695 + 1.5 + 0.7071 + 1.4142 + 0.7071 + 1.0;
+/// Sum of the arcs of the paper's irregular shape (model.md, section 12).
+const IRREGULAR_LENGTH_MM: f64 = 6.9979;
 
 const LENGTH: &str = "bearing.roller_length_mm";
 
@@ -143,11 +143,7 @@ impl Checker<'_> {
                 "bearing.inner_raceway_diameter_mm",
                 b.inner_raceway_diameter_mm,
             ),
-            Surface::Roller(_) => (
-                "roller",
-                "bearing.roller_diameter_mm",
-                b.roller_diameter_mm,
-            ),
+            Surface::Roller(_) => ("roller", "bearing.roller_diameter_mm", b.roller_diameter_mm),
         };
         let half_circle = 0.5 * PI * diameter;
         let (key, reach, limit) = match &defect.shape {

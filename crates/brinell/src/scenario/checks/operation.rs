@@ -22,7 +22,12 @@ impl Checker<'_> {
         match &self.s.operation.speed_rpm {
             Speed::Constant(speed) => {
                 if *speed == 0.0 {
-                    self.error(SPEED, "the inner ring must turn".into(), "not 0".into(), &[]);
+                    self.error(
+                        SPEED,
+                        "the inner ring must turn".into(),
+                        "not 0".into(),
+                        &[],
+                    );
                 }
             }
             Speed::Profile(points) => {
@@ -100,7 +105,10 @@ impl Checker<'_> {
     }
 
     pub(super) fn simulation(&mut self) {
-        let (duration, rate) = (self.s.simulation.duration_s, self.s.simulation.sample_rate_hz);
+        let (duration, rate) = (
+            self.s.simulation.duration_s,
+            self.s.simulation.sample_rate_hz,
+        );
         let samples = duration * rate;
         if samples < 1.0 {
             self.error(
@@ -132,7 +140,9 @@ impl Checker<'_> {
         let b = &self.s.bearing;
         let fastest = match &self.s.operation.speed_rpm {
             Speed::Constant(speed) => speed.abs(),
-            Speed::Profile(points) => points.iter().fold(0.0, |m: f64, point| m.max(point[1].abs())),
+            Speed::Profile(points) => points
+                .iter()
+                .fold(0.0, |m: f64, point| m.max(point[1].abs())),
         };
         let shaft = fastest / 60.0;
         let cage = shaft * b.inner_raceway_diameter_mm / (2.0 * b.pitch_diameter_mm);
@@ -174,7 +184,10 @@ impl Checker<'_> {
         if let Some(name) = self.s.simulation.record.iter().find(bad) {
             self.error(
                 RECORD,
-                format!("no channel can match {}", crate::scenario::source::quote(name)),
+                format!(
+                    "no channel can match {}",
+                    crate::scenario::source::quote(name)
+                ),
                 "names of letters, digits, _ and *".into(),
                 &[],
             );

@@ -1,0 +1,282 @@
+//! Each kind of bad input, and what its author is told.
+
+use brinell::scenario::{Problem, Severity, read, read_bytes};
+
+use crate::{BARE, OUTER, report, with};
+
+/// The problem of `key` among those of a text.
+fn problem_of(problems: &[Problem], key: &str) -> Problem {
+    problems
+        .iter()
+        .find(|problem| problem.key == key)
+        .unwrap_or_else(|| panic!("no problem of {key} in\n{}", report(problems)))
+        .clone()
+}
+
+fn line_of(text: &str, needle: &str) -> usize {
+    1 + text
+        .lines()
+        .position(|line| line.starts_with(needle))
+        .expect("needle")
+}
+
+#[test]
+fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
+    // Line of the reference file, what replaces it, key at fault, words of the message, words of the remedy.
+    #[rustfmt::skip]
+    let cases = [
+        ("pitch_diameter_mm", "pitch_diameter = 49.0", "bearing.pitch_diameter", "did you mean `pitch_diameter_mm`", ""),
+        ("pitch_diameter_mm", "speed_rpm = 1", "bearing.speed_rpm", "it belongs in [operation]", ""),
+        ("pitch_diameter_mm", "viscosity = 1", "bearing.viscosity", "did you mean `viscosity_pa_s` in [lubricant]", ""),
+        ("pitch_diameter_mm", "pitch_diameter_mm = \"49\"", "bearing.pitch_diameter_mm", "expected a number in mm, found a string", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = 1979-05-27", "bearing.pitch_diameter_mm", "found a date", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = -49", "bearing.pitch_diameter_mm", "out of range", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = nan", "bearing.pitch_diameter_mm", "not a finite number", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = 1e999", "bearing.pitch_diameter_mm", "not a finite number", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = 50.0", "bearing.pitch_diameter_mm", "gap is in the wrong place", "48.88 to 49.12 mm"),
+        ("roller_diameter_mm", "roller_diameter_mm = 7.0", "bearing.roller_diameter_mm", "leave a gap of 6 mm", "5.86 to 6.14 mm"),
+        ("outer_raceway_diameter_mm", "outer_raceway_diameter_mm = 40.0", "bearing.outer_raceway_diameter_mm", "larger than the inner", "> 43 mm"),
+        ("rollers_per_row", "rollers_per_row = 26.0", "bearing.rollers_per_row", "expected a whole number", "3 to 1000"),
+        ("rollers_per_row", "rollers_per_row = 2", "bearing.rollers_per_row", "out of range", "3 to 1000"),
+        ("rollers_per_row", "rollers_per_row = 99999999999999999999999", "bearing.rollers_per_row", "out of range", "3 to 1000"),
+        ("rollers_per_row", "rollers_per_row = 27", "bearing.rollers_per_row", "rollers overlap in the row", "3 to 25"),
+        ("radial_clearance_um", "radial_clearance_um = 1000.0", "bearing.radial_clearance_um", "out of proportion", "-300 to 300 um"),
+        ("rows", "rows = 0", "bearing.rows", "out of range", "1 to 100"),
+        ("rows", "preset = \"NN3070\"", "bearing.preset", "did you mean \"NN3007\"", "NN3007"),
+        ("mass_kg = 0.0148", "mass_kg = 0", "cage.mass_kg", "out of range", "> 0 kg"),
+        ("inner_diameter_mm = 45.0", "inner_diameter_mm = 42.0", "cage.inner_diameter_mm", "reaches into the inner ring", ">= 43 mm"),
+        ("inner_diameter_mm = 45.0", "inner_diameter_mm = 54.0", "cage.inner_diameter_mm", "less than its outer one", "< 53 mm"),
+        ("inner_diameter_mm = 45.0", "inner_diameter_mm = 50.0", "cage.inner_diameter_mm", "roller centres must lie within", "< 49 mm"),
+        ("outer_diameter_mm = 53.0", "outer_diameter_mm = 56.0", "cage.outer_diameter_mm", "reaches into the outer ring", "<= 55 mm"),
+        ("guidance", "guidance = \"outer_ring\"", "cage.guidance", "did you mean \"outer-ring\"", "\"outer-ring\", \"inner-ring\", \"rollers\""),
+        ("law = ", "law = \"sliced\"", "contact.law", "unknown word", "\"ecl\""),
+        ("law = ", "law = 1", "contact.law", "expected \"ecl\", found a whole number", "\"ecl\""),
+        ("roller_path", "roller_path = \"envelope\"", "contact.roller_path", "unknown word", "\"point\""),
+        ("roller_path", "slices = 0", "contact.slices", "out of range", "1 to 10000"),
+        ("slip_velocity_m_per_s", "slip_velocity_m_per_s = 0", "friction.slip_velocity_m_per_s", "out of range", "> 0 m/s"),
+        ("speed_rpm", "speed_rpm = 0", "operation.speed_rpm", "must turn", "not 0"),
+        ("speed_rpm", "speed_rpm = \"fast\"", "operation.speed_rpm", "expected a number in r/min or a list of points", ""),
+        ("speed_rpm", "speed_rpm = [[0.0, 0.0], [1.0, 0.0]]", "operation.speed_rpm", "0 throughout", ""),
+        ("speed_rpm", "speed_rpm = [[0.0, 0.0], [0.0, 9.0]]", "operation.speed_rpm", "must increase", "strictly increasing"),
+        ("speed_rpm", "speed_rpm = []", "operation.speed_rpm", "no points", ""),
+        ("speed_rpm", "speed_rpm = [[0.0, 1.0, 2.0]]", "operation.speed_rpm", "found 3 of them", ""),
+        ("load_n", "load_n = [300.0]", "operation.load_n", "found 1 of them", ""),
+        ("load_n", "load_n = 300.0", "operation.load_n", "a list [x, y] of two numbers in N, found a decimal number", ""),
+        ("load_n", "load_n = [300.0, inf]", "operation.load_n", "not a finite number", ""),
+        ("load_ramp_s", "load_ramp_s = -0.1", "operation.load_ramp_s", "out of range", ">= 0 s"),
+        ("on = \"outer", "on = \"outer-race\"", "defects.0.on", "did you mean \"outer-raceway\"", "\"outer-raceway\", \"inner-raceway\", \"roller\""),
+        ("row = 1", "row = 3", "defects.0.row", "has 2 rows", "1 to 2"),
+        ("row = 1", "roller = 3", "defects.0.roller", "only where on = \"roller\"", ""),
+        ("depth_um", "depth_um = -1", "defects.0.depth_um", "out of range", ">= 0 um"),
+        ("shape", "shape = { square = { length_mm = 3.0 } }", "defects.0.shape.square", "unknown shape", "rectangle, circle, profile, li2023_irregular"),
+        ("shape", "shape = { rectangel = { length_mm = 3.0 } }", "defects.0.shape.rectangel", "did you mean `rectangle`", ""),
+        ("shape", "shape = \"rectangle\"", "defects.0.shape", "expected a table such as", "exactly one of"),
+        ("shape", "shape = {}", "defects.0.shape", "it has 0 keys", "exactly one of"),
+        ("shape", "shape = { rectangle = { length_mm = 3.0, width_mm = 7.0 } }", "defects.0.shape.rectangle.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { rectangle = { length_mm = 173.0, width_mm = 4.0 } }", "defects.0.shape.rectangle.length_mm", "past a full circle", "<= 172.8 mm"),
+        ("shape", "shape = { circle = { diameter_mm = 6.1 } }", "defects.0.shape.circle.diameter_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { li2023_irregular = { max_width_mm = 6.1 } }", "defects.0.shape.li2023_irregular.max_width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0] } }", "defects.0.shape.profile.width_mm", "1 values for the 2 points", "a list of 2"),
+        ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0, 9.0] } }", "defects.0.shape.profile.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { profile = { arc_mm = [0.0, 1.0], width_mm = [1.0, 1.0], depth_um = [2.0] } }", "defects.0.shape.profile.depth_um", "1 values for the 2 points", "a list of 2"),
+        ("shape", "shape = { profile = { arc_mm = [0.0, -1.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "must not go back", ""),
+        ("shape", "shape = { profile = { arc_mm = [0.0, 90.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "past a full circle", "-86.39 to 86.39 mm"),
+        ("shape", "shape = { profile = { arc_mm = [], width_mm = [] } }", "defects.0.shape.profile.arc_mm", "at least two points", ""),
+        ("duration_s", "duration_s = 0", "simulation.duration_s", "out of range", "> 0"),
+        ("duration_s", "duration_s = 1e-6", "simulation.duration_s", "shorter than one sample", ">= 3.906e-5 s"),
+        ("duration_s", "duration_s = 1e6", "simulation.duration_s", "more than any machine keeps", "<= 390625 s"),
+        ("start", "start = \"roling\"", "simulation.start", "did you mean \"rolling\"", ""),
+        ("start", "record = [\"outer x\"]", "simulation.record", "no channel can match", ""),
+        ("start", "record = \"outer_*\"", "simulation.record", "expected a list of strings, found a string", ""),
+        ("start", "rekord = []", "simulation.rekord", "did you mean `record`", ""),
+    ];
+    for (needle, replacement, key, message, allowed) in cases {
+        let line = line_of(OUTER, needle);
+        let text: String = OUTER
+            .lines()
+            .enumerate()
+            .map(|(i, old)| format!("{}\n", if i + 1 == line { replacement } else { old }))
+            .collect();
+        let problems = read(&text, &[]).expect_err(replacement);
+        let problem = problem_of(&problems, key);
+        let shown = problem.to_string();
+        assert_eq!(problem.severity, Severity::Error, "{shown}");
+        assert_eq!(problem.line, Some(line), "{shown}");
+        assert!(shown.contains(message), "{shown}\nlacks {message}");
+        assert!(shown.contains(allowed), "{shown}\nlacks {allowed}");
+        let span = problem.span.expect("a line has a span");
+        assert!(
+            text.get(span).is_some_and(|part| !part.is_empty()),
+            "{shown}"
+        );
+    }
+}
+
+#[test]
+fn regress_all_problems_come_at_once_in_the_order_of_the_file() {
+    let text = "naem = 1\n[bearing]\npreset = \"NN3007\"\nrows = -1\n[cgae]\n[operation]\nload_n = [1, \"2\"]\n";
+    let problems = read(text, &[]).unwrap_err();
+    let lines: Vec<Option<usize>> = problems.iter().map(|problem| problem.line).collect();
+    let keys: Vec<&str> = problems
+        .iter()
+        .map(|problem| problem.key.as_str())
+        .collect();
+    assert_eq!(
+        keys,
+        [
+            "naem",
+            "bearing.rows",
+            "cgae",
+            "operation.speed_rpm",
+            "operation.load_n"
+        ],
+        "{}",
+        report(&problems)
+    );
+    assert_eq!(lines, [Some(1), Some(4), Some(5), Some(6), Some(7)]);
+}
+
+#[test]
+fn regress_missing_keys_are_all_named() {
+    let problems = read("", &[]).unwrap_err();
+    let keys: Vec<&str> = problems
+        .iter()
+        .map(|problem| problem.key.as_str())
+        .collect();
+    let mut expected = vec![
+        "bearing.inner_raceway_diameter_mm",
+        "bearing.outer_raceway_diameter_mm",
+        "bearing.roller_diameter_mm",
+        "bearing.roller_length_mm",
+        "bearing.rollers_per_row",
+        "operation.speed_rpm",
+        "operation.load_n",
+    ];
+    expected.sort_unstable();
+    let mut sorted = keys.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, expected);
+}
+
+#[test]
+fn regress_cross_key_problems_name_every_key_and_line() {
+    let problems = with(BARE, &[("bearing.roller_diameter_mm", "7")]).unwrap_err();
+    let problem = problem_of(&problems, "bearing.roller_diameter_mm");
+    let also: Vec<(&str, Option<usize>)> = problem
+        .also
+        .iter()
+        .map(|(key, place)| (key.as_str(), place.as_ref().map(|place| place.line)))
+        .collect();
+    assert_eq!(
+        also,
+        [
+            ("bearing.inner_raceway_diameter_mm", Some(2)),
+            ("bearing.outer_raceway_diameter_mm", Some(3))
+        ]
+    );
+    // The override stands on no line: the first key of the file that takes part does.
+    assert_eq!(problem.line, Some(2));
+}
+
+#[test]
+fn regress_toml_errors_have_lines_and_bytes_have_a_place() {
+    let problems = read("[bearing\nx = = 3\n", &[]).unwrap_err();
+    let lines: Vec<Option<usize>> = problems.iter().map(|problem| problem.line).collect();
+    assert_eq!(lines, [Some(1), Some(2)], "{}", report(&problems));
+    let problems = read("name = 1\nname = 2\n", &[]).unwrap_err();
+    assert_eq!(problems[0].line, Some(2));
+    assert!(problems[0].message.contains("duplicate key"));
+    let problems = read_bytes(b"name = \"a\"\nb = \xff\xfe", &[]).unwrap_err();
+    assert_eq!((problems[0].line, problems[0].column), (Some(2), Some(5)));
+    assert_eq!(problems[0].span, Some(15..16));
+}
+
+#[test]
+fn regress_overrides_reach_every_key_and_say_what_is_wrong() {
+    let loaded = with(
+        OUTER,
+        &[
+            ("operation.load_on", "inner-ring"),
+            ("operation.speed_rpm", "[[0, 0], [1, 3000]]"),
+            ("defects.0.depth_um", "30"),
+            ("defects.0.shape.rectangle.length_mm", "2"),
+            ("defects.1", "{ on = \"roller\", roller = 2, depth_um = 1, shape = { circle = { diameter_mm = 1 } } }"),
+            ("simulation.record", "[\"outer_*\"]"),
+            ("name", "a b"),
+        ],
+    )
+    .unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    let text = loaded.scenario.to_toml();
+    for line in [
+        "name = \"a b\"",
+        "load_on = \"inner-ring\"",
+        "speed_rpm = [[0.0, 0.0], [1.0, 3000.0]]",
+        "depth_um = 30.0",
+        "shape = { rectangle = { length_mm = 2.0, width_mm = 4.0 } }",
+        "roller = 2",
+        "shape = { circle = { diameter_mm = 1.0 } }",
+        "record = [\"outer_*\"]",
+    ] {
+        assert!(
+            text.lines().any(|own| own.starts_with(line)),
+            "no {line} in\n{text}"
+        );
+    }
+    for (path, value, message) in [
+        ("operation.sped_rpm", "1", "did you mean `speed_rpm`"),
+        (
+            "operation.speed_rpm",
+            "fast",
+            "found a string (given as an override)",
+        ),
+        ("operation..speed_rpm", "1", "dotted path"),
+        ("", "1", "dotted path"),
+        ("defects.7.depth_um", "1", "1 elements, counted from 0"),
+        ("name.first", "1", "name is a string and has no keys"),
+        ("operation.load_n", "[1", "not a TOML value"),
+    ] {
+        let problems = with(OUTER, &[(path, value)]).expect_err(path);
+        assert!(report(&problems).contains(message), "{}", report(&problems));
+    }
+}
+
+#[test]
+fn analytic_support_that_carries_the_load_is_warned_of() {
+    // k C_r < F: 3e7 N/m at 300 N and 10 um (model.md, section 12).
+    let below = with(BARE, &[("support.outer_stiffness_n_per_m", "2.99e7")]).unwrap();
+    assert!(below.warnings.is_empty(), "{}", report(&below.warnings));
+    let above = with(BARE, &[("support.outer_stiffness_n_per_m", "3.01e7")]).unwrap();
+    let warning = problem_of(&above.warnings, "support.outer_stiffness_n_per_m");
+    assert_eq!(warning.severity, Severity::Warning);
+    assert!(warning.to_string().contains("< 3.000e7 N/m"), "{warning}");
+    let inner = [
+        ("operation.load_on", "inner-ring"),
+        ("support.inner_stiffness_n_per_m", "5e7"),
+    ];
+    let inner = with(BARE, &inner).unwrap();
+    problem_of(&inner.warnings, "support.inner_stiffness_n_per_m");
+}
+
+#[test]
+fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
+    // Section 13: BPFO 250.102, BPFI 319.898, BSF 120.663 Hz; five harmonics below 0.4 f_s.
+    for (on, frequency) in [
+        ("on = \"outer-raceway\"", 250.102),
+        ("on = \"inner-raceway\"", 319.898),
+        ("on = \"roller\", roller = 1", 241.326),
+    ] {
+        let defect =
+            format!("{{ {on}, depth_um = 1, shape = {{ circle = {{ diameter_mm = 1 }} }} }}");
+        let needed: f64 = frequency * 5.0 / 0.4;
+        for (rate, warned) in [(needed * 0.9999, true), (needed * 1.0001, false)] {
+            let text = format!("{BARE}[simulation]\nsample_rate_hz = {rate}\n");
+            let loaded = with(&text, &[("defects", &format!("[{defect}]"))]);
+            let loaded = loaded.unwrap_or_else(|problems| panic!("{}", report(&problems)));
+            let low = loaded
+                .warnings
+                .iter()
+                .any(|w| w.key == "simulation.sample_rate_hz");
+            assert_eq!(low, warned, "{on} at {rate} Hz");
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Scenario files: reading, writing, and everything that can be wrong with them.
+
+mod bad_input;
+mod defaults;
+mod json;
+mod robust;
+
+use brinell::scenario::{Loaded, Problem, read};
+
+const OUTER: &str = include_str!("../reference/outer-rectangle.toml");
+const INNER: &str = include_str!("../reference/inner-defect-gravity.toml");
+
+/// A bearing of the user's own, with nothing that has a default.
+const BARE: &str = "\
+[bearing]
+inner_raceway_diameter_mm = 43.0
+outer_raceway_diameter_mm = 55.0
+roller_diameter_mm = 6.0
+roller_length_mm = 6.0
+rollers_per_row = 19
+[operation]
+speed_rpm = 1800.0
+load_n = [300.0, 0.0]
+";
+
+fn good(text: &str) -> Loaded {
+    read(text, &[]).unwrap_or_else(|problems| panic!("{}", report(&problems)))
+}
+
+fn with(text: &str, overrides: &[(&str, &str)]) -> Result<Loaded, Vec<Problem>> {
+    let overrides: Vec<(String, String)> = overrides
+        .iter()
+        .map(|(key, value)| (key.to_string(), value.to_string()))
+        .collect();
+    read(text, &overrides)
+}
+
+fn report(problems: &[Problem]) -> String {
+    problems
+        .iter()
+        .map(|problem| format!("{problem}\n"))
+        .collect()
+}

@@ -1,0 +1,302 @@
+//! Whatever the bytes, a report; whatever the scenario, it reads back.
+
+use brinell::scenario::*;
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+
+use crate::{INNER, OUTER, report};
+
+/// Reads, shows and, where possible, writes: nothing may panic, and spans must lie in the text.
+fn exercise(text: &str, overrides: &[(String, String)]) {
+    match read(text, overrides) {
+        Ok(loaded) => {
+            let again = read(&loaded.to_toml(), &[]).unwrap_or_else(|e| panic!("{}", report(&e)));
+            assert_eq!(again.scenario, loaded.scenario);
+        }
+        Err(problems) => {
+            assert!(
+                problems
+                    .iter()
+                    .any(|problem| problem.severity == Severity::Error)
+            );
+            for problem in problems {
+                assert!(!problem.to_string().is_empty());
+                if let Some(span) = problem.span {
+                    assert!(text.get(span).is_some());
+                }
+            }
+        }
+    }
+}
+
+fn scraps() -> impl Strategy<Value = String> {
+    let scraps = [
+        "[",
+        "]",
+        "[[",
+        "]]",
+        "{",
+        "}",
+        "=",
+        ".",
+        ",",
+        "\"",
+        "'",
+        "\"\"\"",
+        "#",
+        "\n",
+        "\r\n",
+        "\0",
+        "\u{feff}",
+        "é",
+        "nan",
+        "-inf",
+        "1e999",
+        "0x",
+        "1979-05-27",
+        "true",
+        "-1",
+        "0",
+        "99999999999999999999",
+        "1e-320",
+        "bearing",
+        "defects",
+        "shape",
+        "profile",
+        "rectangle",
+        "x.y.z",
+        "[defects]",
+        "[[defects]]",
+        "[[bearing]]",
+        "[a.b.c]",
+        "preset = \"NN3007\"",
+        "roller = 1\n",
+        "{ circle = {} }",
+        "[[[[[[[[",
+        "[]",
+        "{}",
+        "\\u0000",
+        "1_0",
+        "+.5",
+    ];
+    prop_oneof![3 => select(scraps.to_vec()).prop_map(String::from), 1 => any::<char>().prop_map(String::from)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    #[test]
+    fn prop_no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        if let Err(problems) = read_bytes(&bytes, &[]) {
+            prop_assert!(!report(&problems).is_empty());
+        }
+    }
+
+    #[test]
+    fn prop_no_scraps_panic(parts in prop::collection::vec(scraps(), 0..60)) {
+        exercise(&parts.concat(), &[]);
+    }
+
+    #[test]
+    fn prop_no_mutation_panics(
+        which in 0..3usize,
+        edits in prop::collection::vec((any::<Index>(), 0..30usize, scraps()), 1..6),
+    ) {
+        let mut text = [OUTER.to_string(), INNER.to_string(), template()][which].clone();
+        for (at, cut, scrap) in edits {
+            let floor = |text: &str, mut i: usize| {
+                i = i.min(text.len());
+                while !text.is_char_boundary(i) { i -= 1; }
+                i
+            };
+            let start = floor(&text, at.index(text.len() + 1));
+            let end = floor(&text, start + cut).max(start);
+            text.replace_range(start..end, &scrap);
+        }
+        exercise(&text, &[]);
+    }
+
+    #[test]
+    fn prop_no_value_panics(
+        which in 0..2usize,
+        line in any::<Index>(),
+        value in prop_oneof![scraps(), any::<f64>().prop_map(|x| format!("{x:e}")), any::<i64>().prop_map(|n| n.to_string())],
+    ) {
+        let text = [OUTER, INNER][which];
+        let lines: Vec<&str> = text.lines().collect();
+        let line = line.index(lines.len());
+        let changed: Vec<String> = lines.iter().enumerate().map(|(i, old)| match old.split_once(" = ") {
+            Some((name, _)) if i == line => format!("{name} = {value}"),
+            _ => old.to_string(),
+        }).collect();
+        exercise(&changed.join("\n"), &[]);
+    }
+
+    #[test]
+    fn prop_no_override_panics(
+        path in prop_oneof!["[a-z_.0-9]{0,20}", select(vec![
+            "defects.0.shape.profile.arc_mm", "defects.1.on", "bearing", "operation.load_n.1", "simulation.record.4", "",
+        ]).prop_map(String::from)],
+        value in prop::collection::vec(scraps(), 0..4),
+    ) {
+        exercise(OUTER, &[(path, value.concat())]);
+    }
+
+    #[test]
+    fn prop_a_scenario_reads_back_bit_for_bit(scenario in scenarios()) {
+        let text = scenario.to_toml();
+        let loaded = read(&text, &[]);
+        prop_assert!(loaded.is_ok(), "{}\n{}", report(&loaded.unwrap_err()), text);
+        let loaded = loaded.unwrap();
+        // Debug shows the sign of a zero, which equality does not see.
+        prop_assert_eq!(format!("{:?}", loaded.scenario), format!("{:?}", scenario));
+        prop_assert!(loaded.provenance.iter().all(|p| p.origin == Origin::File && !p.assumed));
+    }
+}
+
+fn shapes() -> impl Strategy<Value = Shape> {
+    let profile = prop::collection::vec((0.0..1.0f64, 0.0..5.0f64, 0.0..100.0f64), 2..9);
+    prop_oneof![
+        (1e-3..15.0f64, 0.0..5.0f64).prop_map(|(length_mm, width_mm)| Shape::Rectangle {
+            length_mm,
+            width_mm
+        }),
+        (1e-3..5.0f64).prop_map(|diameter_mm| Shape::Circle { diameter_mm }),
+        (0.0..5.0f64).prop_map(|max_width_mm| Shape::Li2023Irregular { max_width_mm }),
+        (profile, any::<bool>()).prop_map(|(points, deep)| {
+            let arc = points.iter().scan(-4.0, |s, point| {
+                *s += point.0;
+                Some(*s)
+            });
+            Shape::Profile {
+                arc_mm: arc.collect(),
+                width_mm: points.iter().map(|point| point.1).collect(),
+                depth_um: deep.then(|| points.iter().map(|point| point.2).collect()),
+            }
+        }),
+    ]
+}
+
+fn defects() -> impl Strategy<Value = Vec<Defect>> {
+    let surface = prop_oneof![
+        Just(Surface::OuterRaceway),
+        Just(Surface::InnerRaceway),
+        (1..=12usize).prop_map(Surface::Roller),
+    ];
+    let defect = (surface, 1..=2usize, any::<f32>(), 0.0..1e3f64, shapes());
+    let defect = defect.prop_map(|(on, row, center, depth_um, shape)| Defect {
+        on,
+        row,
+        center_deg: if center.is_finite() {
+            f64::from(center)
+        } else {
+            -0.0
+        },
+        depth_um,
+        shape,
+    });
+    prop::collection::vec(defect, 0..4)
+}
+
+fn scenarios() -> impl Strategy<Value = Scenario> {
+    let speed = prop_oneof![
+        (1e-3..1e5f64).prop_map(Speed::Constant),
+        prop::collection::vec((1e-9..1.0f64, -1e5..1e5f64), 1..6).prop_map(|points| {
+            let times = points.iter().scan(-1.0, |t, point| {
+                *t += point.0;
+                Some(*t)
+            });
+            Speed::Profile(times.zip(&points).map(|(t, point)| [t, point.1]).collect())
+        }),
+    ];
+    let words = (0..3usize, 0..2usize, 0..2usize, 0..3usize, 0..2usize);
+    let numbers = prop::collection::vec(1e-9..1e9f64, 16);
+    let text = (
+        any::<String>(),
+        prop::collection::vec("[a-z0-9_*]{1,9}", 0..4),
+    );
+    (
+        text,
+        5.5..40.0f64,
+        12..=15usize,
+        2..=4usize,
+        numbers,
+        speed,
+        words,
+        defects(),
+    )
+        .prop_map(
+            |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
+                name,
+                bearing: Bearing {
+                    preset: (words.1 == 1).then(|| "NN3007".into()),
+                    inner_raceway_diameter_mm: 6.0 * d,
+                    outer_raceway_diameter_mm: 8.0 * d,
+                    pitch_diameter_mm: 7.0 * d,
+                    roller_diameter_mm: d,
+                    roller_length_mm: d * 1.1,
+                    rollers_per_row: z,
+                    rows,
+                    row_stagger_deg: -x[0],
+                    radial_clearance_um: d * x[1] / 1e9,
+                    outer_gap_um: d * x[2] / 1e9,
+                    inner_ring_mass_kg: x[3],
+                    outer_ring_mass_kg: x[4],
+                    roller_mass_kg: x[5],
+                },
+                cage: Cage {
+                    mass_kg: x[6],
+                    inner_diameter_mm: 6.5 * d,
+                    outer_diameter_mm: 7.7 * d,
+                    pocket_clearance_mm: d / 100.0,
+                    guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers]
+                        [words.0],
+                    guide_clearance_mm: x[7],
+                    guide_width_mm: x[8],
+                    contact_stiffness_n_per_m: x[9],
+                    contact_damping_ns_per_m: x[10],
+                },
+                contact: Contact {
+                    law: Law::Ecl,
+                    roller_path: RollerPath::Point,
+                    slices: z,
+                    edge_reaction: EdgeReaction::None,
+                    exponent: 1.0 + x[0] / 1e9,
+                    inner_stiffness: x[11],
+                    outer_stiffness: x[12],
+                    damping_ns_per_m: x[13],
+                },
+                friction: Friction {
+                    raceway_coefficient: x[14] / 1e9,
+                    slip_velocity_m_per_s: x[15],
+                },
+                lubricant: Lubricant {
+                    viscosity_pa_s: x[1],
+                    drag_coefficient: x[2],
+                    effective_density_kg_per_m3: x[3],
+                },
+                support: Support {
+                    inner_stiffness_n_per_m: x[4],
+                    inner_damping_ns_per_m: x[5],
+                    outer_stiffness_n_per_m: x[6],
+                    outer_damping_ns_per_m: x[7],
+                },
+                operation: Operation {
+                    speed_rpm,
+                    load_n: [-x[8], x[9]],
+                    load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
+                    load_ramp_s: x[10],
+                    gravity_m_per_s2: [-0.0, -x[11]],
+                },
+                defects,
+                simulation: Simulation {
+                    model: [ModelKind::Full, ModelKind::Reference][words.2],
+                    duration_s: 1.0 + x[12] / 1e9,
+                    sample_rate_hz: 1.0 + x[13],
+                    start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],
+                    accuracy: [Accuracy::Standard, Accuracy::Reference][words.4],
+                    record,
+                },
+            },
+        )
+}
