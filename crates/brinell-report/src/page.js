@@ -287,7 +287,12 @@
     const wave = charts.waveform;
     if (!wave || !wave.plots.length) return;
     svg.style.cursor = "pointer";
-    if (svg.classList.contains("wide")) svg.closest("figure").querySelector("figcaption")?.append(" Click to move it.");
+    if (svg.classList.contains("wide")) {
+      const hint = document.createElement("span");
+      hint.className = "hint";
+      hint.textContent = " Click to move it.";
+      svg.closest("figure").querySelector("figcaption")?.append(hint);
+    }
     svg.addEventListener("click", (event) => {
       const box = svg.getBoundingClientRect(), [l, , r] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
       const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
