@@ -37,16 +37,17 @@ pub(crate) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)>
 impl Domain {
     pub(crate) fn exact(lo: f64, hi: f64) -> Self {
         let (lo, hi) = range([lo, hi]).unwrap_or((0.0, 1.0));
+        let largest = lo.abs().max(hi.abs());
         // A span that rounding swallows shows nothing.
-        let least = 1e-12 * lo.abs().max(hi.abs()).max(1e-300);
-        if hi - lo > least {
-            Self { lo, hi, log: false }
+        let room = if hi - lo > 1e-12 * largest.max(1e-290) {
+            0.0
         } else {
-            Self {
-                lo: lo - 0.5,
-                hi: hi + 0.5,
-                log: false,
-            }
+            (1e-9 * largest).max(0.5)
+        };
+        Self {
+            lo: lo - room,
+            hi: hi + room,
+            log: false,
         }
     }
 
@@ -108,9 +109,14 @@ impl Domain {
         // The floor follows the bulk of the lines, not the deepest notch.
         let mut sample: Vec<f64> = positive().step_by(values.len() / 4096 + 1).collect();
         sample.sort_by(f64::total_cmp);
-        let floor = sample.get(sample.len() / 100).copied().unwrap_or(lo);
-        let top = (hi * 1.05).log10().ceil();
-        let bottom = floor.log10().floor().clamp(top - 6.0, top - 1.0);
+        let floor = sample.get(sample.len() / 20).copied().unwrap_or(lo);
+        let decade = hi.log10().floor();
+        let tops = [2.0f64, 5.0, 10.0, 20.0].map(|m| m.log10() + decade);
+        let top = tops
+            .into_iter()
+            .find(|top| *top > hi.log10() + 0.04)
+            .unwrap_or(decade + 1.0);
+        let bottom = floor.log10().floor().clamp(decade - 5.0, decade - 1.0);
         Self {
             lo: 10f64.powf(bottom),
             hi: 10f64.powf(top),
@@ -176,8 +182,9 @@ pub(crate) struct Spec {
     pub(crate) y_label: String,
     pub(crate) y_unit: String,
     pub(crate) lanes: Vec<Lane>,
-    /// Left margin at least, to line plots up.
+    /// Margins at least, to line plots up.
     pub(crate) left: f64,
+    pub(crate) right: f64,
     /// Whether the x axis carries numbers and a label.
     pub(crate) x_axis: bool,
 }
@@ -223,10 +230,11 @@ fn ticks(domain: Domain, target: usize) -> (Vec<f64>, Vec<String>, i32) {
     (ticks, labels, power)
 }
 
-/// Splits a label at the space nearest its middle, so that it fits in two lines.
+/// Splits a label so that it fits in two lines: at the best space, but not inside the unit.
 fn halves(label: &str) -> (String, String) {
+    let unit = label.rfind(" (").map_or(label.len(), |at| at + 1);
     let middle = label.len() / 2;
-    match label
+    match label[..unit]
         .match_indices(' ')
         .map(|(at, _)| at)
         .min_by_key(|at| at.abs_diff(middle))
@@ -253,6 +261,17 @@ pub(crate) fn left_margin(spec: &Spec) -> f64 {
     (numbers + 10.0 + lines * 1.3 * font + 4.0).max((lanes + 14.0).min(0.3 * spec.size.width))
 }
 
+/// Margin that the values of a plot's lanes need.
+pub(crate) fn right_margin(spec: &Spec) -> f64 {
+    let font = spec.size.font;
+    let ends = spec
+        .lanes
+        .iter()
+        .map(|l| font::width(&l.value, font, false))
+        .fold(0.0, f64::max);
+    if ends > 0.0 { ends + 12.0 } else { 1.2 * font }
+}
+
 fn plot_height(spec: &Spec) -> f64 {
     let below = if spec.x_axis {
         3.4 * spec.size.font
@@ -263,7 +282,7 @@ fn plot_height(spec: &Spec) -> f64 {
 }
 
 fn y_target(spec: &Spec) -> usize {
-    ((plot_height(spec) / (3.2 * spec.size.font)) as usize).clamp(2, 8)
+    ((plot_height(spec) / (2.1 * spec.size.font)) as usize).clamp(2, 8)
 }
 
 fn label_is_long(spec: &Spec) -> bool {
@@ -279,12 +298,7 @@ impl Chart {
             font,
         } = spec.size;
         let left = left_margin(&spec).max(spec.left);
-        let ends = spec
-            .lanes
-            .iter()
-            .map(|l| font::width(&l.value, font, false))
-            .fold(0.0, f64::max);
-        let right = if ends > 0.0 { ends + 12.0 } else { 1.2 * font };
+        let right = right_margin(&spec).max(spec.right);
         let top = 8.0 + LANE_HEIGHT * spec.lanes.len() as f64;
         let frame = Rect {
             left,
@@ -328,7 +342,7 @@ impl Chart {
                 .map(|l| font::width(l, font, false))
                 .fold(0.0, f64::max)
         };
-        let mut target = ((frame.width() / 90.0) as usize).clamp(3, 10);
+        let mut target = ((frame.width() / 60.0) as usize).clamp(3, 10);
         while target > 1 {
             let (values, labels, _) = ticks(spec.x, target);
             if (widest(&labels) + 14.0) * values.len() as f64 <= frame.width() {
@@ -588,7 +602,7 @@ impl Chart {
             for mark in seen() {
                 let x = self.x.at(mark.x) + 4.0;
                 let end = x + font::width(&mark.label, font - 1.0, false) + 4.0;
-                let limit = next.next().unwrap_or(frame.right + 8.0);
+                let limit = next.next().unwrap_or(frame.right);
                 if mark.label.is_empty() || x < free || end > limit + 2.0 {
                     continue;
                 }

@@ -57,16 +57,15 @@
   function draw(plot, view) {
     const { svg, chart, frame: [l, t, r, b], home } = plot;
     plot.view = view;
-    const atHome = view[0] === home[0] && view[1] === home[1];
-    if (atHome) { svg.innerHTML = plot.original; plot.yRange = null; return; }
     svg.innerHTML = plot.original;
+    if (view[0] === home[0] && view[1] === home[1]) return;
     const X = (v) => l + (r - l) * (v - view[0]) / (view[1] - view[0]);
     const font = plot.font;
 
     const tx = svg.querySelector(".ticks-x"), text = tx.querySelector("text"), grid = tx.querySelector("path");
     if (text && grid) {
       tx.replaceChildren();
-      let target = Math.max(3, Math.min(10, (r - l) / 90)), list = ticks(view[0], view[1], target);
+      let target = Math.max(3, Math.min(10, Math.floor((r - l) / 60))), list = ticks(view[0], view[1], target);
       while (target > 1 && list.reduce((n, k) => Math.max(n, k[1].length), 0) * font * 0.66 * list.length > r - l) list = ticks(view[0], view[1], --target);
       for (const [v, label] of list) {
         clone(grid, tx, { d: `M${X(v).toFixed(1)} ${t}L${X(v).toFixed(1)} ${b}` });
@@ -91,7 +90,7 @@
           Y = (v) => b + (t - b) * (v - range[0]) / (range[1] - range[0]);
           ty.replaceChildren();
           const scale = plot.yScale;
-          for (const [v, name] of ticks(range[0] / scale, range[1] / scale, Math.max(2, Math.min(8, Math.floor((b - t) / 3.2 / font))))) {
+          for (const [v, name] of ticks(range[0] / scale, range[1] / scale, Math.max(2, Math.min(8, Math.floor((b - t) / 2.1 / font))))) {
             const at = Y(v * scale);
             clone(line, ty, { d: `M${l} ${at.toFixed(1)}L${r} ${at.toFixed(1)}` });
             clone(label, ty, { y: (at + 0.36 * font).toFixed(1) }, name);
@@ -114,7 +113,7 @@
       const sample = plot.laneText;
       if (!sample) return;
       marks.forEach((m, i) => {
-        const x = X(m[0]) + 4, next = i + 1 < marks.length ? X(marks[i + 1][0]) : r + 8;
+        const x = X(m[0]) + 4, next = i + 1 < marks.length ? X(marks[i + 1][0]) : r;
         if (m[2] && x + m[2].length * font * 0.62 < next) clone(sample, lane, { x: x.toFixed(1), y: (base - 0.5 * (plot.lane - 0.72 * font) - 0.4).toFixed(1) }, m[2]);
       });
     });
@@ -127,7 +126,20 @@
     return [middle - width / 2, middle + width / 2];
   }
 
-  const zoom = (name, view) => charts[name].plots.forEach((plot) => draw(plot, view ? clamp(charts[name], view) : plot.home));
+  // The overview shades what the waveform shows.
+  function follow() {
+    const wave = charts.waveform;
+    document.querySelectorAll('svg[data-plot="overview"]').forEach((svg) => {
+      const [l, t, r, b] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
+      const X = (v) => Math.min(Math.max(l + (r - l) * (v / wave.overviewScale - lo) / (hi - lo), l), r), [x1, x2] = wave.plots[0].view.map(X);
+      svg.querySelector(".window path")?.setAttribute("d", `M${x1 - 1} ${t}H${x2 + 1}V${b}H${x1 - 1}Z`);
+    });
+  }
+
+  function zoom(name, view) {
+    charts[name].plots.forEach((plot) => draw(plot, view ? clamp(charts[name], view) : plot.home));
+    if (name === "waveform") follow();
+  }
 
   function watch(plot, tools) {
     const { svg, chart, name } = plot;
@@ -275,13 +287,17 @@
     const wave = charts.waveform;
     if (!wave || !wave.plots.length) return;
     svg.style.cursor = "pointer";
+    if (svg.classList.contains("wide")) {
+      const hint = document.createElement("span");
+      hint.className = "hint";
+      hint.textContent = " Click to move it.";
+      svg.closest("figure").querySelector("figcaption")?.append(hint);
+    }
     svg.addEventListener("click", (event) => {
-      const box = svg.getBoundingClientRect(), [l, t, r, b] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
+      const box = svg.getBoundingClientRect(), [l, , r] = svg.dataset.frame.split(" ").map(Number), [lo, hi] = svg.dataset.view.split(" ").map(Number);
       const x = (event.clientX - box.left) * svg.viewBox.baseVal.width / box.width;
       const time = (lo + (hi - lo) * (x - l) / (r - l)) * wave.overviewScale, [a, c] = wave.plots[0].view;
       zoom("waveform", [time - (c - a) / 2, time + (c - a) / 2]);
-      const mark = svg.querySelector(".window path"), view = wave.plots[0].view.map((v) => l + (r - l) * (v / wave.overviewScale - lo) / (hi - lo));
-      if (mark) mark.setAttribute("d", `M${view[0] - 1} ${t}H${view[1] + 1}V${b}H${view[0] - 1}Z`);
     });
   });
 })();

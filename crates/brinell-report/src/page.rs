@@ -30,9 +30,9 @@ pub fn html(report: &Report) -> String {
         escape(title)
     );
     for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
-        let _ = write!(
+        let _ = writeln!(
             page,
-            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}\n",
+            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
             base64(face)
         );
     }
@@ -79,7 +79,13 @@ pub fn html(report: &Report) -> String {
     ];
     page.push_str("<nav aria-label=\"Contents\"><ul>");
     for (id, name, _) in sections {
-        let _ = write!(page, "<li><a href=\"#{id}\">{name}</a></li>");
+        let short = match id {
+            "envelope" => "Envelope",
+            "passes" => "Passes",
+            "load" => "Load",
+            _ => name,
+        };
+        let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");
     }
     page.push_str("</ul></nav>\n<main>\n");
     facts(&mut page, &report.facts);
@@ -144,11 +150,9 @@ fn facts(page: &mut String, facts: &[Fact]) {
             escape(&fact.label)
         );
         if !fact.unit.is_empty() {
-            let _ = write!(
-                page,
-                " <span class=\"unit\">{}</span>",
-                unit_html(&fact.unit)
-            );
+            let gap = if fact.unit == "°" { "" } else { " " };
+            let unit = unit_html(&fact.unit);
+            let _ = write!(page, "{gap}<span class=\"unit\">{unit}</span>");
         }
         page.push_str("</dd>");
         if let Some(ok) = fact.ok {
@@ -215,7 +219,7 @@ fn waveform(page: &mut String, report: &Report) {
         page,
         "overview",
         |layout| plots::overview(report, layout),
-        "The whole run: smallest to largest value. The shaded stretch is shown below; click elsewhere to move it.",
+        "The whole run: smallest to largest value. The shaded stretch is shown below.",
     );
     let events = match report.waveform.events.len() {
         0 => "No roller passes a defect while this signal was kept.".to_owned(),

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, left_margin, range};
+use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, left_margin, range, right_margin};
 use crate::data::{EventKind, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum};
 use crate::font;
 use crate::number::{linear_ticks, significant, tick_labels};
-use crate::picture::{Anchor, Error, Paint, Picture, Shape, Text, ink};
+use crate::picture::{Anchor, Error, Paint, Picture, Rect, Shape, Text, ink};
 
 /// What a picture is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,8 +51,13 @@ pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {
     }
 }
 
+fn known(spacing: f64) -> bool {
+    spacing.is_finite() && spacing > 0.0
+}
+
+/// A spacing to lay a plot out with, even where there is none to draw with.
 fn spacing(d: f64) -> f64 {
-    if d.is_finite() && d > 0.0 { d } else { 1.0 }
+    if known(d) { d } else { 1.0 }
 }
 
 fn start(t0: f64) -> f64 {
@@ -133,6 +138,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         y_unit: series.unit.clone(),
         lanes: vec![],
         left: 0.0,
+        right: 0.0,
         x_axis: true,
     });
     if range(bins.min.iter().copied()).is_none() {
@@ -182,30 +188,27 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
 
 /// The measured signal close up, with the instants at which rollers enter and leave defects.
 pub fn waveform(report: &Report, layout: Layout) -> Picture {
-    waveform_sized(
-        report,
-        layout.size(if layout == Layout::Wide { 340.0 } else { 300.0 }),
-        0.0,
-    )
+    let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
+    draw_waveform(report, waveform_spec(report, layout.size(height)))
 }
 
-fn waveform_sized(report: &Report, size: Size, left: f64) -> Picture {
-    let mut chart = Chart::new(Spec {
-        left,
-        ..waveform_spec(report, size)
-    });
+fn draw_waveform(report: &Report, spec: Spec) -> Picture {
+    let mut chart = Chart::new(spec);
     let series = &report.waveform.series;
     let (_, scale) = waveform_unit(report);
     if range(series.values.iter().copied()).is_none() {
         chart.say("No samples");
+    } else if !known(series.dt_s) && series.values.len() > 1 {
+        chart.say("The sample interval is not known");
+    } else {
+        chart.curve(
+            start(series.t0_s) * scale,
+            spacing(series.dt_s) * scale,
+            &series.values,
+            false,
+            CURVE,
+        );
     }
-    chart.curve(
-        start(series.t0_s) * scale,
-        spacing(series.dt_s) * scale,
-        &series.values,
-        false,
-        CURVE,
-    );
     chart.interactive("waveform");
     chart.finish()
 }
@@ -239,6 +242,7 @@ fn waveform_spec(report: &Report, size: Size) -> Spec {
         y_unit: series.unit.clone(),
         lanes: event_lanes(report, scale),
         left: 0.0,
+        right: 0.0,
         x_axis: true,
     }
 }
@@ -303,11 +307,8 @@ pub fn spectrum(report: &Report, layout: Layout) -> Picture {
 
 /// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
 pub fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
-    envelope_sized(
-        report,
-        layout.size(if layout == Layout::Wide { 370.0 } else { 330.0 }),
-        0.0,
-    )
+    let height = if layout == Layout::Wide { 370.0 } else { 330.0 };
+    draw_envelope(report, envelope_spec(report, layout.size(height)))
 }
 
 pub(crate) fn envelope_domain(report: &Report) -> Domain {
@@ -334,11 +335,8 @@ fn envelope_spec(report: &Report, size: Size) -> Spec {
     )
 }
 
-fn envelope_sized(report: &Report, size: Size, left: f64) -> Picture {
-    let mut chart = Chart::new(Spec {
-        left,
-        ..envelope_spec(report, size)
-    });
+fn draw_envelope(report: &Report, spec: Spec) -> Picture {
+    let mut chart = Chart::new(spec);
     draw_spectrum(&mut chart, &report.envelope_spectrum);
     chart.interactive("envelope");
     chart.finish()
@@ -369,6 +367,7 @@ fn spectrum_spec(
         y_unit: spectrum.unit.clone(),
         lanes,
         left: 0.0,
+        right: 0.0,
         x_axis: true,
     }
 }
@@ -376,14 +375,17 @@ fn spectrum_spec(
 fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum) {
     if range(spectrum.amplitude.iter().copied()).is_none() {
         chart.say("No spectrum");
+    } else if !known(spectrum.df_hz) {
+        chart.say("The line spacing is not known");
+    } else {
+        chart.curve(
+            0.0,
+            spacing(spectrum.df_hz),
+            &spectrum.amplitude,
+            true,
+            CURVE,
+        );
     }
-    chart.curve(
-        0.0,
-        spacing(spectrum.df_hz),
-        &spectrum.amplitude,
-        true,
-        CURVE,
-    );
 }
 
 /// Boxes of line and text, from `left` on, wrapped at `right`; returns the height used.
@@ -458,6 +460,7 @@ pub fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
         y_unit: unit.into(),
         lanes: vec![],
         left: 0.0,
+        right: 0.0,
         x_axis: last,
     };
     let lengths = pass.length_mm.iter().chain(other.unwrap_or(&[])).copied();
@@ -547,7 +550,7 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     });
     let largest = range(forces).map_or(0.0, |(_, hi)| hi);
     let largest = if largest > 0.0 { largest } else { 1.0 };
-    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 4)
+    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 5)
         .into_iter()
         .filter(|r| *r > 0.0)
         .collect();
@@ -640,13 +643,17 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
             } else {
                 format!("·10{}", crate::number::superscript(power))
             };
-            let label = Text::new(
-                x,
-                y + 0.36 * font,
-                font - 1.0,
-                Anchor::Middle,
-                &format!("{label}{scale} N"),
-            );
+            let words = format!("{label}{scale} N");
+            let label = Text::new(x, y + 0.36 * font, font - 1.0, Anchor::Middle, &words);
+            let half = 0.5 * label.width() + 2.0;
+            let (top, bottom) = (y - 0.6 * font, y + 0.6 * font);
+            let back = Rect {
+                left: x - half,
+                right: x + half,
+                top,
+                bottom,
+            };
+            picture.rect(back, Paint::fill("#ffffff", 0.85));
             picture.text(label.color(ink::FAINT));
         }
         let title = font::fitted(&row.title, font, true, cell);
@@ -686,10 +693,17 @@ pub fn headline(report: &Report) -> Picture {
         height,
         font: 12.5,
     };
-    let upper = size(0.46 * (HEIGHT - 34.0));
-    let lower = size(0.54 * (HEIGHT - 34.0));
-    let left =
-        left_margin(&waveform_spec(report, upper)).max(left_margin(&envelope_spec(report, lower)));
+    let height = 0.5 * (HEIGHT - 34.0);
+    let mut upper = waveform_spec(report, size(height));
+    let mut lower = envelope_spec(report, size(height));
+    if lower.lanes.iter().any(|lane| lane.through) {
+        lower.lanes.retain(|lane| lane.through);
+    }
+    let left = left_margin(&upper).max(left_margin(&lower));
+    let right = right_margin(&upper).max(right_margin(&lower));
+    for spec in [&mut upper, &mut lower] {
+        (spec.left, spec.right) = (left, right);
+    }
     let title = font::fitted(&report.title, 16.0, true, 0.45 * WIDTH);
     let used = font::width(&title, 16.0, true);
     let subtitle = font::fitted(&report.subtitle, 13.0, false, WIDTH - used - left - 40.0);
@@ -705,12 +719,8 @@ pub fn headline(report: &Report) -> Picture {
         Anchor::Start,
         &subtitle,
     ));
-    picture.place(waveform_sized(report, upper, left), 0.0, 32.0);
-    picture.place(
-        envelope_sized(report, lower, left),
-        0.0,
-        32.0 + upper.height,
-    );
+    picture.place(draw_waveform(report, upper), 0.0, 32.0);
+    picture.place(draw_envelope(report, lower), 0.0, 32.0 + height);
     picture
 }
 

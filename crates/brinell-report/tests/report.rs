@@ -1,0 +1,330 @@
+//! The page and its pictures: what must be in them, and that nothing odd breaks them.
+
+use brinell_report::{
+    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Layout, Marker,
+    MinMax, Pass, Report, RowLoad, Series, Spectrum, Waveform, bin_centres, detail_window,
+    headline_png, html, load_distribution, pictures,
+};
+use proptest::prelude::*;
+
+const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
+
+/// A report in which every list is filled, strings from `text` and numbers from `values`.
+fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Report {
+    let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
+    let fact = || Fact::new(text, at(0), text, text).judged(at(1) > 0.0);
+    let spectrum = || Spectrum {
+        label: text.into(),
+        df_hz: dt,
+        amplitude: values.to_vec(),
+        unit: text.into(),
+        note: text.into(),
+    };
+    Report {
+        title: text.into(),
+        subtitle: text.into(),
+        version: text.into(),
+        partial: Some(text.into()),
+        facts: vec![fact(), Fact::new(text, text, text, text)],
+        waveform: Waveform {
+            series: Series {
+                label: text.into(),
+                unit: text.into(),
+                t0_s: at(2),
+                dt_s: dt,
+                values: values.to_vec(),
+            },
+            overview: Some(MinMax {
+                t0_s: at(2),
+                dt_s: dt,
+                min: values.to_vec(),
+                max: values.iter().skip(1).copied().collect(),
+            }),
+            events: vec![
+                Event {
+                    t_s: at(3),
+                    kind: EventKind::Enter,
+                    label: text.into(),
+                },
+                Event {
+                    t_s: at(4),
+                    kind: EventKind::Leave,
+                    label: text.into(),
+                },
+            ],
+        },
+        spectrum: spectrum(),
+        envelope_spectrum: spectrum(),
+        markers: [true, false]
+            .map(|present| Marker {
+                label: text.into(),
+                meaning: text.into(),
+                frequency_hz: frequency,
+                harmonics: 5,
+                present,
+            })
+            .to_vec(),
+        passes: vec![Pass {
+            title: text.into(),
+            angle_deg: values.to_vec(),
+            length_mm: values.to_vec(),
+            other_length_mm: Some(values.iter().rev().copied().collect()),
+            stiffness: values.iter().skip(1).copied().collect(),
+            stiffness_unit: text.into(),
+            force_n: vec![],
+            contact: text.into(),
+            other_contact: text.into(),
+        }],
+        load_distribution: vec![RowLoad {
+            title: text.into(),
+            angle_deg: values.to_vec(),
+            mean_n: values.to_vec(),
+            max_n: values.iter().rev().copied().collect(),
+            static_points: values.iter().map(|v| (*v, at(0))).collect(),
+        }],
+        indicators: IndicatorTable {
+            columns: vec![text.into(), text.into()],
+            rows: vec![IndicatorRow {
+                channel: text.into(),
+                kind: text.into(),
+                cells: vec![Estimate {
+                    value: at(0),
+                    half_width: Some(at(1)),
+                    unit: text.into(),
+                }],
+            }],
+            note: text.into(),
+        },
+        slip: vec![fact()],
+        audits: vec![fact()],
+        solver_work: vec![fact()],
+        assumptions: vec![Assumption {
+            key: text.into(),
+            value: at(0).into(),
+            unit: text.into(),
+            source: text.into(),
+            estimated: true,
+        }],
+        scenario_toml: text.into(),
+    }
+}
+
+/// Ten seconds at 25.6 kHz with bursts every 4 ms.
+fn ordinary() -> Report {
+    let values: Vec<f64> = (0..256_000)
+        .map(|i| {
+            let phase = f64::from(i) / 25_600.0 % 0.004;
+            60.0 * (-phase * 900.0).exp() * (phase * 26_000.0).sin()
+        })
+        .collect();
+    let mut report = filled("plain", &values, 1.0 / 25_600.0, 250.102);
+    report.spectrum.df_hz = 0.1;
+    report.envelope_spectrum.df_hz = 0.1;
+    report.waveform.series.t0_s = 0.0;
+    report.waveform.series.unit = "m/s^2".into();
+    let angle_deg: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i) - 5.0).collect();
+    report.passes[0] = Pass {
+        title: "Row 1, roller 7".into(),
+        length_mm: angle_deg
+            .iter()
+            .map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 })
+            .collect(),
+        other_length_mm: None,
+        stiffness: vec![1.9e8; 500],
+        stiffness_unit: "N/m^(10/9)".into(),
+        force_n: vec![40.0; 500],
+        angle_deg,
+        ..Pass::default()
+    };
+    report.load_distribution[0] = RowLoad {
+        title: "Row 1".into(),
+        angle_deg: bin_centres(36),
+        mean_n: vec![10.0; 36],
+        max_n: vec![12.0; 36],
+        static_points: vec![(0.0, 11.0)],
+    };
+    report
+}
+
+/// What a page must hold whatever its data, and what it must not.
+fn check(page: &str) {
+    let mut from = 0;
+    for heading in [
+        "<h1>",
+        ">Waveform</h2>",
+        ">Spectrum</h2>",
+        ">Envelope spectrum</h2>",
+        ">Passing the defect</h2>",
+        ">Load distribution</h2>",
+        ">Indicators</h2>",
+        ">Slip</h2>",
+        ">Audits</h2>",
+        ">Solver work</h2>",
+        ">Assumptions</h2>",
+        ">Scenario</h2>",
+    ] {
+        let at = page[from..].find(heading);
+        from += at.unwrap_or_else(|| panic!("{heading} is missing or out of order"));
+    }
+    for (open, close) in [
+        ("<svg", "</svg>"),
+        ("<table", "</table>"),
+        ("<figure>", "</figure>"),
+        ("<script", "</script>"),
+    ] {
+        assert_eq!(
+            page.matches(open).count(),
+            page.matches(close).count(),
+            "{open}"
+        );
+    }
+    for part in page.match_indices("url(").map(|(at, _)| &page[at..at + 9]) {
+        assert!(
+            part.starts_with("url(data:") || part.starts_with("url(#"),
+            "{part}"
+        );
+    }
+    for never in [
+        "http:", "https:", "@import", "<link", "<iframe", " src=\"", "NaN", ":inf", ",inf",
+    ] {
+        assert!(!page.contains(never), "{never} in the page");
+    }
+}
+
+fn check_pictures(report: &Report) {
+    for picture in pictures(report) {
+        let svg = picture.svg();
+        let tree = roxmltree::Document::parse(&svg);
+        assert!(tree.is_ok(), "{}: {tree:?}", picture.name);
+        assert!(
+            !svg.contains("NaN") && !svg.contains("inf\""),
+            "{}",
+            picture.name
+        );
+    }
+}
+
+#[test]
+fn regress_an_ordinary_page_is_whole_and_small() {
+    let report = ordinary();
+    let page = html(&report);
+    check(&page);
+    check_pictures(&report);
+    assert!(page.len() < 2_000_000, "{} bytes", page.len());
+    for text in ["m/s²", "Time (", "Frequency (Hz)", "Force (N)", "250.102"] {
+        assert!(page.contains(text), "{text}");
+    }
+    // Two drawings of every figure, and data for the three that zoom.
+    assert_eq!(
+        page.matches("class=\"wide\"").count(),
+        page.matches("class=\"narrow\"").count()
+    );
+    assert_eq!(page.matches("data-chart=").count(), 3);
+}
+
+#[test]
+fn regress_units_with_exponents_are_raised() {
+    let mut report = ordinary();
+    report.audits = vec![Fact::new("Stiffness", 1.898e8, "N/m^(10/9)", "")];
+    let page = html(&report);
+    assert!(page.contains("1.898×10⁸") && page.contains("N/m<sup>10/9</sup>"));
+}
+
+#[test]
+fn regress_an_empty_report_says_so() {
+    let page = html(&Report::default());
+    check(&page);
+    check_pictures(&Report::default());
+    for words in [
+        "No waveform was recorded",
+        "No spectrum was made",
+        "No roller passed a defect",
+        "No audit was made",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(!page.contains("<svg"));
+    let svg = load_distribution(&[], Layout::Narrow).svg();
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+}
+
+#[test]
+fn regress_every_string_is_escaped() {
+    let report = filled(HOSTILE, &[1.0, 2.0, 3.0, 0.5, 0.7], 0.1, 2.0);
+    let page = html(&report);
+    check(&page);
+    check_pictures(&report);
+    assert!(!page.contains("<img") && !page.contains('\u{0}'));
+}
+
+#[test]
+fn regress_the_close_up_spans_five_periods_of_the_damage() {
+    let mut report = ordinary();
+    let (lo, hi) = detail_window(&report);
+    assert!((hi - lo - 5.0 / 250.102).abs() < 1e-9 && (hi - 255_999.0 / 25_600.0).abs() < 1e-9);
+    report.markers.clear();
+    let (lo, hi) = detail_window(&report);
+    assert!((hi - lo - 0.02).abs() < 1e-9);
+}
+
+#[test]
+fn regress_odd_data_is_drawn() {
+    for values in [
+        vec![],
+        vec![0.0],
+        vec![7.0],
+        vec![f64::NAN; 5],
+        vec![0.0; 1000],
+        vec![1.0, f64::NAN, 2.0, f64::INFINITY, -3.0],
+        vec![f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324],
+        vec![-1.0, -2.0, -3.0],
+    ] {
+        for (dt, frequency) in [
+            (0.1, 2.0),
+            (0.0, 0.0),
+            (f64::NAN, f64::INFINITY),
+            (1e300, 1e-300),
+        ] {
+            let report = filled("x", &values, dt, frequency);
+            check(&html(&report));
+            check_pictures(&report);
+            assert!(headline_png(&report).is_ok_and(|png| png.starts_with(b"\x89PNG")));
+        }
+    }
+}
+
+#[test]
+fn regress_the_headline_is_1400_by_700() {
+    let png = headline_png(&ordinary()).unwrap();
+    let size = |at: usize| u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]);
+    assert_eq!((size(16), size(20)), (1400, 700));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn prop_no_data_breaks_the_page(
+        text in "\\PC{0,12}",
+        values in prop::collection::vec(any::<f64>(), 0..200),
+        dt in any::<f64>(),
+        frequency in any::<f64>(),
+    ) {
+        let report = filled(&text, &values, dt, frequency);
+        let page = html(&report);
+        prop_assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
+        check_pictures(&report);
+    }
+
+    #[test]
+    fn prop_ordinary_values_break_nothing(
+        values in prop::collection::vec(prop_oneof![Just(f64::NAN), -1e3..1e3, Just(0.0)], 0..300),
+        dt in 1e-6..1.0,
+        frequency in 1e-3..1e5,
+    ) {
+        let report = filled("x", &values, dt, frequency);
+        check(&html(&report));
+        check_pictures(&report);
+        prop_assert!(headline_png(&report).is_ok());
+    }
+}
