@@ -1,2 +1,2 @@
 //! The `brinell` command.
-fn main(){}
+fn main() {}

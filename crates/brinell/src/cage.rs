@@ -54,7 +54,11 @@ impl Pocket {
     /// Friction on the roller along e_r for the slip u of its surface, N.
     #[inline]
     pub fn friction(&self, force: f64, u: f64) -> f64 {
-        if u == 0.0 { 0.0 } else { -traction(u) * force.abs() * u.signum() }
+        if u == 0.0 {
+            0.0
+        } else {
+            -traction(u) * force.abs() * u.signum()
+        }
     }
 }
 
@@ -90,7 +94,11 @@ impl Guide {
     pub fn force(&self, offset: [f64; 2], cage_speed: f64, ring_speed: f64) -> GuideForce {
         let e = offset[0].hypot(offset[1]);
         let eps = (e / self.clearance).min(MAX_ECCENTRICITY);
-        let n = if e > 0.0 { [offset[0] / e, offset[1] / e] } else { [1.0, 0.0] };
+        let n = if e > 0.0 {
+            [offset[0] / e, offset[1] / e]
+        } else {
+            [1.0, 0.0]
+        };
         let entrainment = self.radius * (cage_speed + ring_speed);
         let shear = self.radius * (cage_speed - ring_speed);
         let gap = 1.0 - eps * eps;
@@ -99,7 +107,10 @@ impl Guide {
         let tangential = 0.25 * PI * scale * entrainment * eps / (gap * gap.sqrt());
         let land = -self.land_stiffness * self.land_penetration(offset);
         GuideForce {
-            film: [normal * n[0] - tangential * n[1], normal * n[1] + tangential * n[0]],
+            film: [
+                normal * n[0] - tangential * n[1],
+                normal * n[1] + tangential * n[0],
+            ],
             land: [land * n[0], land * n[1]],
             moment: -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width
                 / (self.clearance * gap.sqrt()),
@@ -116,8 +127,13 @@ impl Guide {
 mod tests {
     use super::*;
 
-    const GUIDE: Guide =
-        Guide { viscosity: 0.01, clearance: 1e-3, width: 6e-3, radius: 26.5e-3, land_stiffness: 1e7 };
+    const GUIDE: Guide = Guide {
+        viscosity: 0.01,
+        clearance: 1e-3,
+        width: 6e-3,
+        radius: 26.5e-3,
+        land_stiffness: 1e7,
+    };
 
     #[test]
     fn analytic_ocvirk_centred_cage_feels_petroff_alone() {
@@ -125,7 +141,12 @@ mod tests {
         assert_eq!(g.film, [0.0, 0.0]);
         // Petroff: tau = eta U / C over the area 2 pi R L at the lever R.
         let u = GUIDE.radius * 80.0;
-        let petroff = GUIDE.viscosity * u / GUIDE.clearance * 2.0 * PI * GUIDE.radius * GUIDE.width * GUIDE.radius;
+        let petroff = GUIDE.viscosity * u / GUIDE.clearance
+            * 2.0
+            * PI
+            * GUIDE.radius
+            * GUIDE.width
+            * GUIDE.radius;
         assert!((g.moment / -petroff - 1.0).abs() < 1e-14);
     }
 
@@ -166,7 +187,11 @@ mod tests {
 
     #[test]
     fn analytic_pocket_has_clearance_to_both_sides_and_never_pulls() {
-        let p = Pocket { stiffness: 1e7, damping: 20.0, clearance: 9e-5 };
+        let p = Pocket {
+            stiffness: 1e7,
+            damping: 20.0,
+            clearance: 9e-5,
+        };
         assert_eq!(p.force(8e-5, 1.0), 0.0);
         assert!((p.force(10e-5, 0.0) - 100.0).abs() < 1e-9);
         assert!((p.force(-10e-5, 0.0) + 100.0).abs() < 1e-9);

@@ -119,7 +119,8 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
             (
                 f.ws.kinematic_orbit[slot],
                 f.model.rolling_orbit_speed(w),
-                f.model.rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
+                f.model
+                    .rolling_orbit_speed(f.model.rotation.acceleration(f.t)),
                 f.ws.kinematic_spin,
                 f.model.rolling_spin_speed(w),
             )
@@ -157,7 +158,8 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
-    let share = crate::contact::remaining_share(model.geometry.roller_length, c.damaged_length[slot]);
+    let share =
+        crate::contact::remaining_share(model.geometry.roller_length, c.damaged_length[slot]);
     if !c.on_damage[slot] {
         return law.stiffness;
     }
@@ -177,16 +179,32 @@ pub fn all(model: &Model) -> Vec<Channel> {
     let dof = l.dof();
     let mut channels = Vec::new();
     let mut add = |name: String, unit: &'static str, description: String, quantity: Quantity| {
-        channels.push(Channel { name, unit, description, quantity });
+        channels.push(Channel {
+            name,
+            unit,
+            description,
+            quantity,
+        });
     };
     for (ring, at) in [("inner", l.inner()), ("outer", l.outer())] {
-        for (suffix, unit, what, offset) in
-            [("", "m", "displacement", 0), ("v", "m/s", "velocity", dof), ("a", "m/s^2", "acceleration", dof)]
-        {
+        for (suffix, unit, what, offset) in [
+            ("", "m", "displacement", 0),
+            ("v", "m/s", "velocity", dof),
+            ("a", "m/s^2", "acceleration", dof),
+        ] {
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
                 let index = offset + at + k;
-                let quantity = if suffix == "a" { Quantity::Slope(index) } else { Quantity::State(index) };
-                add(format!("{ring}_{suffix}{axis}"), unit, format!("{what} of the {ring} ring along {axis}"), quantity);
+                let quantity = if suffix == "a" {
+                    Quantity::Slope(index)
+                } else {
+                    Quantity::State(index)
+                };
+                add(
+                    format!("{ring}_{suffix}{axis}"),
+                    unit,
+                    format!("{what} of the {ring} ring along {axis}"),
+                    quantity,
+                );
             }
         }
     }
@@ -194,14 +212,29 @@ pub fn all(model: &Model) -> Vec<Channel> {
         let (at, number) = (l.cage(row), row + 1);
         for (k, axis) in ["x", "y"].into_iter().enumerate() {
             let text = format!("displacement of cage {number} along {axis}");
-            add(format!("cage{number}_{axis}"), "m", text, Quantity::State(at + k));
+            add(
+                format!("cage{number}_{axis}"),
+                "m",
+                text,
+                Quantity::State(at + k),
+            );
         }
         for (k, axis) in ["x", "y"].into_iter().enumerate() {
             let text = format!("acceleration of cage {number} along {axis}");
-            add(format!("cage{number}_a{axis}"), "m/s^2", text, Quantity::Slope(dof + at + k));
+            add(
+                format!("cage{number}_a{axis}"),
+                "m/s^2",
+                text,
+                Quantity::Slope(dof + at + k),
+            );
         }
         let text = format!("rotational speed of cage {number}");
-        add(format!("cage{number}_speed"), "rad/s", text, Quantity::CageSpeed(dof + at + 2));
+        add(
+            format!("cage{number}_speed"),
+            "rad/s",
+            text,
+            Quantity::CageSpeed(dof + at + 2),
+        );
     }
     let digits = l.rollers_per_row.to_string().len().max(2);
     for row in 0..l.rows {
@@ -222,7 +255,12 @@ pub fn all(model: &Model) -> Vec<Channel> {
                 ("spin_speed", "rad/s", "absolute spin speed", R::SpinSpeed),
             ] {
                 let quantity = Quantity::Roller(quantity, slot);
-                add(format!("roller{number}_{suffix}"), unit, format!("{what} {of}"), quantity);
+                add(
+                    format!("roller{number}_{suffix}"),
+                    unit,
+                    format!("{what} {of}"),
+                    quantity,
+                );
             }
             for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
                 let quantity = Quantity::Contact(ContactQuantity::Slip, side, slot);
@@ -239,21 +277,51 @@ pub fn all(model: &Model) -> Vec<Channel> {
             for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
                 for (suffix, unit, what, quantity) in [
                     ("force", "N", "normal force", ContactQuantity::Force),
-                    ("length", "m", "effective length L_e", ContactQuantity::Length),
-                    ("stiffness", STIFFNESS_UNIT, "stiffness", ContactQuantity::Stiffness),
+                    (
+                        "length",
+                        "m",
+                        "effective length L_e",
+                        ContactQuantity::Length,
+                    ),
+                    (
+                        "stiffness",
+                        STIFFNESS_UNIT,
+                        "stiffness",
+                        ContactQuantity::Stiffness,
+                    ),
                 ] {
                     let text = format!("{what} at the {name} contact {of}");
                     let quantity = Quantity::Contact(quantity, side, slot);
-                    add(format!("contact{number}_{name}_{suffix}"), unit, text, quantity);
+                    add(
+                        format!("contact{number}_{name}_{suffix}"),
+                        unit,
+                        text,
+                        quantity,
+                    );
                 }
             }
-            let text = format!("force of the pocket along the orbit on roller {} in row {}", roller + 1, row + 1);
-            add(format!("pocket{number}_force"), "N", text, Quantity::PocketForce(slot));
+            let text = format!(
+                "force of the pocket along the orbit on roller {} in row {}",
+                roller + 1,
+                row + 1
+            );
+            add(
+                format!("pocket{number}_force"),
+                "N",
+                text,
+                Quantity::PocketForce(slot),
+            );
         }
     }
     for (k, axis) in ["x", "y"].into_iter().enumerate() {
-        let text = format!("acceleration of the outer ring along {axis} after the anti-alias filter");
-        add(format!("measured_a{axis}"), "m/s^2", text, Quantity::Measured(k));
+        let text =
+            format!("acceleration of the outer ring along {axis} after the anti-alias filter");
+        add(
+            format!("measured_a{axis}"),
+            "m/s^2",
+            text,
+            Quantity::Measured(k),
+        );
     }
     channels
 }
@@ -271,9 +339,13 @@ pub fn filterable(model: &Model) -> Vec<Channel> {
 pub fn matches(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
-    let Some(mut rest) = name.strip_prefix(first) else { return false };
+    let Some(mut rest) = name.strip_prefix(first) else {
+        return false;
+    };
     let parts: Vec<&str> = parts.collect();
-    let Some((last, middle)) = parts.split_last() else { return rest.is_empty() };
+    let Some((last, middle)) = parts.split_last() else {
+        return rest.is_empty();
+    };
     for part in middle {
         match rest.find(part) {
             Some(at) => rest = &rest[at + part.len()..],
@@ -286,8 +358,15 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 /// The channels that `record` picks, in the order of [`all`], and the patterns that pick none.
 pub fn select(model: &Model, record: &[String]) -> (Vec<Channel>, Vec<String>) {
     let channels = all(model);
-    let idle = record.iter().filter(|p| !channels.iter().any(|c| matches(p, &c.name))).cloned().collect();
-    let chosen = channels.into_iter().filter(|c| record.iter().any(|p| matches(p, &c.name))).collect();
+    let idle = record
+        .iter()
+        .filter(|p| !channels.iter().any(|c| matches(p, &c.name)))
+        .cloned()
+        .collect();
+    let chosen = channels
+        .into_iter()
+        .filter(|c| record.iter().any(|p| matches(p, &c.name)))
+        .collect();
     (chosen, idle)
 }
 
@@ -298,8 +377,17 @@ mod tests {
     #[test]
     fn analytic_wildcards() {
         assert!(matches("*", "t") && matches("inner_*", "inner_ax") && matches("*_ax", "inner_ax"));
-        assert!(matches("contact1_*_force", "contact1_03_outer_force") && matches("a*b*c", "aXbYc"));
-        assert!(!matches("inner_*", "outer_ax") && !matches("inner_a", "inner_ax") && !matches("a*ba", "aba_"));
-        assert!(!matches("ab*ba", "aba"), "prefix and suffix may not overlap");
+        assert!(
+            matches("contact1_*_force", "contact1_03_outer_force") && matches("a*b*c", "aXbYc")
+        );
+        assert!(
+            !matches("inner_*", "outer_ax")
+                && !matches("inner_a", "inner_ax")
+                && !matches("a*ba", "aba_")
+        );
+        assert!(
+            !matches("ab*ba", "aba"),
+            "prefix and suffix may not overlap"
+        );
     }
 }

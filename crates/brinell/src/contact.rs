@@ -15,7 +15,11 @@ pub fn palmgren_stiffness(length: f64) -> f64 {
 #[inline]
 pub fn remaining_share(length: f64, damaged: f64) -> f64 {
     let share = ((length - damaged) / length).max(0.0);
-    if share == 1.0 { 1.0 } else { share.powf(8.0 / 9.0) }
+    if share == 1.0 {
+        1.0
+    } else {
+        share.powf(8.0 / 9.0)
+    }
 }
 
 /// What damage leaves of a contact at one instant: the share g and the depth h of the floor.
@@ -51,13 +55,18 @@ impl Hertz {
     #[inline]
     pub fn damaged(&self, delta: f64, floor: &Floor) -> f64 {
         let n = self.exponent;
-        self.stiffness * (floor.share * n.of(delta) + (1.0 - floor.share) * n.of(delta - floor.depth))
+        self.stiffness
+            * (floor.share * n.of(delta) + (1.0 - floor.share) * n.of(delta - floor.depth))
     }
 
     /// Force of a closed contact: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N.
     #[inline]
     pub fn with_damping(&self, elastic: f64, ddelta: f64) -> f64 {
-        if elastic > 0.0 { (elastic + self.damping * ddelta).max(0.0) } else { 0.0 }
+        if elastic > 0.0 {
+            (elastic + self.damping * ddelta).max(0.0)
+        } else {
+            0.0
+        }
     }
 
     /// Elastic energy of the healthy contact, J.
@@ -74,7 +83,13 @@ impl Hertz {
 
     /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
     pub fn tangent(&self, delta: f64, floor: Option<&Floor>) -> f64 {
-        let slope = |x: f64| if x > 0.0 { self.exponent.value() * self.healthy(x) / x } else { 0.0 };
+        let slope = |x: f64| {
+            if x > 0.0 {
+                self.exponent.value() * self.healthy(x) / x
+            } else {
+                0.0
+            }
+        };
         match floor {
             None => slope(delta),
             Some(f) => f.share * slope(delta) + (1.0 - f.share) * slope(delta - f.depth),
@@ -91,8 +106,11 @@ impl Hertz {
 mod tests {
     use super::*;
 
-    const NN3007: Hertz =
-        Hertz { stiffness: 1.898e8, exponent: Exponent::TenNinths, damping: 200.0 };
+    const NN3007: Hertz = Hertz {
+        stiffness: 1.898e8,
+        exponent: Exponent::TenNinths,
+        damping: 200.0,
+    };
 
     #[test]
     fn analytic_palmgren_inverts_his_deflection_formula() {
@@ -100,7 +118,10 @@ mod tests {
         let length = 6e-3_f64;
         for force in [1.0, 30.0, 500.0, 2e4] {
             let delta = 3.84e-5 * f64::powf(force, 0.9) / (length * 1e3).powf(0.8) * 1e-3;
-            let law = Hertz { stiffness: palmgren_stiffness(length), ..NN3007 };
+            let law = Hertz {
+                stiffness: palmgren_stiffness(length),
+                ..NN3007
+            };
             assert!((law.healthy(delta) / force - 1.0).abs() < 2e-3);
         }
         assert!((palmgren_stiffness(length) / 8.54e8 - 1.0).abs() < 1e-3);
@@ -115,11 +136,17 @@ mod tests {
 
     #[test]
     fn analytic_energy_is_the_integral_of_the_force() {
-        let floor = Floor { share: 0.4, depth: 3e-6, damaged_length: 4e-3 };
+        let floor = Floor {
+            share: 0.4,
+            depth: 3e-6,
+            damaged_length: 4e-3,
+        };
         let steps = 200_000;
         let top = 1.1e-5;
         let dx = top / f64::from(steps);
-        let work: f64 = (0..steps).map(|i| NN3007.damaged((f64::from(i) + 0.5) * dx, &floor) * dx).sum();
+        let work: f64 = (0..steps)
+            .map(|i| NN3007.damaged((f64::from(i) + 0.5) * dx, &floor) * dx)
+            .sum();
         assert!((NN3007.damaged_energy(top, &floor) / work - 1.0).abs() < 1e-9);
     }
 
@@ -129,14 +156,35 @@ mod tests {
         let shallow = 4e-6;
         // Below the floor: K (L_e/L)^(8/9) delta^n, which is Palmgren's law for the length L_e.
         let damaged = 4e-3;
-        let floor = Floor { share: remaining_share(length, damaged), depth: 20e-6, damaged_length: damaged };
+        let floor = Floor {
+            share: remaining_share(length, damaged),
+            depth: 20e-6,
+            damaged_length: damaged,
+        };
         let ratio = palmgren_stiffness(length - damaged) / palmgren_stiffness(length);
-        assert!((NN3007.damaged(shallow, &floor) / (ratio * NN3007.healthy(shallow)) - 1.0).abs() < 1e-13);
+        assert!(
+            (NN3007.damaged(shallow, &floor) / (ratio * NN3007.healthy(shallow)) - 1.0).abs()
+                < 1e-13
+        );
         // Full width: the displacement law.
-        let full = Floor { share: remaining_share(length, length), depth: 1e-6, damaged_length: length };
-        assert_eq!(NN3007.damaged(shallow, &full), NN3007.healthy(shallow - 1e-6));
+        let full = Floor {
+            share: remaining_share(length, length),
+            depth: 1e-6,
+            damaged_length: length,
+        };
+        assert_eq!(
+            NN3007.damaged(shallow, &full),
+            NN3007.healthy(shallow - 1e-6)
+        );
         // No width: healthy, bit for bit.
-        let none = Floor { share: remaining_share(length, 0.0), depth: 1e-6, damaged_length: 0.0 };
-        assert_eq!(NN3007.damaged(shallow, &none).to_bits(), NN3007.healthy(shallow).to_bits());
+        let none = Floor {
+            share: remaining_share(length, 0.0),
+            depth: 1e-6,
+            damaged_length: 0.0,
+        };
+        assert_eq!(
+            NN3007.damaged(shallow, &none).to_bits(),
+            NN3007.healthy(shallow).to_bits()
+        );
     }
 }

@@ -20,7 +20,9 @@ impl Rotation {
         let mut knots: Vec<[f64; 3]> = Vec::with_capacity(points.len());
         for [t, rpm] in points {
             let w = rad(rpm);
-            let angle = knots.last().map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
+            let angle = knots
+                .last()
+                .map_or(w * t, |&[t0, w0, a0]| a0 + 0.5 * (w0 + w) * (t - t0));
             knots.push([t, w, angle]);
         }
         let mut rotation = Self { knots };
@@ -76,7 +78,11 @@ impl Load {
     /// Share of the load at t.
     #[inline]
     pub fn share(&self, t: f64) -> f64 {
-        if self.ramp > 0.0 { (t / self.ramp).clamp(0.0, 1.0) } else { 1.0 }
+        if self.ramp > 0.0 {
+            (t / self.ramp).clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
     }
 
     /// Forces on the inner and on the outer ring for a share of the load, N.
@@ -97,13 +103,18 @@ mod tests {
 
     #[test]
     fn analytic_angle_is_the_integral_of_the_speed() {
-        let r = Rotation::new(&Speed::Profile(vec![[0.1, 0.0], [0.3, 3000.0], [0.4, 1500.0]]));
+        let r = Rotation::new(&Speed::Profile(vec![
+            [0.1, 0.0],
+            [0.3, 3000.0],
+            [0.4, 1500.0],
+        ]));
         assert_eq!(r.at(0.05), (0.0, 0.0));
         let (w, angle) = r.at(0.2);
         assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - 0.5 * 0.1 * 50.0 * PI).abs() < 1e-12);
         let (w, angle) = r.at(0.5);
         let exact = 0.5 * 0.2 * 100.0 * PI + 0.1 * 75.0 * PI + 0.1 * 50.0 * PI;
         assert!((w - 50.0 * PI).abs() < 1e-12 && (angle - exact).abs() < 1e-12);
-        assert_eq!(Rotation::new(&Speed::Constant(60.0)).at(2.0), (2.0 * PI, 4.0 * PI));
+        let (w, angle) = Rotation::new(&Speed::Constant(60.0)).at(2.0);
+        assert!((w - 2.0 * PI).abs() < 1e-14 && (angle - 4.0 * PI).abs() < 1e-13);
     }
 }

@@ -36,7 +36,9 @@ pub enum RunError {
         contact: String,
     },
     /// No step is short enough for the tolerance.
-    #[error("no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}")]
+    #[error(
+        "no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}"
+    )]
     StepVanished {
         /// Time of the last good state, s.
         t: f64,
@@ -107,7 +109,12 @@ impl EnergyAudit {
     /// Everything that moved, as a scale for the residual.
     pub fn turnover(&self) -> f64 {
         let f = &self.flows;
-        f.load.abs() + f.drive.abs() + f.film.abs() + f.lever.abs() + f.dissipated() + self.parametric.abs()
+        f.load.abs()
+            + f.drive.abs()
+            + f.film.abs()
+            + f.lever.abs()
+            + f.dissipated()
+            + self.parametric.abs()
     }
 }
 
@@ -162,9 +169,12 @@ impl Simulation {
         let initial = start::state(&model)?;
         let (channels, idle_patterns) = channel::select(&model, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
-        let (measured, others): (Vec<_>, Vec<_>) =
-            channel::filterable(&model).into_iter().partition(|c| c.name.starts_with("outer_a"));
-        let others = others.into_iter().filter(|c| channels.iter().any(|r| r.name == c.name));
+        let (measured, others): (Vec<_>, Vec<_>) = channel::filterable(&model)
+            .into_iter()
+            .partition(|c| c.name.starts_with("outer_a"));
+        let others = others
+            .into_iter()
+            .filter(|c| channels.iter().any(|r| r.name == c.name));
         let filtered = measured.into_iter().chain(others).collect();
         Ok(Self {
             channels,
@@ -172,7 +182,8 @@ impl Simulation {
             idle_patterns,
             initial,
             sample_rate,
-            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64 + 1,
+            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64
+                + 1,
             accuracy: scenario.simulation.accuracy,
             model,
         })
@@ -225,7 +236,8 @@ pub fn tolerance(model: &Model, accuracy: Accuracy) -> f64 {
     let m = &model.inertia;
     let rollers = model.layout.rollers() as f64;
     let load = model.load.full[0].hypot(model.load.full[1]);
-    let weight = model.gravity[0].hypot(model.gravity[1]) * (m.inner_ring + m.outer_ring + rollers * m.roller);
+    let weight = model.gravity[0].hypot(model.gravity[1])
+        * (m.inner_ring + m.outer_ring + rollers * m.roller);
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed());
     let centrifugal = rollers * m.roller * model.geometry.pitch_radius * orbit * orbit;
     let force = load.max(weight).max(centrifugal);
@@ -305,9 +317,13 @@ impl<'a> Run<'a> {
         let decimator = Decimator::new(simulation.filtered.len());
         let width = simulation.channels.len();
         let depth = decimator.half_length() / FACTOR + 2;
-        let n = motion.len();
+        let n = motion.size();
         Self {
-            pending: Pending { width, rows: vec![0.0; depth * width], depth },
+            pending: Pending {
+                width,
+                rows: vec![0.0; depth * width],
+                depth,
+            },
             simulation,
             observer,
             stepper,
@@ -316,8 +332,16 @@ impl<'a> Run<'a> {
             next: 0,
             rows: 0,
             work: SolverWork::default(),
-            energy: EnergyAudit { initial, last: initial, ..EnergyAudit::default() },
-            imbalance: if model.outer_ring_is_fixed() { None } else { Some(0.0) },
+            energy: EnergyAudit {
+                initial,
+                last: initial,
+                ..EnergyAudit::default()
+            },
+            imbalance: if model.outer_ring_is_fixed() {
+                None
+            } else {
+                Some(0.0)
+            },
             contact_states: [contact_state.clone(), contact_state],
             switches,
             y: vec![0.0; n],
@@ -379,7 +403,13 @@ impl<'a> Run<'a> {
         self.energy.parametric += parametric_work(model, before, after);
         self.contact_states.swap(0, 1);
         self.switches.count(&self.motion.ws, &mut self.work);
-        self.observer.step(&Frame { model, t, y, dy: self.stepper.slope(), ws: &self.motion.ws });
+        self.observer.step(&Frame {
+            model,
+            t,
+            y,
+            dy: self.stepper.slope(),
+            ws: &self.motion.ws,
+        });
     }
 
     /// One instant of the fast grid.
@@ -388,16 +418,23 @@ impl<'a> Run<'a> {
         self.stepper.interpolate(t, &mut self.y);
         self.motion.derivative(t, &self.y, &mut self.dy);
         self.work.sample_evaluations += 1;
-        let frame = Frame { model, t, y: &self.y, dy: &self.dy, ws: &self.motion.ws };
+        let frame = Frame {
+            model,
+            t,
+            y: &self.y,
+            dy: &self.dy,
+            ws: &self.motion.ws,
+        };
         if self.next.is_multiple_of(FACTOR as u64) {
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
             for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
                 *value = channel.value(&frame);
             }
-            if let (Some(worst), Some(now)) =
-                (&mut self.imbalance, imbalance(model, t, &self.y, &self.dy, &self.motion.ws))
-            {
+            if let (Some(worst), Some(now)) = (
+                &mut self.imbalance,
+                imbalance(model, t, &self.y, &self.dy, &self.motion.ws),
+            ) {
                 *worst = worst.max(now);
             }
             if index < self.simulation.samples {
@@ -426,12 +463,16 @@ impl<'a> Run<'a> {
         let l = &self.simulation.model.layout;
         let contact = suspect(l, &self.motion.ws);
         match error {
-            StepError::NonFinite { t, index } => {
-                RunError::NonFinite { t, body: l.name(index % l.dof()), contact }
-            }
-            StepError::Vanished { t, index } => {
-                RunError::StepVanished { t, body: l.name(index % l.dof()), contact }
-            }
+            StepError::NonFinite { t, index } => RunError::NonFinite {
+                t,
+                body: l.name(index % l.dof()),
+                contact,
+            },
+            StepError::Vanished { t, index } => RunError::StepVanished {
+                t,
+                body: l.name(index % l.dof()),
+                contact,
+            },
         }
     }
 }
@@ -443,11 +484,18 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
         let c = &ws.contacts[side as usize];
         for slot in 0..layout.rollers() {
             let force = c.force[slot];
-            let size = if force.is_finite() { force } else { f64::INFINITY };
+            let size = if force.is_finite() {
+                force
+            } else {
+                f64::INFINITY
+            };
             if size > worst.0.max(0.0) {
                 let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
                 let side = format!("{side:?}").to_lowercase();
-                worst = (size, format!("{side} contact of roller {roller} in row {row} carries {force:e} N"));
+                worst = (
+                    size,
+                    format!("{side} contact of roller {roller} in row {row} carries {force:e} N"),
+                );
             }
         }
     }
@@ -464,7 +512,11 @@ struct Switches {
 impl Switches {
     fn new(layout: &Layout) -> Self {
         let flags = || [vec![false; layout.slots], vec![false; layout.slots]];
-        Self { closed: flags(), on_damage: flags(), pocket: vec![0; layout.slots] }
+        Self {
+            closed: flags(),
+            on_damage: flags(),
+            pocket: vec![0; layout.slots],
+        }
     }
 
     fn store(&mut self, ws: &Workspace) {
@@ -482,7 +534,11 @@ impl Switches {
             }
         }
         for (slot, force) in ws.pocket_force.iter().enumerate() {
-            let state = if *force > 0.0 { 1 } else { -i8::from(*force < 0.0) };
+            let state = if *force > 0.0 {
+                1
+            } else {
+                -i8::from(*force < 0.0)
+            };
             work.pocket_switches += u64::from(state != self.pocket[slot]);
             self.pocket[slot] = state;
         }

@@ -99,12 +99,22 @@ const MAX_ITERATIONS: usize = 200;
 /// Where the rings are not held against the load.
 pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     let mut x: Offsets = [0.0; 4];
-    let free = [!problem.fix_inner, !problem.fix_inner, !problem.fix_outer, !problem.fix_outer];
+    let free = [
+        !problem.fix_inner,
+        !problem.fix_inner,
+        !problem.fix_outer,
+        !problem.fix_outer,
+    ];
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let mut trial_rollers = rollers.clone();
     let forces = external(model, problem);
-    let weight = rollers.len() as f64 * model.inertia.roller * centrifugal(model, problem.speed).abs();
-    let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs())).max(weight).max(1e-9);
+    let weight =
+        rollers.len() as f64 * model.inertia.roller * centrifugal(model, problem.speed).abs();
+    let scale = forces
+        .iter()
+        .fold(0.0_f64, |m, f| m.max(f.abs()))
+        .max(weight)
+        .max(1e-9);
     // The series stiffness at a deflection of a micrometre: any value of this order starts the damping.
     let mut damping = 1e-3 * model.series_contact.tangent(1e-6, None).max(1.0);
     let mut potential = evaluate(model, problem, &forces, &x, &mut rollers);
@@ -122,12 +132,16 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
                 damping *= 10.0;
                 continue;
             };
-            let trial: Offsets = std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
+            let trial: Offsets =
+                std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
             let trial_potential = evaluate(model, problem, &forces, &trial, &mut trial_rollers);
-            let (trial_gradient, _) = derivatives(model, problem, &forces, &trial, &trial_rollers, &free);
+            let (trial_gradient, _) =
+                derivatives(model, problem, &forces, &trial, &trial_rollers, &free);
             let smaller = trial_gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs())) < residual;
             // Near the solution the potential no longer resolves the progress, but the residual does.
-            if trial_potential < potential || (smaller && trial_potential <= potential + 1e-12 * potential.abs()) {
+            if trial_potential < potential
+                || (smaller && trial_potential <= potential + 1e-12 * potential.abs())
+            {
                 x = trial;
                 potential = trial_potential;
                 std::mem::swap(&mut rollers, &mut trial_rollers);
@@ -141,10 +155,16 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
             if residual <= 1e-7 * scale {
                 return Ok(finish(model, problem, x, &rollers, residual, iterations));
             }
-            return Err(NoBalance { residual, iterations });
+            return Err(NoBalance {
+                residual,
+                iterations,
+            });
         }
     }
-    Err(NoBalance { residual: f64::NAN, iterations: MAX_ITERATIONS })
+    Err(NoBalance {
+        residual: f64::NAN,
+        iterations: MAX_ITERATIONS,
+    })
 }
 
 /// Centripetal acceleration of a roller in pure rolling, m/s^2.
@@ -165,10 +185,21 @@ fn external(model: &Model, problem: &Problem) -> Offsets {
 }
 
 /// Potential energy at ring offsets `x`; fills `rollers`.
-fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rollers: &mut [Roller]) -> f64 {
-    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+fn evaluate(
+    model: &Model,
+    problem: &Problem,
+    forces: &Offsets,
+    x: &Offsets,
+    rollers: &mut [Roller],
+) -> f64 {
+    let (ki, ko) = (
+        model.inner_support.stiffness,
+        model.acting_outer_support().stiffness,
+    );
     let k = [ki, ki, ko, ko];
-    let mut potential: f64 = (0..4).map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i]).sum();
+    let mut potential: f64 = (0..4)
+        .map(|i| 0.5 * k[i] * x[i] * x[i] - forces[i] * x[i])
+        .sum();
     for (slot, roller) in rollers.iter_mut().enumerate() {
         *roller = match model.kind {
             ModelKind::Full => between_raceways(model, problem, slot, x),
@@ -180,7 +211,11 @@ fn evaluate(model: &Model, problem: &Problem, forces: &Offsets, x: &Offsets, rol
 }
 
 fn angles(problem: &Problem, slot: usize) -> Angles {
-    Angles { orbit: problem.orbit[slot], spin: problem.spin[slot], ring: problem.ring_angle }
+    Angles {
+        orbit: problem.orbit[slot],
+        spin: problem.spin[slot],
+        ring: problem.ring_angle,
+    }
 }
 
 fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
@@ -188,7 +223,13 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     let g = &model.geometry;
     let delta = cos * (x[0] - x[2]) + sin * (x[1] - x[3]) - g.clearance - g.outer_gap;
     let (force, tangent, energy) = lumped::elastic_at(model, slot, &angles(problem, slot), delta);
-    Roller { r: 0.0, inner: force, outer: force, tangent, energy }
+    Roller {
+        r: 0.0,
+        inner: force,
+        outer: force,
+        tangent,
+        energy,
+    }
 }
 
 /// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance, by bisection with Newton steps.
@@ -234,7 +275,11 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
                 high = r;
             }
             let newton = if slope > 0.0 { r + f / slope } else { f64::NAN };
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
             if (next - r).abs() <= 1e-22 + 4.0 * f64::EPSILON * r.abs() || high - low <= 1e-22 {
                 r = next;
                 break;
@@ -244,12 +289,24 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     }
     let (q_in, k_in) = contact(Side::Inner, inner_at - r);
     let (q_out, k_out) = contact(Side::Outer, r - outer_at);
-    let stored = |side, delta| energy(model.defects_of(slot, side), model.contact(side), &angles, side, delta);
+    let stored = |side, delta| {
+        energy(
+            model.defects_of(slot, side),
+            model.contact(side),
+            &angles,
+            side,
+            delta,
+        )
+    };
     Roller {
         r,
         inner: q_in,
         outer: q_out,
-        tangent: if k_in + k_out > 0.0 { k_in * k_out / (k_in + k_out) } else { 0.0 },
+        tangent: if k_in + k_out > 0.0 {
+            k_in * k_out / (k_in + k_out)
+        } else {
+            0.0
+        },
         energy: stored(Side::Inner, inner_at - r) + stored(Side::Outer, r - outer_at) - own * r,
     }
 }
@@ -263,7 +320,10 @@ fn derivatives(
     rollers: &[Roller],
     free: &[bool; 4],
 ) -> (Offsets, [[f64; 4]; 4]) {
-    let (ki, ko) = (model.inner_support.stiffness, model.acting_outer_support().stiffness);
+    let (ki, ko) = (
+        model.inner_support.stiffness,
+        model.acting_outer_support().stiffness,
+    );
     let k = [ki, ki, ko, ko];
     let mut gradient: Offsets = std::array::from_fn(|i| k[i] * x[i] - forces[i]);
     let mut hessian = [[0.0; 4]; 4];
@@ -289,7 +349,14 @@ fn derivatives(
     (gradient, hessian)
 }
 
-fn finish(model: &Model, problem: &Problem, x: Offsets, rollers: &[Roller], residual: f64, iterations: usize) -> Balance {
+fn finish(
+    model: &Model,
+    problem: &Problem,
+    x: Offsets,
+    rollers: &[Roller],
+    residual: f64,
+    iterations: usize,
+) -> Balance {
     let slots = model.layout.slots;
     let gather = |f: fn(&Roller) -> f64| {
         let mut values = vec![0.0; slots];
@@ -321,7 +388,8 @@ fn finish(model: &Model, problem: &Problem, x: Offsets, rollers: &[Roller], resi
 /// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
 fn solve4(mut a: [[f64; 4]; 4], mut b: Offsets) -> Option<Offsets> {
     for column in 0..4 {
-        let pivot = (column..4).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
+        let pivot =
+            (column..4).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
         if a[pivot][column] == 0.0 || !a[pivot][column].is_finite() {
             return None;
         }

@@ -1,9 +1,10 @@
 //! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
 
+use crate::document::{Loaded, Provenance};
 use crate::model::Model;
 use crate::observe::load_zone::{BINS, StaticLoadZone};
 use crate::observe::{Findings, passes};
-use crate::scenario::{Accuracy, Loaded, ModelKind, Provenance, Speed};
+use crate::scenario::{Accuracy, ModelKind, Speed};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use crate::statics::NoBalance;
@@ -27,7 +28,13 @@ pub struct Parts<'a> {
 
 /// The summary as JSON; the same run gives the same bytes.
 pub fn to_json(parts: &Parts) -> Value {
-    let Parts { loaded, simulation, outcome, findings, .. } = *parts;
+    let Parts {
+        loaded,
+        simulation,
+        outcome,
+        findings,
+        ..
+    } = *parts;
     let scenario = &loaded.scenario;
     let model = simulation.model();
     json!({
@@ -67,9 +74,16 @@ pub fn status(end: &End) -> Value {
 
 /// What the run's reader should know, warnings of the scenario first.
 pub fn warnings(parts: &Parts) -> Vec<String> {
-    let mut all: Vec<String> = parts.loaded.warnings.iter().map(ToString::to_string).collect();
+    let mut all: Vec<String> = parts
+        .loaded
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     for pattern in parts.simulation.idle_patterns() {
-        all.push(format!("simulation.record: \"{pattern}\" matches no channel of this bearing"));
+        all.push(format!(
+            "simulation.record: \"{pattern}\" matches no channel of this bearing"
+        ));
     }
     if let Err(error) = parts.statics {
         all.push(error.to_string());
@@ -137,7 +151,9 @@ fn indicators(findings: &Findings) -> Value {
             .into_iter()
             .filter_map(|i| Some((i.name().to_owned(), estimate(&channel.blocks.estimate(i)?))))
             .collect();
-        let entry = channels.entry(channel.name.clone()).or_insert_with(|| json!({ "unit": channel.unit }));
+        let entry = channels
+            .entry(channel.name.clone())
+            .or_insert_with(|| json!({ "unit": channel.unit }));
         entry[channel.kind.name()] = values.into();
     }
     json!({
@@ -162,8 +178,15 @@ fn slip(findings: &Findings) -> Value {
 }
 
 fn load_zone(parts: &Parts) -> Value {
-    let rows = parts.findings.load_zone.rows.iter().map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
-    let centers: Vec<f64> = (0..BINS).map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64).collect();
+    let rows = parts
+        .findings
+        .load_zone
+        .rows
+        .iter()
+        .map(|row| json!({ "mean_n": row.mean(), "max_n": row.max }));
+    let centers: Vec<f64> = (0..BINS)
+        .map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64)
+        .collect();
     let statics = parts.statics.as_ref().ok().map(|z| {
         json!({
             "largest_contact_force_n": z.largest,

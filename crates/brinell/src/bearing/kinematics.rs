@@ -5,6 +5,7 @@
 //! in NN3007, these are the textbook's `(1 - d/D_m)` formulas. Angles are counter-clockwise positive; lengths in m,
 //! speeds in rad/s, frequencies in Hz.
 
+use crate::scenario::{Bearing, Surface};
 use std::f64::consts::TAU;
 
 /// What the speeds depend on.
@@ -20,6 +21,19 @@ pub struct Geometry {
     pub roller_diameter: f64,
     /// Z.
     pub rollers_per_row: usize,
+}
+
+impl Geometry {
+    /// Of a scenario's bearing.
+    pub fn of(bearing: &Bearing) -> Self {
+        Self {
+            inner_raceway_diameter: 1e-3 * bearing.inner_raceway_diameter_mm,
+            outer_raceway_diameter: 1e-3 * bearing.outer_raceway_diameter_mm,
+            pitch_diameter: 1e-3 * bearing.pitch_diameter_mm,
+            roller_diameter: 1e-3 * bearing.roller_diameter_mm,
+            rollers_per_row: bearing.rollers_per_row,
+        }
+    }
 }
 
 /// Speeds (signed) and defect frequencies (never negative) in pure rolling.
@@ -64,6 +78,15 @@ impl Kinematics {
             spin_speed,
             outer_contact_speed: outer_radius * orbit_speed,
             inner_contact_speed: inner_radius * (orbit_speed - shaft_speed),
+        }
+    }
+
+    /// Name and value (Hz) of the frequency at which damage on a surface strikes.
+    pub fn struck_by(&self, surface: Surface) -> (&'static str, f64) {
+        match surface {
+            Surface::OuterRaceway => ("BPFO", self.bpfo),
+            Surface::InnerRaceway => ("BPFI", self.bpfi),
+            Surface::Roller(_) => ("2 BSF", 2.0 * self.bsf),
         }
     }
 }

@@ -62,7 +62,10 @@ impl Defect {
         let (surface, diameter) = match defect.on {
             Surface::OuterRaceway => (defect.on, bearing.outer_raceway_diameter_mm),
             Surface::InnerRaceway => (defect.on, bearing.inner_raceway_diameter_mm),
-            Surface::Roller(k) => (Surface::Roller(k.checked_sub(1)?), bearing.roller_diameter_mm),
+            Surface::Roller(k) => (
+                Surface::Roller(k.checked_sub(1)?),
+                bearing.roller_diameter_mm,
+            ),
         };
         Some(Self {
             surface,
@@ -127,7 +130,11 @@ pub fn acting<'a>(
         .map(|floor| (law.damaged(delta, &floor), floor))
         .reduce(|a, b| {
             // With no force on either (a gap, or both floors below), the shorter remaining length stands for the contact.
-            if b.0 < a.0 || (b.0 == a.0 && b.1.share < a.1.share) { b } else { a }
+            if b.0 < a.0 || (b.0 == a.0 && b.1.share < a.1.share) {
+                b
+            } else {
+                a
+            }
         })
 }
 
@@ -151,8 +158,14 @@ pub fn energy<'a>(
             // Overlapping damage: the acting defect may change on the way, so the work is integrated (midpoint rule).
             const CELLS: u32 = 64;
             let dx = delta / f64::from(CELLS);
-            let force = |x: f64| all.clone().map(|f| law.damaged(x, &f)).fold(f64::INFINITY, f64::min);
-            (0..CELLS).map(|k| force((f64::from(k) + 0.5) * dx) * dx).sum()
+            let force = |x: f64| {
+                all.clone()
+                    .map(|f| law.damaged(x, &f))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            (0..CELLS)
+                .map(|k| force((f64::from(k) + 0.5) * dx) * dx)
+                .sum()
         }
     }
 }

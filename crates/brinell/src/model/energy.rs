@@ -102,9 +102,10 @@ impl Energy {
         let mut e = Self::default();
         let square = |u: &[f64]| u[0] * u[0] + u[1] * u[1];
         let along = |u: &[f64]| model.gravity[0] * u[0] + model.gravity[1] * u[1];
-        for (at, mass, support) in
-            [(l.inner(), m.inner_ring, model.inner_support), (l.outer(), m.outer_ring, model.acting_outer_support())]
-        {
+        for (at, mass, support) in [
+            (l.inner(), m.inner_ring, model.inner_support),
+            (l.outer(), m.outer_ring, model.acting_outer_support()),
+        ] {
             e.kinetic += 0.5 * mass * square(&v[at..]);
             e.supports += 0.5 * support.stiffness * square(&q[at..]);
             e.gravity -= mass * along(&q[at..]);
@@ -115,19 +116,27 @@ impl Energy {
             ring: model.rotation.at(t).1,
         };
         if model.kind == ModelKind::Reference {
-            e.contacts = (0..l.rollers()).map(|slot| super::lumped::contact_energy(model, t, slot, ws)).sum();
+            e.contacts = (0..l.rollers())
+                .map(|slot| super::lumped::contact_energy(model, t, slot, ws))
+                .sum();
             return e;
         }
         let g = &model.geometry;
         for slot in 0..l.rollers() {
             let arm = g.pitch_radius + q[l.r() + slot];
             let (dr, dtheta, dphi) = (v[l.r() + slot], v[l.theta() + slot], v[l.phi() + slot]);
-            e.kinetic += 0.5 * m.roller * (dr * dr + (arm * dtheta).powi(2)) + 0.5 * m.roller_spin * dphi * dphi;
+            e.kinetic += 0.5 * m.roller * (dr * dr + (arm * dtheta).powi(2))
+                + 0.5 * m.roller_spin * dphi * dphi;
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
                 let delta = ws.contacts[side as usize].approach[slot];
-                e.contacts +=
-                    energy(model.defects_of(slot, side), model.contact(side), &angles(slot), side, delta);
+                e.contacts += energy(
+                    model.defects_of(slot, side),
+                    model.contact(side),
+                    &angles(slot),
+                    side,
+                    delta,
+                );
             }
             let xc = &q[l.cage(l.row(slot))..];
             let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot])
@@ -137,7 +146,8 @@ impl Energy {
         }
         for row in 0..l.rows {
             let at = l.cage(row);
-            e.kinetic += 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
+            e.kinetic +=
+                0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
             let ring = match model.guidance {
                 Guidance::OuterRing => l.outer(),
@@ -145,7 +155,8 @@ impl Energy {
                 Guidance::Rollers => continue,
             };
             let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-            e.cage += 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
+            e.cage +=
+                0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
         }
         e
     }
@@ -189,7 +200,11 @@ impl ContactState {
     }
 
     fn angles(&self, slot: usize) -> Angles {
-        Angles { orbit: self.angles[slot][0], spin: self.angles[slot][1], ring: self.ring }
+        Angles {
+            orbit: self.angles[slot][0],
+            spin: self.angles[slot][1],
+            ring: self.ring,
+        }
     }
 }
 
@@ -207,12 +222,19 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
             let change = |delta: f64| match model.kind {
                 ModelKind::Full => {
                     let held = |angles: &Angles| {
-                        energy(model.defects_of(slot, side), model.contact(side), angles, side, delta)
+                        energy(
+                            model.defects_of(slot, side),
+                            model.contact(side),
+                            angles,
+                            side,
+                            delta,
+                        )
                     };
                     held(&to) - held(&from)
                 }
                 ModelKind::Reference => {
-                    let held = |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
+                    let held =
+                        |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
                     held(&to) - held(&from)
                 }
             };

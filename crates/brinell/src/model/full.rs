@@ -74,7 +74,8 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
         let radial = q_in - q_out + rub;
         let tangential = f_in + f_out + push - drag;
         a[l.r() + slot] = radial / m.roller + along_r(&model.gravity) + arm * dtheta * dtheta;
-        a[l.theta() + slot] = (tangential / m.roller + along_t(&model.gravity) - 2.0 * dr * dtheta) / arm;
+        a[l.theta() + slot] =
+            (tangential / m.roller + along_t(&model.gravity) - 2.0 * dr * dtheta) / arm;
         a[l.phi() + slot] = g.roller_radius * (f_out - f_in - sigma * rub) / m.roller_spin;
 
         // Reactions.
@@ -89,7 +90,8 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
         // Flows of energy: see `energy`.
         let rate_in = along_r(vi) + dtheta * along_t(xi) - dr;
         let rate_out = dr - along_r(vo) - dtheta * along_t(xo);
-        power.contact += (q_in - inner.elastic[slot]) * rate_in + (q_out - outer.elastic[slot]) * rate_out;
+        power.contact +=
+            (q_in - inner.elastic[slot]) * rate_in + (q_out - outer.elastic[slot]) * rate_out;
         power.friction += f_in * s_in + f_out * s_out;
         power.drive += f_in * w * g.inner_radius;
         power.pocket += push * ds - model.pocket.stiffness * model.pocket.penetration(s) * ds;
@@ -124,8 +126,20 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
 
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
-        (l.inner(), m.inner_ring, model.inner_support, on_inner, load_in),
-        (l.outer(), m.outer_ring, model.outer_support, on_outer, load_out),
+        (
+            l.inner(),
+            m.inner_ring,
+            model.inner_support,
+            on_inner,
+            load_in,
+        ),
+        (
+            l.outer(),
+            m.outer_ring,
+            model.outer_support,
+            on_outer,
+            load_out,
+        ),
     ];
     for (at, mass, support, reaction, load) in rings {
         for k in 0..2 {
@@ -168,10 +182,18 @@ fn normal_contacts(model: &Model, q: &[f64], v: &[f64], ring_angle: f64, ws: &mu
             let mut damaged_length = 0.0;
             let mut on_damage = false;
             if !model.defects.is_empty() {
-                let angles = Angles { orbit: q[l.theta() + slot], spin: q[l.phi() + slot], ring: ring_angle };
-                if let Some((force, floor)) =
-                    acting(model.defects_of(slot, side), law, &angles, side, approach.delta)
-                {
+                let angles = Angles {
+                    orbit: q[l.theta() + slot],
+                    spin: q[l.phi() + slot],
+                    ring: ring_angle,
+                };
+                if let Some((force, floor)) = acting(
+                    model.defects_of(slot, side),
+                    law,
+                    &angles,
+                    side,
+                    approach.delta,
+                ) {
                     elastic = force;
                     damaged_length = floor.damaged_length;
                     on_damage = true;

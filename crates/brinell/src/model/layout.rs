@@ -22,7 +22,11 @@ pub struct Layout {
 impl Layout {
     /// For N_r rows of Z rollers.
     pub fn new(rows: usize, rollers_per_row: usize) -> Self {
-        Self { rows, rollers_per_row, slots: (rows * rollers_per_row).next_multiple_of(LANES) }
+        Self {
+            rows,
+            rollers_per_row,
+            slots: (rows * rollers_per_row).next_multiple_of(LANES),
+        }
     }
 
     /// Rollers of all rows: the slots below this number are real.
@@ -86,7 +90,11 @@ impl Layout {
         if index < 3 * self.slots {
             let slot = index % self.slots;
             let coordinate = ["r", "theta", "phi"][index / self.slots];
-            format!("{coordinate} of roller {} in row {}", self.roller(slot) + 1, self.row(slot) + 1)
+            format!(
+                "{coordinate} of roller {} in row {}",
+                self.roller(slot) + 1,
+                self.row(slot) + 1
+            )
         } else if index < self.inner() {
             let k = index - 3 * self.slots;
             format!("{} of cage {}", axis(k % 3), k / 3 + 1)
@@ -105,7 +113,8 @@ mod tests {
     #[test]
     fn prop_every_position_has_its_own_name() {
         let layout = Layout::new(3, 7);
-        let real = (0..layout.dof()).filter(|&k| k >= 3 * layout.slots || k % layout.slots < layout.rollers());
+        let real = (0..layout.dof())
+            .filter(|&k| k >= 3 * layout.slots || k % layout.slots < layout.rollers());
         let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k)).collect();
         assert_eq!(names.len(), 3 * 21 + 3 * 3 + 4);
         assert_eq!(Layout::new(2, 19).slots, 40);

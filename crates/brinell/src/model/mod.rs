@@ -6,15 +6,15 @@
 pub(crate) mod energy;
 mod full;
 mod layout;
+pub(crate) mod lumped;
 mod momentum;
 mod motion;
-pub(crate) mod lumped;
 mod workspace;
 
 pub use energy::{Energy, Power};
+pub use layout::{LANES, Layout};
 pub use momentum::imbalance;
 pub use motion::Motion;
-pub use layout::{LANES, Layout};
 pub use workspace::Workspace;
 
 use crate::bearing::kinematics::{self, Kinematics};
@@ -157,13 +157,21 @@ impl Model {
             cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
         };
         let exponent = Exponent::new(s.contact.exponent);
-        let hertz = |stiffness| Hertz { stiffness, exponent, damping: s.contact.damping_ns_per_m };
+        let hertz = |stiffness| Hertz {
+            stiffness,
+            exponent,
+            damping: s.contact.damping_ns_per_m,
+        };
         let layout = Layout::new(b.rows, b.rollers_per_row);
         let stagger = b.row_stagger_deg.to_radians();
         let pocket_angle = (0..layout.slots)
             .map(|slot| {
                 let (row, roller) = (layout.row(slot) as f64, layout.roller(slot) as f64);
-                if slot < layout.rollers() { TAU * roller / b.rollers_per_row as f64 + row * stagger } else { 0.0 }
+                if slot < layout.rollers() {
+                    TAU * roller / b.rollers_per_row as f64 + row * stagger
+                } else {
+                    0.0
+                }
             })
             .collect();
         let mut defects = Vec::with_capacity(s.defects.len());
@@ -182,7 +190,11 @@ impl Model {
             inner_contact: hertz(s.contact.inner_stiffness),
             outer_contact: hertz(s.contact.outer_stiffness),
             series_contact: Hertz {
-                stiffness: series_stiffness(s.contact.inner_stiffness, s.contact.outer_stiffness, s.contact.exponent),
+                stiffness: series_stiffness(
+                    s.contact.inner_stiffness,
+                    s.contact.outer_stiffness,
+                    s.contact.exponent,
+                ),
                 exponent,
                 damping: 0.5 * s.contact.damping_ns_per_m,
             },
@@ -206,7 +218,11 @@ impl Model {
                 viscosity: s.lubricant.viscosity_pa_s,
                 clearance: 1e-3 * c.guide_clearance_mm,
                 width: 1e-3 * c.guide_width_mm,
-                radius: if c.guidance == Guidance::InnerRing { cage_inner } else { cage_outer },
+                radius: if c.guidance == Guidance::InnerRing {
+                    cage_inner
+                } else {
+                    cage_outer
+                },
                 land_stiffness: c.contact_stiffness_n_per_m,
             },
             inner_support: Support {
@@ -221,7 +237,11 @@ impl Model {
             load: Load {
                 full: s.operation.load_n,
                 on: s.operation.load_on,
-                ramp: if s.simulation.start == Start::Equilibrium { 0.0 } else { s.operation.load_ramp_s },
+                ramp: if s.simulation.start == Start::Equilibrium {
+                    0.0
+                } else {
+                    s.operation.load_ramp_s
+                },
             },
             gravity: s.operation.gravity_m_per_s2,
             pocket_angle,
@@ -243,7 +263,9 @@ impl Model {
     #[inline]
     pub fn defects_of(&self, slot: usize, side: Side) -> impl Iterator<Item = &Defect> + Clone {
         let (row, roller) = (self.layout.row(slot), self.layout.roller(slot));
-        self.defects.iter().filter(move |d| d.meets(row, roller, side))
+        self.defects
+            .iter()
+            .filter(move |d| d.meets(row, roller, side))
     }
 
     /// Pure-rolling orbit speed at the inner ring's speed w_i, rad/s.
@@ -281,7 +303,10 @@ impl Model {
     pub fn acting_outer_support(&self) -> Support {
         match self.kind {
             ModelKind::Full => self.outer_support,
-            ModelKind::Reference => Support { stiffness: 0.0, damping: 0.0 },
+            ModelKind::Reference => Support {
+                stiffness: 0.0,
+                damping: 0.0,
+            },
         }
     }
 
@@ -303,7 +328,11 @@ impl Model {
             }
         }
         mass[l.inner()..l.inner() + 2].fill(m.inner_ring);
-        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() { 0.0 } else { m.outer_ring });
+        mass[l.outer()..l.outer() + 2].fill(if self.outer_ring_is_fixed() {
+            0.0
+        } else {
+            m.outer_ring
+        });
         mass
     }
 
@@ -328,8 +357,14 @@ pub fn series_stiffness(inner: f64, outer: f64, n: f64) -> f64 {
 /// Refuses what would divide by zero or index out of range.
 fn check(s: &Scenario) -> Result<(), ModelError> {
     let positive = [
-        ("bearing.inner_raceway_diameter_mm", s.bearing.inner_raceway_diameter_mm),
-        ("bearing.outer_raceway_diameter_mm", s.bearing.outer_raceway_diameter_mm),
+        (
+            "bearing.inner_raceway_diameter_mm",
+            s.bearing.inner_raceway_diameter_mm,
+        ),
+        (
+            "bearing.outer_raceway_diameter_mm",
+            s.bearing.outer_raceway_diameter_mm,
+        ),
         ("bearing.pitch_diameter_mm", s.bearing.pitch_diameter_mm),
         ("bearing.roller_diameter_mm", s.bearing.roller_diameter_mm),
         ("bearing.roller_length_mm", s.bearing.roller_length_mm),
@@ -343,16 +378,26 @@ fn check(s: &Scenario) -> Result<(), ModelError> {
         ("contact.exponent", s.contact.exponent),
         ("contact.inner_stiffness", s.contact.inner_stiffness),
         ("contact.outer_stiffness", s.contact.outer_stiffness),
-        ("friction.slip_velocity_m_per_s", s.friction.slip_velocity_m_per_s),
+        (
+            "friction.slip_velocity_m_per_s",
+            s.friction.slip_velocity_m_per_s,
+        ),
         ("simulation.duration_s", s.simulation.duration_s),
         ("simulation.sample_rate_hz", s.simulation.sample_rate_hz),
     ];
     for (key, value) in positive {
         if !(value.is_finite() && value > 0.0) {
-            return Err(ModelError { key: key.into(), value: value.to_string(), requirement: "must be finite and above 0" });
+            return Err(ModelError {
+                key: key.into(),
+                value: value.to_string(),
+                requirement: "must be finite and above 0",
+            });
         }
     }
-    let counts = [("bearing.rollers_per_row", s.bearing.rollers_per_row, 3), ("bearing.rows", s.bearing.rows, 1)];
+    let counts = [
+        ("bearing.rollers_per_row", s.bearing.rollers_per_row, 3),
+        ("bearing.rows", s.bearing.rows, 1),
+    ];
     for (key, value, least) in counts {
         if value < least {
             return Err(ModelError {
@@ -364,7 +409,9 @@ fn check(s: &Scenario) -> Result<(), ModelError> {
     }
     for (k, defect) in s.defects.iter().enumerate() {
         let roller_fits = match defect.on {
-            crate::scenario::Surface::Roller(roller) => (1..=s.bearing.rollers_per_row).contains(&roller),
+            crate::scenario::Surface::Roller(roller) => {
+                (1..=s.bearing.rollers_per_row).contains(&roller)
+            }
             _ => true,
         };
         if !(1..=s.bearing.rows).contains(&defect.row) || !roller_fits {

@@ -24,10 +24,18 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], dy: &[f64], ws: &Workspace) -
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
         (l.inner(), m.inner_ring, model.inner_support, load_in),
-        (l.outer(), m.outer_ring, model.acting_outer_support(), load_out),
+        (
+            l.outer(),
+            m.outer_ring,
+            model.acting_outer_support(),
+            load_out,
+        ),
     ];
     for (at, mass, support, load) in rings {
-        add([mass * (a[at] - model.gravity[0]), mass * (a[at + 1] - model.gravity[1])]);
+        add([
+            mass * (a[at] - model.gravity[0]),
+            mass * (a[at + 1] - model.gravity[1]),
+        ]);
         add([support.stiffness * q[at], support.stiffness * q[at + 1]]);
         add([support.damping * v[at], support.damping * v[at + 1]]);
         add([-load[0], -load[1]]);
@@ -50,9 +58,16 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], dy: &[f64], ws: &Workspace) -
         }
         for row in 0..l.rows {
             let at = l.cage(row);
-            add([m.cage * (a[at] - model.gravity[0]), m.cage * (a[at + 1] - model.gravity[1])]);
+            add([
+                m.cage * (a[at] - model.gravity[0]),
+                m.cage * (a[at + 1] - model.gravity[1]),
+            ]);
         }
     }
     scale += ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
-    Some(if scale > 0.0 { (left[0].abs() + left[1].abs()) / scale } else { 0.0 })
+    Some(if scale > 0.0 {
+        (left[0].abs() + left[1].abs()) / scale
+    } else {
+        0.0
+    })
 }

@@ -15,14 +15,17 @@ pub struct Motion<'a> {
 impl<'a> Motion<'a> {
     /// With a fresh workspace.
     pub fn new(model: &'a Model) -> Self {
-        Self { model, ws: Workspace::new(&model.layout) }
+        Self {
+            model,
+            ws: Workspace::new(&model.layout),
+        }
     }
 }
 
 impl System for Motion<'_> {
     type Flow = Power;
 
-    fn len(&self) -> usize {
+    fn size(&self) -> usize {
         2 * self.model.layout.dof()
     }
 

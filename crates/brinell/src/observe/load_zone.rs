@@ -23,12 +23,20 @@ pub struct RowLoad {
 
 impl RowLoad {
     fn new() -> Self {
-        Self { sum: vec![0.0; BINS], max: vec![0.0; BINS], count: vec![0; BINS] }
+        Self {
+            sum: vec![0.0; BINS],
+            max: vec![0.0; BINS],
+            count: vec![0; BINS],
+        }
     }
 
     /// Mean force in each bin, N; 0 where no roller came by.
     pub fn mean(&self) -> Vec<f64> {
-        self.sum.iter().zip(&self.count).map(|(s, &n)| if n > 0 { s / n as f64 } else { 0.0 }).collect()
+        self.sum
+            .iter()
+            .zip(&self.count)
+            .map(|(s, &n)| if n > 0 { s / n as f64 } else { 0.0 })
+            .collect()
     }
 }
 
@@ -42,7 +50,9 @@ pub struct LoadZone {
 impl LoadZone {
     /// Empty.
     pub fn new(layout: &Layout) -> Self {
-        Self { rows: vec![RowLoad::new(); layout.rows] }
+        Self {
+            rows: vec![RowLoad::new(); layout.rows],
+        }
     }
 
     /// Takes one instant.
@@ -99,11 +109,20 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
     };
     for phase in 0..PHASES {
         let turn = pitch * phase as f64 / PHASES as f64;
-        problem.orbit.iter_mut().zip(&model.pocket_angle).for_each(|(o, a)| *o = a + turn);
+        problem
+            .orbit
+            .iter_mut()
+            .zip(&model.pocket_angle)
+            .for_each(|(o, a)| *o = a + turn);
         let balance = statics::solve(model, &problem)?;
         for slot in 0..l.rollers() {
             let force = balance.outer_force[slot];
-            zone.points.push((l.row(slot), wrap(problem.orbit[slot]), balance.inner_force[slot], force));
+            zone.points.push((
+                l.row(slot),
+                wrap(problem.orbit[slot]),
+                balance.inner_force[slot],
+                force,
+            ));
             zone.largest = zone.largest.max(force);
         }
         for k in 0..2 {

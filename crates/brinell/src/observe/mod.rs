@@ -6,10 +6,11 @@ pub mod slip;
 pub mod waveform;
 
 use crate::channel::Frame;
-use crate::scenario::{Scenario, Speed, Surface};
+use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, EnvelopeWelch, LineFrequency, LineSearch, LineTracker, Spectrum, Welch,
+    Band, Blocks, EnvelopeSpectrum, EnvelopeWelch, LineFrequency, LineSearch, LineTracker,
+    Spectrum, Welch,
 };
 use crate::simulate::Simulation;
 use load_zone::LoadZone;
@@ -129,12 +130,21 @@ impl Watch {
             .channels()
             .iter()
             .map(|c| {
-                let kind = if c.measured_axis().is_some() { Kind::AntiAliased } else { Kind::Instantaneous };
+                let kind = if c.measured_axis().is_some() {
+                    Kind::AntiAliased
+                } else {
+                    Kind::Instantaneous
+                };
                 statistics(&c.name, c.unit, kind)
             })
             .collect();
         let recorded = channels.len();
-        channels.extend(simulation.filtered().iter().map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)));
+        channels.extend(
+            simulation
+                .filtered()
+                .iter()
+                .map(|c| statistics(&c.name, c.unit, Kind::AntiAliased)),
+        );
         let load = model.load.full;
         let duration = scenario.simulation.duration_s;
         let top = model.kinematics(model.rotation.max_speed());
@@ -218,11 +228,17 @@ impl Watch {
         for (k, name) in ["measured_ax", "measured_ay"].into_iter().enumerate() {
             self.channels[self.recorded + k].name = name.to_owned();
         }
-        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
+        let names: Vec<&str> = simulation
+            .channels()
+            .iter()
+            .map(|c| c.name.as_str())
+            .collect();
         let mut index = 0;
         self.channels.retain(|c| {
             index += 1;
-            index <= self.recorded || !names.contains(&c.name.as_str()) || !c.name.starts_with("measured_")
+            index <= self.recorded
+                || !names.contains(&c.name.as_str())
+                || !c.name.starts_with("measured_")
         });
         Findings {
             from: self.started.unwrap_or(0.0),
@@ -237,7 +253,10 @@ impl Watch {
             lines: self
                 .trackers
                 .into_iter()
-                .map(|(line, tracker)| DefectLine { found: tracker.and_then(LineTracker::finish), ..line })
+                .map(|(line, tracker)| DefectLine {
+                    found: tracker.and_then(LineTracker::finish),
+                    ..line
+                })
                 .collect(),
         }
     }
@@ -254,7 +273,9 @@ fn trackers(
     segment: usize,
     band: Band,
 ) -> Vec<(DefectLine, Option<LineTracker>)> {
-    let Speed::Constant(_) = scenario.operation.speed_rpm else { return Vec::new() };
+    let Speed::Constant(_) = scenario.operation.speed_rpm else {
+        return Vec::new();
+    };
     let model = simulation.model();
     let k = model.kinematics(model.rotation.at(0.0).0);
     let rate = simulation.sample_rate();
@@ -263,14 +284,19 @@ fn trackers(
         .iter()
         .enumerate()
         .map(|(defect, d)| {
-            let (name, nominal) = match d.on {
-                Surface::OuterRaceway => ("BPFO", k.bpfo),
-                Surface::InnerRaceway => ("BPFI", k.bpfi),
-                Surface::Roller(_) => ("2 BSF", 2.0 * k.bsf),
-            };
+            let (name, nominal) = k.struck_by(d.on);
             let enough = segment as f64 / rate * nominal >= 24.0 && nominal < 0.4 * rate;
-            let tracker = enough.then(|| LineTracker::new(rate, segment, LineSearch::new(nominal, band)));
-            (DefectLine { defect, name, nominal, found: None }, tracker)
+            let tracker =
+                enough.then(|| LineTracker::new(rate, segment, LineSearch::new(nominal, band)));
+            (
+                DefectLine {
+                    defect,
+                    name,
+                    nominal,
+                    found: None,
+                },
+                tracker,
+            )
         })
         .collect()
 }

@@ -101,7 +101,10 @@ impl Passes {
                 best: None,
             }
         };
-        Self { watches: model.defects.iter().map(watch).collect(), events: VecDeque::new() }
+        Self {
+            watches: model.defects.iter().map(watch).collect(),
+            events: VecDeque::new(),
+        }
     }
 
     /// Takes one accepted step; whole passes are kept only where `keep`.
@@ -114,12 +117,16 @@ impl Passes {
             for k in 0..watch.contacts.len() {
                 let (slot, side, inside) = watch.contacts[k];
                 let angles = match f.model.kind {
-                    ModelKind::Full => {
-                        Angles { orbit: f.y[l.theta() + slot], spin: f.y[l.phi() + slot], ring }
-                    }
-                    ModelKind::Reference => {
-                        Angles { orbit: f.ws.kinematic_orbit[slot], spin: f.ws.kinematic_spin, ring }
-                    }
+                    ModelKind::Full => Angles {
+                        orbit: f.y[l.theta() + slot],
+                        spin: f.y[l.phi() + slot],
+                        ring,
+                    },
+                    ModelKind::Reference => Angles {
+                        orbit: f.ws.kinematic_orbit[slot],
+                        spin: f.ws.kinematic_spin,
+                        ring,
+                    },
                 };
                 let u = defect.local_angle(&angles, side);
                 let now = u >= watch.first && u <= watch.last;
@@ -128,7 +135,13 @@ impl Passes {
                     if self.events.len() == MOST_EVENTS {
                         self.events.pop_front();
                     }
-                    self.events.push_back(Event { t: f.t, defect: index, slot, side, enters: now });
+                    self.events.push_back(Event {
+                        t: f.t,
+                        defect: index,
+                        slot,
+                        side,
+                        enters: now,
+                    });
                 }
                 let near = from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + margin;
                 watch.follow(f, index, slot, side, u, near, keep);
@@ -148,14 +161,29 @@ fn from_middle(u: f64, watch: &Watch) -> f64 {
 
 impl Watch {
     #[expect(clippy::too_many_arguments, reason = "one contact at one instant")]
-    fn follow(&mut self, f: &Frame, defect: usize, slot: usize, side: Side, u: f64, near: bool, keep: bool) {
-        let mine = self.current.as_ref().map(|p| p.slot == slot && p.side == side);
+    fn follow(
+        &mut self,
+        f: &Frame,
+        defect: usize,
+        slot: usize,
+        side: Side,
+        u: f64,
+        near: bool,
+        keep: bool,
+    ) {
+        let mine = self
+            .current
+            .as_ref()
+            .map(|p| p.slot == slot && p.side == side);
         match (mine, near) {
             (Some(true), true) => self.add(f, u),
             (Some(true), false) => {
                 // A pass counts where it was seen from one margin to the other.
                 if let Some(pass) = self.current.take() {
-                    let span = pass.points.last().map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
+                    let span = pass
+                        .points
+                        .last()
+                        .map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
                     let whole = span >= 1.5 * (self.last - self.first);
                     if whole && self.best.as_ref().is_none_or(|b| pass.peak > b.peak) {
                         self.best = Some(pass);
@@ -163,7 +191,13 @@ impl Watch {
                 }
             }
             (None, true) if keep => {
-                self.current = Some(Pass { defect, slot, side, points: Vec::with_capacity(MOST_POINTS), peak: 0.0 });
+                self.current = Some(Pass {
+                    defect,
+                    slot,
+                    side,
+                    points: Vec::with_capacity(MOST_POINTS),
+                    peak: 0.0,
+                });
                 (self.stride, self.skipped) = (1, 0);
                 self.add(f, u);
             }
@@ -172,7 +206,9 @@ impl Watch {
     }
 
     fn add(&mut self, f: &Frame, u: f64) {
-        let Some(pass) = &mut self.current else { return };
+        let Some(pass) = &mut self.current else {
+            return;
+        };
         let c = &f.ws.contacts[pass.side as usize];
         let point = PassPoint {
             t: f.t,

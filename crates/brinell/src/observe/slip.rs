@@ -64,7 +64,9 @@ pub struct Slip {
 impl Slip {
     /// Empty.
     pub fn new(layout: &Layout) -> Self {
-        Self { rows: vec![RowSlip::default(); layout.rows] }
+        Self {
+            rows: vec![RowSlip::default(); layout.rows],
+        }
     }
 
     /// Takes one instant; skipped while the ring stands still.
@@ -79,7 +81,9 @@ impl Slip {
         let surface = w * f.model.geometry.inner_radius;
         let inner = &f.ws.contacts[Side::Inner as usize];
         for row in 0..l.rows {
-            self.rows[row].cage.push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
+            self.rows[row]
+                .cage
+                .push(1.0 - f.y[dof + l.cage(row) + 2] / rolling);
         }
         for slot in 0..l.rollers() {
             let row = &mut self.rows[l.row(slot)];

@@ -17,7 +17,7 @@ pub trait System {
     type Flow: Copy + Default + AddAssign + Mul<f64, Output = Self::Flow>;
 
     /// Entries of the state.
-    fn len(&self) -> usize;
+    fn size(&self) -> usize;
 
     /// dy/dt.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
@@ -97,7 +97,7 @@ const INTEGRAL: f64 = 0.08;
 impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// At (t, y), with the derivative evaluated there.
     pub fn new<S: System<Flow = F>>(system: &mut S, settings: Settings, t: f64, y: &[f64]) -> Self {
-        let n = system.len();
+        let n = system.size();
         let stages = settings.tableau.stages();
         let mut stepper = Self {
             stages: vec![vec![0.0; n]; stages],
@@ -167,7 +167,9 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             self.work.evaluations += tableau.rows.len() as u64;
             let error = self.error(h) / self.settings.tolerance;
             if error.is_finite() && error <= 1.0 {
-                let factor = SAFETY * error.max(1e-10).powf(0.75 * INTEGRAL - exponent) * self.last_error.powf(INTEGRAL);
+                let factor = SAFETY
+                    * error.max(1e-10).powf(0.75 * INTEGRAL - exponent)
+                    * self.last_error.powf(INTEGRAL);
                 let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
                 self.last_error = error.max(1e-4);
                 self.accept(h);
@@ -181,7 +183,11 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             }
             self.work.rejections += 1;
             shrunk = true;
-            let factor = if error.is_finite() { SAFETY * error.powf(-exponent) } else { 0.1 };
+            let factor = if error.is_finite() {
+                SAFETY * error.powf(-exponent)
+            } else {
+                0.1
+            };
             self.step = h * factor.clamp(0.1, 0.9);
         }
     }
@@ -213,22 +219,43 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
 
     fn failure(&self) -> StepError {
         let last = &self.stages[self.stages.len() - 1];
-        if let Some(index) = self.trial.iter().zip(last).position(|(y, dy)| !(y.is_finite() && dy.is_finite())) {
+        if let Some(index) = self
+            .trial
+            .iter()
+            .zip(last)
+            .position(|(y, dy)| !(y.is_finite() && dy.is_finite()))
+        {
             return StepError::NonFinite { t: self.t, index };
         }
         let half = self.y.len() / 2;
         let share = |k: usize| {
-            let e: f64 = self.settings.tableau.error.iter().zip(&self.stages).map(|(w, s)| w * s[half + k]).sum();
+            let e: f64 = self
+                .settings
+                .tableau
+                .error
+                .iter()
+                .zip(&self.stages)
+                .map(|(w, s)| w * s[half + k])
+                .sum();
             self.settings.mass[k] * e * e
         };
-        let index = (0..half).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
-        StepError::Vanished { t: self.t, index: half + index }
+        let index = (0..half)
+            .max_by(|&a, &b| share(a).total_cmp(&share(b)))
+            .unwrap_or(0);
+        StepError::Vanished {
+            t: self.t,
+            index: half + index,
+        }
     }
 
     /// State at a time within the last step, by the cubic Hermite polynomial of its ends (third order, as the pair is).
     pub fn interpolate(&self, t: f64, y: &mut [f64]) {
         let h = self.t - self.t_previous;
-        let s = if h > 0.0 { (t - self.t_previous) / h } else { 1.0 };
+        let s = if h > 0.0 {
+            (t - self.t_previous) / h
+        } else {
+            1.0
+        };
         let r = 1.0 - s;
         let (y0, y1) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
         let (d0, d1) = (h * s * r * r, -h * s * s * r);

@@ -1,5 +1,9 @@
 //! Helpers that several test programs share.
-#![allow(dead_code, unreachable_pub, reason = "each test program uses its own part")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "each test program uses its own part"
+)]
 
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Outcome, Simulation};
@@ -13,7 +17,11 @@ pub struct Rows {
 
 impl Rows {
     pub fn column(&self, name: &str) -> &[f64] {
-        let k = self.names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name}"));
+        let k = self
+            .names
+            .iter()
+            .position(|n| n == name)
+            .unwrap_or_else(|| panic!("no column {name}"));
         &self.data[k]
     }
 }
@@ -21,7 +29,12 @@ impl Rows {
 /// Parses a CSV of numbers with a header line.
 pub fn columns(text: &str) -> Rows {
     let mut lines = text.lines();
-    let names: Vec<String> = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    let names: Vec<String> = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(str::to_owned)
+        .collect();
     let mut data = vec![Vec::new(); names.len()];
     for line in lines {
         for (column, value) in data.iter_mut().zip(line.split(',')) {
@@ -49,12 +62,22 @@ impl Observer for Keep {
 /// Runs a scenario and keeps its rows; panics where the run does not complete.
 pub fn simulate(scenario: &Scenario) -> (Rows, Outcome) {
     let simulation = Simulation::new(scenario).unwrap();
-    let names: Vec<String> =
-        std::iter::once("t".to_owned()).chain(simulation.channels().iter().map(|c| c.name.clone())).collect();
-    let mut keep = Keep { rate: simulation.sample_rate(), data: vec![Vec::new(); names.len()] };
+    let names: Vec<String> = std::iter::once("t".to_owned())
+        .chain(simulation.channels().iter().map(|c| c.name.clone()))
+        .collect();
+    let mut keep = Keep {
+        rate: simulation.sample_rate(),
+        data: vec![Vec::new(); names.len()],
+    };
     let outcome = simulation.run(&mut keep);
     assert_eq!(outcome.end, End::Complete);
-    (Rows { names, data: keep.data }, outcome)
+    (
+        Rows {
+            names,
+            data: keep.data,
+        },
+        outcome,
+    )
 }
 
 /// The rows alone.

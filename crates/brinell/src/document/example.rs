@@ -1,8 +1,8 @@
 //! The scenario that `brinell init` starts from: the NN3007 with the rectangle defect.
 
 use super::load::{Loaded, by_key, read, write};
-use super::types::Scenario;
 use super::writer::Style;
+use crate::scenario::Scenario;
 
 /// What such a scenario must give; everything else has a default.
 const SHORTEST: &str = r#"

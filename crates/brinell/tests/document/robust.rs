@@ -1,5 +1,6 @@
 //! Whatever the bytes, a report; whatever the scenario, it reads back.
 
+use brinell::document::*;
 use brinell::scenario::*;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};

@@ -1,7 +1,9 @@
 //! Speed, load, supports and sampling.
 
 use super::{Checker, short};
-use crate::scenario::types::{LoadOn, ModelKind, Speed, Surface};
+use crate::bearing::kinematics::{Geometry, Kinematics};
+use crate::scenario::{LoadOn, ModelKind, Speed};
+use std::f64::consts::PI;
 
 /// Samples beyond which a run is a slip of the unit.
 const MOST_SAMPLES: f64 = 1e10;
@@ -144,21 +146,12 @@ impl Checker<'_> {
                 .iter()
                 .fold(0.0, |m: f64, point| m.max(point[1].abs())),
         };
-        let shaft = fastest / 60.0;
-        let cage = shaft * b.inner_raceway_diameter_mm / (2.0 * b.pitch_diameter_mm);
-        let spin = shaft * b.inner_raceway_diameter_mm / (2.0 * b.roller_diameter_mm);
-        // Spin relative to the cage: r (spin + ...) closes the rolling condition at both raceways.
-        let bsf = spin + cage;
-        let z = b.rollers_per_row as f64;
+        let kinematics = Kinematics::pure_rolling(&Geometry::of(b), fastest * PI / 30.0);
         let highest = self
             .s
             .defects
             .iter()
-            .map(|defect| match defect.on {
-                Surface::OuterRaceway => ("BPFO", z * cage),
-                Surface::InnerRaceway => ("BPFI", z * (shaft - cage)),
-                Surface::Roller(_) => ("2 BSF", 2.0 * bsf),
-            })
+            .map(|defect| kinematics.struck_by(defect.on))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((name, frequency)) = highest else {
             return;
@@ -186,7 +179,7 @@ impl Checker<'_> {
                 RECORD,
                 format!(
                     "no channel can match {}",
-                    crate::scenario::source::quote(name)
+                    crate::document::source::quote(name)
                 ),
                 "names of letters, digits, _ and *".into(),
                 &[],

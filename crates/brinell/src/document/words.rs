@@ -1,7 +1,7 @@
 //! The words that keys with a closed choice accept.
 
 use super::leaf::Choice;
-use super::types::*;
+use crate::scenario::*;
 
 macro_rules! words {
     ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {

@@ -3,10 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Checker, short};
-use crate::scenario::types::{Defect, Shape, Surface};
-
-/// Sum of the arcs of the paper's irregular shape (model.md, section 12).
-const IRREGULAR_LENGTH_MM: f64 = 6.9979;
+use crate::scenario::{Defect, Shape, Surface};
 
 const LENGTH: &str = "bearing.roller_length_mm";
 
@@ -146,21 +143,16 @@ impl Checker<'_> {
             Surface::Roller(_) => ("roller", "bearing.roller_diameter_mm", b.roller_diameter_mm),
         };
         let half_circle = 0.5 * PI * diameter;
-        let (key, reach, limit) = match &defect.shape {
-            Shape::Rectangle { length_mm, .. } => {
-                ("rectangle.length_mm", 0.5 * length_mm, 2.0 * half_circle)
-            }
-            Shape::Circle { diameter_mm } => {
-                ("circle.diameter_mm", 0.5 * diameter_mm, 2.0 * half_circle)
-            }
-            Shape::Profile { arc_mm, .. } => (
-                "profile.arc_mm",
-                arc_mm.iter().fold(0.0, |reach: f64, s| reach.max(s.abs())),
-                half_circle,
-            ),
-            Shape::Li2023Irregular { .. } => {
-                ("li2023_irregular", 0.5 * IRREGULAR_LENGTH_MM, half_circle)
-            }
+        let Some(shape) = crate::defect::Shape::new(&defect.shape) else {
+            return;
+        };
+        let (first, last) = shape.arc();
+        let reach = 1e3 * first.abs().max(last.abs());
+        let (key, limit) = match &defect.shape {
+            Shape::Rectangle { .. } => ("rectangle.length_mm", 2.0 * half_circle),
+            Shape::Circle { .. } => ("circle.diameter_mm", 2.0 * half_circle),
+            Shape::Profile { .. } => ("profile.arc_mm", half_circle),
+            Shape::Li2023Irregular { .. } => ("li2023_irregular", half_circle),
         };
         if reach > half_circle {
             let allowed = match &defect.shape {

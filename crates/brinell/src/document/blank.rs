@@ -1,7 +1,7 @@
 //! A scenario without values: where a walk over the keys starts from.
 
 use super::leaf::Leaf;
-use super::types::*;
+use crate::scenario::*;
 
 const NONE: f64 = f64::NAN;
 

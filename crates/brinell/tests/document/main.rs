@@ -5,7 +5,7 @@ mod defaults;
 mod json;
 mod robust;
 
-use brinell::scenario::{Loaded, Problem, read};
+use brinell::document::{Loaded, Problem, read};
 
 const OUTER: &str = include_str!("../reference/outer-rectangle.toml");
 const INNER: &str = include_str!("../reference/inner-defect-gravity.toml");

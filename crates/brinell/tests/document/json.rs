@@ -1,6 +1,7 @@
 //! The JSON Schema against the reader.
 
-use brinell::scenario::{Scenario, json_schema, template};
+use brinell::document::{json_schema, template};
+use brinell::scenario::Scenario;
 use serde_json::{Value, json};
 
 use crate::{BARE, INNER, OUTER};

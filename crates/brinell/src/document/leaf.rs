@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use super::keys::Spec;
 use super::source::{Node, Value, float, quote};
-use super::types::Speed;
+use crate::scenario::Speed;
 
 /// A value that does not fit its key.
 #[derive(Debug)]

@@ -13,7 +13,7 @@ use super::problem::{Place, Problem, Severity};
 use super::provenance::{Origin, Provenance};
 use super::reader::Found;
 use super::source::float;
-use super::types::Scenario;
+use crate::scenario::Scenario;
 
 /// Finds what the file says of a key, and where.
 pub(crate) struct Finder<'a> {

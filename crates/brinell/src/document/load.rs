@@ -6,9 +6,9 @@ use super::checks::{self, Finder};
 use super::problem::{Place, Problem, Severity};
 use super::provenance::Provenance;
 use super::reader::Reader;
-use super::types::Scenario;
 use super::writer::{Style, Writer};
 use super::{blank, sections, source};
+use crate::scenario::Scenario;
 
 /// A scenario that can run, and where its values come from.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::blank;
 use super::keys::Fallback::{Catalogued, Needed, Required};
 use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
-use super::types::*;
 use super::words::SurfaceWord;
+use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
 const LINE_EXPONENT: f64 = 10.0 / 9.0;

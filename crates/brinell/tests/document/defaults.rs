@@ -1,7 +1,8 @@
 //! What stands in for keys left out, and that it is owned up to.
 
 use brinell::bearing::catalogue;
-use brinell::scenario::{Origin, Scenario, Shape, Surface, read, template};
+use brinell::document::{Origin, read, template};
+use brinell::scenario::{Scenario, Shape, Surface};
 
 use crate::{BARE, INNER, OUTER, good, report, with};
 

@@ -1,4 +1,4 @@
-//! Scenario files: one TOML file is the whole truth of a run.
+//! The scenario file as a document: one TOML file is the whole truth of a run.
 //!
 //! `sections` lists every key once; `reader`, `writer` and `schema` are walks over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
@@ -16,7 +16,6 @@ mod reader;
 mod schema;
 mod sections;
 mod source;
-mod types;
 mod words;
 mod writer;
 
@@ -25,4 +24,3 @@ pub use load::{Loaded, read, read_bytes};
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
-pub use types::*;

@@ -1,6 +1,6 @@
 //! Each kind of bad input, and what its author is told.
 
-use brinell::scenario::{Problem, Severity, read, read_bytes};
+use brinell::document::{Problem, Severity, read, read_bytes};
 
 use crate::{BARE, OUTER, report, with};
 
