@@ -243,7 +243,14 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let contact = |side: Side, delta: f64| -> (f64, f64) {
         let law = model.contact(side);
         let power = law.exponent.of(delta);
-        match acting(model.defects_of(slot, side), law, &angles, side, delta, power) {
+        match acting(
+            model.defects_of(slot, side),
+            law,
+            &angles,
+            side,
+            delta,
+            power,
+        ) {
             Some((force, floor)) => (force, law.tangent(delta, Some(&floor))),
             None => (law.healthy(delta), law.tangent(delta, None::<&Floor>)),
         }

@@ -8,7 +8,7 @@
 use super::{Kernel, Model, Power, Workspace};
 use crate::defect::{Angles, SIDES, acting};
 use crate::elementary::Exponent;
-use crate::lanes::{self, F8, WIDTH};
+use crate::lanes::{self, Lanes, Portable, WIDTH};
 use crate::scenario::Guidance;
 
 /// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
@@ -20,51 +20,50 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
-        // Every 64-bit Arm fuses.
-        _ => equations::<{ cfg!(target_arch = "aarch64") }>(model, t, y, dy, ws),
+        _ => equations::<Portable>(model, t, y, dy, ws),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<true>(model, t, y, dy, ws);
+    equations::<lanes::Avx512>(model, t, y, dy, ws);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<true>(model, t, y, dy, ws);
+    equations::<lanes::Avx2>(model, t, y, dy, ws);
 }
 
 /// x and y of the two rings and their rates, in every lane.
 #[derive(Clone, Copy)]
-struct Rings {
-    xi: [F8; 2],
-    vi: [F8; 2],
-    xo: [F8; 2],
-    vo: [F8; 2],
+struct Rings<L> {
+    xi: [L; 2],
+    vi: [L; 2],
+    xo: [L; 2],
+    vo: [L; 2],
 }
 
 #[inline(always)]
-fn pair(from: &[f64]) -> [F8; 2] {
-    [F8::splat(from[0]), F8::splat(from[1])]
+fn pair<L: Lanes>(from: &[f64]) -> [L; 2] {
+    [L::splat(from[0]), L::splat(from[1])]
 }
 
 /// u along e_r.
 #[inline(always)]
-fn along_r<const FUSED: bool>(cos: F8, sin: F8, u: &[F8; 2]) -> F8 {
-    cos.times_plus::<FUSED>(u[0], sin * u[1])
+fn along_r<L: Lanes>(cos: L, sin: L, u: &[L; 2]) -> L {
+    cos.times_plus(u[0], sin * u[1])
 }
 
 /// u along e_t.
 #[inline(always)]
-fn along_t<const FUSED: bool>(cos: F8, sin: F8, u: &[F8; 2]) -> F8 {
-    cos.times_plus::<FUSED>(u[1], -(sin * u[0]))
+fn along_t<L: Lanes>(cos: L, sin: L, u: &[L; 2]) -> L {
+    cos.times_plus(u[1], -(sin * u[0]))
 }
 
 #[inline(always)]
-fn equations<const FUSED: bool>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
     let l = &model.layout;
     let dof = l.dof();
     let (q, v) = y.split_at(dof);
@@ -77,9 +76,9 @@ fn equations<const FUSED: bool>(model: &Model, t: f64, y: &[f64], dy: &mut [f64]
         xo: pair(&q[l.outer()..]),
         vo: pair(&v[l.outer()..]),
     };
-    normal_contacts::<FUSED>(model, q, v, &rings, ws);
+    normal_contacts::<L>(model, q, v, &rings, ws);
     damaged_contacts(model, q, ring_angle, ws);
-    let mut sums = rollers::<FUSED>(model, q, v, a, w, &rings, ws);
+    let mut sums = rollers::<L>(model, q, v, a, w, &rings, ws);
     cages(model, q, v, a, w, &mut sums);
     self::rings(model, t, q, v, a, &mut sums);
     ws.power = sums.power;
@@ -87,38 +86,44 @@ fn equations<const FUSED: bool>(model: &Model, t: f64, y: &[f64], dy: &mut [f64]
 
 /// Normal contacts of healthy raceways, section 2.
 #[inline(always)]
-fn normal_contacts<const FUSED: bool>(model: &Model, q: &[f64], v: &[f64], rings: &Rings, ws: &mut Workspace) {
+fn normal_contacts<L: Lanes>(
+    model: &Model,
+    q: &[f64],
+    v: &[f64],
+    rings: &Rings<L>,
+    ws: &mut Workspace,
+) {
     let l = &model.layout;
     let g = &model.geometry;
     for at in (0..l.slots).step_by(WIDTH) {
-        let (sin, cos) = lanes::sin_cos::<FUSED>(F8::load(&q[l.theta() + at..]));
+        let (sin, cos) = lanes::sin_cos(L::load(&q[l.theta() + at..]));
         sin.store(&mut ws.sin[at..]);
         cos.store(&mut ws.cos[at..]);
-        let r = F8::load(&q[l.r() + at..]);
-        let dr = F8::load(&v[l.r() + at..]);
-        let dtheta = F8::load(&v[l.theta() + at..]);
-        let radial = |u| along_r::<FUSED>(cos, sin, u);
-        let tangential = |u| along_t::<FUSED>(cos, sin, u);
+        let r = L::load(&q[l.r() + at..]);
+        let dr = L::load(&v[l.r() + at..]);
+        let dtheta = L::load(&v[l.theta() + at..]);
+        let radial = |u| along_r(cos, sin, u);
+        let tangential = |u| along_t(cos, sin, u);
         let delta = [
-            radial(&rings.xi) - r - F8::splat(g.clearance),
-            r - radial(&rings.xo) - F8::splat(g.outer_gap),
+            radial(&rings.xi) - r - L::splat(g.clearance),
+            r - radial(&rings.xo) - L::splat(g.outer_gap),
         ];
         let rate = [
-            dtheta.times_plus::<FUSED>(tangential(&rings.xi), radial(&rings.vi)) - dr,
-            dr - dtheta.times_plus::<FUSED>(tangential(&rings.xo), radial(&rings.vo)),
+            dtheta.times_plus(tangential(&rings.xi), radial(&rings.vi)) - dr,
+            dr - dtheta.times_plus(tangential(&rings.xo), radial(&rings.vo)),
         ];
         for side in SIDES {
             let k = side as usize;
             let contacts = &mut ws.contacts[k];
             let power = match model.contact(side).exponent {
-                Exponent::TenNinths => lanes::ten_ninths::<FUSED>(delta[k]),
+                Exponent::TenNinths => lanes::ten_ninths(delta[k]),
                 Exponent::One => delta[k].positive_part(),
-                exponent @ Exponent::Other(_) => F8(delta[k].0.map(|x| exponent.of(x))),
+                exponent @ Exponent::Other(_) => L::new(delta[k].array().map(|x| exponent.of(x))),
             };
             delta[k].store(&mut contacts.approach[at..]);
             rate[k].store(&mut contacts.approach_rate[at..]);
             power.store(&mut contacts.power[at..]);
-            (F8::splat(model.contact(side).stiffness) * power).store(&mut contacts.elastic[at..]);
+            (L::splat(model.contact(side).stiffness) * power).store(&mut contacts.elastic[at..]);
         }
     }
 }
@@ -163,7 +168,7 @@ struct Sums {
 
 /// Cage quantities of each lane: rows are interleaved, so that their pattern over the slots repeats.
 struct Cages<'a> {
-    pattern: &'a mut [[F8; CAGE]],
+    pattern: &'a mut [[[f64; WIDTH]; CAGE]],
 }
 
 /// x, y, theta and their rates, then the sums of the reactions: x, y, moment.
@@ -177,11 +182,11 @@ impl Cages<'_> {
             for lane in 0..WIDTH {
                 let at = l.cage(l.row(group * WIDTH + lane));
                 for k in 0..3 {
-                    cage[k].0[lane] = q[at + k];
-                    cage[3 + k].0[lane] = v[at + k];
+                    cage[k][lane] = q[at + k];
+                    cage[3 + k][lane] = v[at + k];
                 }
             }
-            cage[6..].fill(F8::ZERO);
+            cage[6..].fill([0.0; WIDTH]);
         }
     }
 
@@ -193,7 +198,7 @@ impl Cages<'_> {
             for lane in 0..WIDTH {
                 let at = l.cage(l.row(group * WIDTH + lane));
                 for k in 0..3 {
-                    a[at + k] += cage[6 + k].0[lane];
+                    a[at + k] += cage[6 + k][lane];
                 }
             }
         }
@@ -202,40 +207,42 @@ impl Cages<'_> {
 
 /// Friction (section 4), pockets (section 5), drag (section 7) and the rollers' own motion (Eq. 51).
 #[inline(always)]
-fn rollers<const FUSED: bool>(
+fn rollers<L: Lanes>(
     model: &Model,
     q: &[f64],
     v: &[f64],
     a: &mut [f64],
     w: f64,
-    rings: &Rings,
+    rings: &Rings<L>,
     ws: &mut Workspace,
 ) -> Sums {
     let l = &model.layout;
     let g = &model.geometry;
     let m = &model.inertia;
     let mut pattern = std::mem::take(&mut ws.cage_lanes);
-    let mut cages = Cages { pattern: &mut pattern };
+    let mut cages = Cages {
+        pattern: &mut pattern,
+    };
     cages.spread(model, q, v);
-    let pitch = F8::splat(g.pitch_radius);
-    let radius = F8::splat(g.roller_radius);
-    let surface = F8::splat(w * g.inner_radius);
+    let pitch = L::splat(g.pitch_radius);
+    let radius = L::splat(g.roller_radius);
+    let surface = L::splat(w * g.inner_radius);
     let gravity = pair(&model.gravity);
-    let damping = [model.inner_contact.damping, model.outer_contact.damping].map(F8::splat);
-    let mu = F8::splat(model.friction.coefficient);
-    let per_slip = F8::splat(1.0 / model.friction.slip_velocity);
-    let mut on_inner = [F8::ZERO; 2];
-    let mut on_outer = [F8::ZERO; 2];
-    let [mut p_contact, mut p_friction, mut p_drive, mut p_pocket] = [F8::ZERO; 4];
-    let [mut p_rub, mut p_drag, mut p_lever] = [F8::ZERO; 3];
+    let damping = [model.inner_contact.damping, model.outer_contact.damping].map(L::splat);
+    let mu = L::splat(model.friction.coefficient);
+    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    let mut on_inner = [L::zero(); 2];
+    let mut on_outer = [L::zero(); 2];
+    let [mut p_contact, mut p_friction, mut p_drive, mut p_pocket] = [L::zero(); 4];
+    let [mut p_rub, mut p_drag, mut p_lever] = [L::zero(); 3];
     for at in (0..l.slots).step_by(WIDTH) {
-        let live = F8::load(&model.live[at..]);
-        let (cos, sin) = (F8::load(&ws.cos[at..]), F8::load(&ws.sin[at..]));
-        let radial = |u: &[F8; 2]| along_r::<FUSED>(cos, sin, u);
-        let tangential = |u: &[F8; 2]| along_t::<FUSED>(cos, sin, u);
-        let (r, theta) = (F8::load(&q[l.r() + at..]), F8::load(&q[l.theta() + at..]));
-        let dr = F8::load(&v[l.r() + at..]);
-        let (dtheta, dphi) = (F8::load(&v[l.theta() + at..]), F8::load(&v[l.phi() + at..]));
+        let live = L::load(&model.live[at..]);
+        let (cos, sin) = (L::load(&ws.cos[at..]), L::load(&ws.sin[at..]));
+        let radial = |u: &[L; 2]| along_r(cos, sin, u);
+        let tangential = |u: &[L; 2]| along_t(cos, sin, u);
+        let (r, theta) = (L::load(&q[l.r() + at..]), L::load(&q[l.theta() + at..]));
+        let dr = L::load(&v[l.r() + at..]);
+        let (dtheta, dphi) = (L::load(&v[l.theta() + at..]), L::load(&v[l.phi() + at..]));
         let orbit_speed = pitch * dtheta;
         let roll = radius * dphi;
 
@@ -244,18 +251,18 @@ fn rollers<const FUSED: bool>(
             surface + tangential(&rings.vi) - (orbit_speed - roll),
             tangential(&rings.vo) - (orbit_speed + roll),
         ];
-        let mut normal = [F8::ZERO; 2];
-        let mut friction = [F8::ZERO; 2];
+        let mut normal = [L::zero(); 2];
+        let mut friction = [L::zero(); 2];
         for side in SIDES {
             let k = side as usize;
             let contacts = &mut ws.contacts[k];
-            let elastic = F8::load(&contacts.elastic[at..]) * live;
-            let rate = F8::load(&contacts.approach_rate[at..]);
-            let pressed = rate.times_plus::<FUSED>(damping[k], elastic).positive_part();
-            normal[k] = elastic.if_above(F8::ZERO, pressed, F8::ZERO);
+            let elastic = L::load(&contacts.elastic[at..]) * live;
+            let rate = L::load(&contacts.approach_rate[at..]);
+            let pressed = rate.times_plus(damping[k], elastic).positive_part();
+            normal[k] = elastic.if_above(L::zero(), pressed, L::zero());
             // Outside the load zone whole groups of inner contacts are open.
             if normal[k].any_positive() {
-                friction[k] = mu * normal[k] * lanes::tanh::<FUSED>(slip[k] * per_slip);
+                friction[k] = mu * normal[k] * lanes::tanh(slip[k] * per_slip);
                 p_contact += (normal[k] - elastic) * rate;
                 p_friction += friction[k] * slip[k];
             }
@@ -270,24 +277,37 @@ fn rollers<const FUSED: bool>(
 
         // Pocket.
         let group = (at / WIDTH) % cages.pattern.len();
-        let cage = &mut cages.pattern[group];
-        let (xc, vc) = ([cage[0], cage[1]], [cage[3], cage[4]]);
-        let alpha = F8::load(&model.pocket_angle[at..]);
-        let s = pitch.times_plus::<FUSED>(cage[2] + alpha - theta, tangential(&xc));
-        let ds = pitch.times_plus::<FUSED>(cage[5] - dtheta, tangential(&vc)) - dtheta * radial(&xc);
-        let depth = (s.abs() - F8::splat(model.pocket.clearance)).positive_part() * live;
-        let (mut push, mut rub, mut rub_moment) = (F8::ZERO, F8::ZERO, F8::ZERO);
+        let cage = cages.pattern[group];
+        let [
+            xc,
+            yc,
+            theta_c,
+            vxc,
+            vyc,
+            dtheta_c,
+            mut to_x,
+            mut to_y,
+            mut to_spin,
+        ] = cage.map(L::new);
+        let (xc, vc) = ([xc, yc], [vxc, vyc]);
+        let alpha = L::load(&model.pocket_angle[at..]);
+        let s = pitch.times_plus(theta_c + alpha - theta, tangential(&xc));
+        let ds = pitch.times_plus(dtheta_c - dtheta, tangential(&vc)) - dtheta * radial(&xc);
+        let depth = (s.abs() - L::splat(model.pocket.clearance)).positive_part() * live;
+        let (mut push, mut rub, mut rub_moment) = (L::zero(), L::zero(), L::zero());
         if depth.any_positive() {
             // Both sides at once: what closes on the side of s, with its sign.
-            let closing = ds * F8::splat(1.0).with_sign(s);
-            let elastic = F8::splat(model.pocket.stiffness) * depth;
-            let size = closing.times_plus::<FUSED>(F8::splat(model.pocket.damping), elastic).positive_part();
-            let size = depth.if_above(F8::ZERO, size, F8::ZERO);
+            let closing = ds * L::splat(1.0).with_sign(s);
+            let elastic = L::splat(model.pocket.stiffness) * depth;
+            let size = closing
+                .times_plus(L::splat(model.pocket.damping), elastic)
+                .positive_part();
+            let size = depth.if_above(L::zero(), size, L::zero());
             push = size.with_sign(s);
             // sigma = -sign(F_c), 0 where the pocket is open.
-            let sigma = size.if_above(F8::ZERO, F8::splat(1.0).with_sign(-push), F8::ZERO);
-            let u = dr - sigma * radius * (dphi - cage[5]) - radial(&vc);
-            rub = -(traction::<FUSED>(u.abs()) * size).with_sign_of(u);
+            let sigma = size.if_above(L::zero(), L::splat(1.0).with_sign(-push), L::zero());
+            let u = dr - sigma * radius * (dphi - dtheta_c) - radial(&vc);
+            rub = -(traction(u.abs()) * size).with_sign_of(u);
             rub_moment = sigma * radius * rub;
             p_pocket += (size - elastic) * closing;
             p_rub -= rub * u;
@@ -296,15 +316,15 @@ fn rollers<const FUSED: bool>(
         rub.store(&mut ws.pocket_friction[at..]);
 
         // Roller.
-        let drag = F8::splat(model.drag) * orbit_speed * orbit_speed.abs();
+        let drag = L::splat(model.drag) * orbit_speed * orbit_speed.abs();
         let arm = pitch + r;
-        let per_mass = F8::splat(1.0 / m.roller);
-        let a_r = (dtheta * dtheta).times_plus::<FUSED>(arm, radial(&gravity))
-            + (q_in - q_out + rub) * per_mass;
-        let a_theta = ((f_in + f_out + push - drag).times_plus::<FUSED>(per_mass, tangential(&gravity))
-            - F8::splat(2.0) * dr * dtheta)
+        let per_mass = L::splat(1.0 / m.roller);
+        let a_r =
+            (dtheta * dtheta).times_plus(arm, radial(&gravity)) + (q_in - q_out + rub) * per_mass;
+        let a_theta = ((f_in + f_out + push - drag).times_plus(per_mass, tangential(&gravity))
+            - L::splat(2.0) * dr * dtheta)
             / arm;
-        let a_phi = (radius * (f_out - f_in) - rub_moment) * F8::splat(1.0 / m.roller_spin);
+        let a_phi = (radius * (f_out - f_in) - rub_moment) * L::splat(1.0 / m.roller_spin);
         (a_r * live).store(&mut a[l.r() + at..]);
         (a_theta * live).store(&mut a[l.theta() + at..]);
         (a_phi * live).store(&mut a[l.phi() + at..]);
@@ -314,9 +334,15 @@ fn rollers<const FUSED: bool>(
         on_inner[1] -= q_in * sin + f_in * cos;
         on_outer[0] += q_out * cos + f_out * sin;
         on_outer[1] += q_out * sin - f_out * cos;
-        cage[6] += push * sin - rub * cos;
-        cage[7] -= push * cos + rub * sin;
-        cage[8] += rub_moment - push * pitch;
+        to_x += push * sin - rub * cos;
+        to_y -= push * cos + rub * sin;
+        to_spin += rub_moment - push * pitch;
+        for (sum, lanes) in cages.pattern[group][6..]
+            .iter_mut()
+            .zip([to_x, to_y, to_spin])
+        {
+            *sum = lanes.array();
+        }
 
         p_drag += drag * arm * dtheta;
         p_lever += dtheta
@@ -326,8 +352,8 @@ fn rollers<const FUSED: bool>(
     cages.gather(model, a);
     ws.cage_lanes = pattern;
     Sums {
-        on_inner: on_inner.map(F8::sum),
-        on_outer: on_outer.map(F8::sum),
+        on_inner: on_inner.map(Lanes::sum),
+        on_outer: on_outer.map(Lanes::sum),
         power: Power {
             contact: p_contact.sum(),
             friction: p_friction.sum(),
@@ -343,14 +369,14 @@ fn rollers<const FUSED: bool>(
 
 /// The traction curve, Eq. (48), of |u|: see [`crate::cage::traction`].
 #[inline(always)]
-fn traction<const FUSED: bool>(u: F8) -> F8 {
+fn traction<L: Lanes>(u: L) -> L {
     use crate::cage::{TRACTION_DECAY, TRACTION_LIMIT, TRACTION_SLOPE};
     // Beyond this slip the exponential is below the last bit of the limit.
-    let enough = F8::splat(40.0 / TRACTION_DECAY);
+    let enough = L::splat(40.0 / TRACTION_DECAY);
     let u = u.if_above(enough, enough, u);
-    let limit = F8::splat(TRACTION_LIMIT);
-    let rise = u.times_plus::<FUSED>(F8::splat(TRACTION_SLOPE), -limit);
-    rise.times_plus::<FUSED>(lanes::exp::<FUSED>(u * F8::splat(-TRACTION_DECAY)), limit)
+    let limit = L::splat(TRACTION_LIMIT);
+    let rise = u.times_plus(L::splat(TRACTION_SLOPE), -limit);
+    rise.times_plus(lanes::exp(u * L::splat(-TRACTION_DECAY)), limit)
 }
 
 /// Guidance (section 6) and the cages' own motion (Eq. 41).
@@ -389,8 +415,20 @@ fn rings(model: &Model, t: f64, q: &[f64], v: &[f64], a: &mut [f64], sums: &mut 
     let m = &model.inertia;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
-        (l.inner(), m.inner_ring, model.inner_support, sums.on_inner, load_in),
-        (l.outer(), m.outer_ring, model.outer_support, sums.on_outer, load_out),
+        (
+            l.inner(),
+            m.inner_ring,
+            model.inner_support,
+            sums.on_inner,
+            load_in,
+        ),
+        (
+            l.outer(),
+            m.outer_ring,
+            model.outer_support,
+            sums.on_outer,
+            load_out,
+        ),
     ];
     for (at, mass, support, reaction, load) in rings {
         for k in 0..2 {

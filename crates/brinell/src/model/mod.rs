@@ -21,9 +21,9 @@ use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::defect::{Defect, SIDES, Side};
+use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
 use crate::operation::{Load, Rotation};
-use crate::elementary::Exponent;
 use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
 use std::f64::consts::TAU;
 
@@ -188,11 +188,15 @@ impl Model {
         }
         let exposed = SIDES.map(|side| {
             let meets = |&slot: &usize| {
-                defects.iter().any(|d| d.meets(layout.row(slot), layout.roller(slot), side))
+                defects
+                    .iter()
+                    .any(|d| d.meets(layout.row(slot), layout.roller(slot), side))
             };
             (0..layout.rollers()).filter(meets).collect()
         });
-        let live = (0..layout.slots).map(|slot| f64::from(u8::from(slot < layout.rollers()))).collect();
+        let live = (0..layout.slots)
+            .map(|slot| f64::from(u8::from(slot < layout.rollers())))
+            .collect();
         Ok(Self {
             kind: s.simulation.model,
             live,

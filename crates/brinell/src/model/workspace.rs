@@ -2,7 +2,7 @@
 
 use super::full::CAGE;
 use super::{Layout, Power};
-use crate::lanes::{F8, WIDTH};
+use crate::lanes::WIDTH;
 
 /// Instructions that the equations of motion are compiled for. They differ in round-off alone: [`Kernel::Portable`] rounds every
 /// product on x86-64, the others fuse products with sums.
@@ -43,7 +43,11 @@ impl Kernel {
 
     /// The widest that this processor can run.
     pub fn fastest() -> Self {
-        Self::ALL.into_iter().rev().find(|k| k.is_there()).unwrap_or(Self::Portable)
+        Self::ALL
+            .into_iter()
+            .rev()
+            .find(|k| k.is_there())
+            .unwrap_or(Self::Portable)
     }
 }
 
@@ -101,7 +105,7 @@ pub struct Workspace {
     /// f_c of each slot, N.
     pub pocket_friction: Vec<f64>,
     /// Cage quantities spread over the lanes of one period of rows.
-    pub(super) cage_lanes: Vec<[F8; CAGE]>,
+    pub(super) cage_lanes: Vec<[[f64; WIDTH]; CAGE]>,
     kernel: Kernel,
     /// Orbit angle of each roller in the reference model, where they are not states.
     pub kinematic_orbit: Vec<f64>,
@@ -127,8 +131,12 @@ impl Workspace {
             contacts: [Contacts::new(slots), Contacts::new(slots)],
             pocket_force: zeros(),
             pocket_friction: zeros(),
-            cage_lanes: vec![[F8::ZERO; CAGE]; layout.row_period() / WIDTH],
-            kernel: if kernel.is_there() { kernel } else { Kernel::fastest() },
+            cage_lanes: vec![[[0.0; WIDTH]; CAGE]; layout.row_period() / WIDTH],
+            kernel: if kernel.is_there() {
+                kernel
+            } else {
+                Kernel::fastest()
+            },
             kinematic_orbit: zeros(),
             kinematic_spin: 0.0,
             power: Power::default(),
