@@ -1,2 +1,36 @@
-//! The `brinell` command.
-fn main() {}
+//! The `brinell` command: thin, everything it does is the library's.
+//!
+//! Exit codes: 0 done, 1 the run failed, 2 the input is bad, 130 interrupted (what was computed is kept).
+
+mod args;
+mod check;
+mod failure;
+mod files;
+mod look_up;
+mod page;
+mod progress;
+mod run;
+mod say;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match cli.command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Init(args) => look_up::init(&args),
+        Command::Bearing { command } => look_up::bearing(&command),
+        Command::Frequencies(args) => look_up::frequencies(&args),
+        Command::Schema => look_up::schema(),
+    };
+    match result {
+        Ok(code) => code,
+        Err(failure) => {
+            failure.print();
+            failure.code()
+        }
+    }
+}

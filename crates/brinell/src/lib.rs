@@ -5,6 +5,7 @@ pub mod cage;
 pub mod channel;
 pub mod contact;
 pub mod defect;
+pub mod derived;
 pub mod document;
 pub mod friction;
 pub mod model;

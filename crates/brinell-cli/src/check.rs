@@ -1,0 +1,165 @@
+//! `brinell check`.
+
+use crate::args::CheckArgs;
+use crate::failure::Failure;
+use crate::files;
+use crate::say::{say, short};
+use brinell::channel;
+use brinell::derived::Derived;
+use brinell::model::Model;
+use brinell::observe::passes::place;
+use brinell::scenario::Speed;
+use brinell::simulate::RunError;
+use std::f64::consts::TAU;
+use std::process::ExitCode;
+
+pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
+    let loaded = files::scenario(&args.scenario, false)?;
+    let s = &loaded.scenario;
+    let model = Model::new(s).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let d = Derived::new(&model, s.simulation.accuracy);
+    let b = &s.bearing;
+    say!("{}: the scenario is sound", s.name);
+    say!("");
+    say!(
+        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle, clearance {} um on one side",
+        b.preset
+            .as_ref()
+            .map_or(String::new(), |p| format!("{p}: ")),
+        b.rows,
+        b.rollers_per_row,
+        b.roller_diameter_mm,
+        b.roller_length_mm,
+        b.pitch_diameter_mm,
+        b.radial_clearance_um,
+    );
+    let at = match s.operation.speed_rpm {
+        Speed::Constant(rpm) => format!("at {rpm} r/min"),
+        Speed::Profile(_) => format!(
+            "at the top speed, {} r/min",
+            short(60.0 * d.top_speed / TAU, 5)
+        ),
+    };
+    let k = &d.kinematics;
+    say!("");
+    say!("Frequencies in pure rolling, {at}");
+    for (name, value, meaning) in [
+        ("shaft", d.top_speed / TAU, "turns of the inner ring"),
+        ("FTF", k.ftf, "turns of the cage"),
+        (
+            "BPFO",
+            k.bpfo,
+            "rollers passing a point of the outer raceway",
+        ),
+        (
+            "BPFI",
+            k.bpfi,
+            "rollers passing a point of the inner raceway",
+        ),
+        ("BSF", k.bsf, "turns of a roller relative to the cage"),
+        ("2 BSF", 2.0 * k.bsf, "strikes of damage on a roller"),
+    ] {
+        say!("  {name:<7} {value:>10.3} Hz   {meaning}");
+    }
+    say!("");
+    match &d.statics {
+        Ok(zone) => {
+            say!("Static balance under the full load (mean over a pitch of the cage)");
+            say!("  heaviest contact        {} N", short(zone.largest, 4));
+            say!(
+                "  load zone               {:.1} deg wide",
+                zone.extent.to_degrees()
+            );
+            say!(
+                "  inner ring from outer   ({}, {}) um",
+                short(1e6 * zone.shift[0], 4),
+                short(1e6 * zone.shift[1], 4)
+            );
+            say!(
+                "  bearing stiffness       xx {}, yy {}, xy {} N/m",
+                short(zone.stiffness[0][0], 4),
+                short(zone.stiffness[1][1], 4),
+                short(zone.stiffness[0][1], 2)
+            );
+        }
+        Err(error) => say!("Static balance: {error}"),
+    }
+    say!("");
+    say!("Stiffnesses");
+    say!(
+        "  healthy contacts        inner {}, outer {} N/m^n with n = {}",
+        short(s.contact.inner_stiffness, 4),
+        short(s.contact.outer_stiffness, 4),
+        short(s.contact.exponent, 5)
+    );
+    say!(
+        "  at {} N           inner {}, outer {} N/m",
+        short(d.contact_force, 3),
+        short(d.contact_stiffness[0], 3),
+        short(d.contact_stiffness[1], 3)
+    );
+    let (carried, load) = d.support_share;
+    say!(
+        "  support over clearance  {} N of the {} N load",
+        short(carried, 3),
+        short(load, 3)
+    );
+    say!("");
+    say!("Time scales");
+    say!(
+        "  roller between raceways {} Hz, damping ratio {}",
+        short(d.roller_frequency, 3),
+        short(d.roller_damping_ratio, 2)
+    );
+    say!(
+        "  rings on their supports inner {} Hz, outer {} Hz",
+        short(d.support_frequencies[0], 3),
+        short(d.support_frequencies[1], 3)
+    );
+    say!(
+        "  roller after roller     {} ms",
+        short(1e3 * d.roller_period, 4)
+    );
+    for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
+        let (first, last) = defect.shape.arc();
+        say!(
+            "  over the defect on the {}: {} ms for {} mm",
+            place(defect),
+            short(1e3 * time, 3),
+            short(1e3 * (last - first), 3)
+        );
+    }
+    say!(
+        "  longest step            {} us",
+        short(1e6 * d.longest_step, 3)
+    );
+    say!(
+        "  centrifugal force       {} N a roller",
+        short(d.centrifugal_force, 3)
+    );
+    let (channels, idle) = channel::select(&model, &s.simulation.record);
+    say!("");
+    say!(
+        "Recording {} channels, {} samples each at {} Hz",
+        channels.len(),
+        (s.simulation.duration_s * s.simulation.sample_rate_hz).floor() + 1.0,
+        s.simulation.sample_rate_hz
+    );
+    for pattern in idle {
+        eprintln!("warning: simulation.record: \"{pattern}\" matches no channel of this bearing");
+    }
+    let assumed: Vec<_> = loaded.provenance.iter().filter(|p| p.assumed).collect();
+    say!("");
+    if args.assumptions {
+        say!("Assumed, because nobody stated it:");
+        for p in &assumed {
+            say!("  {} = {} {}  ({})", p.key, p.value, p.unit, p.reason());
+        }
+    } else {
+        say!(
+            "{} values are assumed; --assumptions lists them",
+            assumed.len()
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}

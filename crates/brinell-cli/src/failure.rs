@@ -1,0 +1,95 @@
+//! What can go wrong, and how it is told.
+
+use brinell::document::Problem;
+use brinell::simulate::RunError;
+use brinell_io::IoError;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exit code of an interrupted run: 128 + SIGINT, as shells have it.
+pub(crate) const INTERRUPTED: u8 = 130;
+
+/// Why the command did not do what was asked.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The scenario is bad; its text and name are for pointing at lines.
+    Scenario {
+        name: String,
+        text: String,
+        problems: Vec<Problem>,
+    },
+    /// Anything else that the user got wrong.
+    Usage(String),
+    /// A file cannot be read.
+    Read(PathBuf, std::io::Error),
+    /// A result cannot be written.
+    Write(IoError),
+    /// The run failed.
+    Run(RunError),
+}
+
+impl Failure {
+    /// 2 for bad input, 1 for a failed run.
+    pub(crate) fn code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => 2,
+            Self::Run(RunError::Model(_) | RunError::NoBalance(_)) => 2,
+            Self::Write(_) | Self::Run(_) => 1,
+        })
+    }
+
+    /// To standard error.
+    pub(crate) fn print(&self) {
+        match self {
+            Self::Scenario {
+                name,
+                text,
+                problems,
+            } => print_problems(name, text, problems),
+            Self::Usage(message) => eprintln!("error: {message}"),
+            Self::Read(path, error) => eprintln!("error: cannot read {}: {error}", path.display()),
+            Self::Write(error) => eprintln!("error: {error}"),
+            Self::Run(error) => eprintln!("error: {error}"),
+        }
+    }
+}
+
+impl From<IoError> for Failure {
+    fn from(error: IoError) -> Self {
+        Self::Write(error)
+    }
+}
+
+/// Each problem with the line that it is about.
+pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
+    for problem in problems {
+        eprintln!("{problem}");
+        let (Some(line), Some(column)) = (problem.line, problem.column) else {
+            continue;
+        };
+        let Some(source) = text.lines().nth(line - 1) else {
+            continue;
+        };
+        let length = problem.span.as_ref().map_or(1, |s| {
+            let end = s.end.min(text.len());
+            text.get(s.start..end)
+                .map_or(1, |t| t.lines().next().unwrap_or("").chars().count().max(1))
+        });
+        // A long line (a profile's list) is shown around the place.
+        let from = column.saturating_sub(60);
+        let shown: String = source.chars().skip(from).take(100).collect();
+        let number = line.to_string();
+        let gutter = " ".repeat(number.len());
+        eprintln!("  {gutter}--> {name}:{line}:{column}");
+        eprintln!("  {number} | {shown}");
+        let marks = "^".repeat(length.min(100usize.saturating_sub(column - 1 - from).max(1)));
+        eprintln!("  {gutter} | {}{marks}", " ".repeat(column - 1 - from));
+    }
+    let errors = problems
+        .iter()
+        .filter(|p| p.severity == brinell::document::Severity::Error)
+        .count();
+    if errors > 1 {
+        eprintln!("{errors} errors in {name}");
+    }
+}

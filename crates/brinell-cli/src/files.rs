@@ -1,0 +1,60 @@
+//! Scenario files in.
+
+use crate::args::ScenarioArgs;
+use crate::failure::{Failure, print_problems};
+use brinell::document::{Loaded, read_bytes};
+use std::io::Read;
+use std::path::Path;
+
+/// Largest scenario read, bytes: nobody writes longer ones, and a device file never ends.
+const LARGEST: u64 = 64 << 20;
+
+/// Reads and validates a scenario; its warnings go to standard error unless `quiet`.
+pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failure> {
+    let overrides = args
+        .set
+        .iter()
+        .map(|text| match text.split_once('=') {
+            Some((key, value)) if !key.trim().is_empty() => {
+                Ok((key.trim().to_owned(), value.trim().to_owned()))
+            }
+            _ => Err(Failure::Usage(format!(
+                "--set {text}: expected KEY=VALUE, for instance --set operation.speed_rpm=3000"
+            ))),
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let bytes = bytes(&args.scenario)?;
+    let name = args.scenario.display().to_string();
+    match read_bytes(&bytes, &overrides) {
+        Ok(loaded) => {
+            if !quiet && !loaded.warnings.is_empty() {
+                print_problems(&name, &String::from_utf8_lossy(&bytes), &loaded.warnings);
+            }
+            Ok(loaded)
+        }
+        Err(problems) => Err(Failure::Scenario {
+            name,
+            text: String::from_utf8_lossy(&bytes).into_owned(),
+            problems,
+        }),
+    }
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let failed = |error| Failure::Read(path.to_owned(), error);
+    let mut bytes = Vec::new();
+    let mut take = |source: &mut dyn Read| source.take(LARGEST + 1).read_to_end(&mut bytes);
+    if path == Path::new("-") {
+        take(&mut std::io::stdin().lock()).map_err(failed)?;
+    } else {
+        take(&mut std::fs::File::open(path).map_err(failed)?).map_err(failed)?;
+    }
+    if bytes.len() as u64 > LARGEST {
+        return Err(Failure::Usage(format!(
+            "{}: larger than {} MiB; a scenario is a text file of a few kilobytes",
+            path.display(),
+            LARGEST >> 20
+        )));
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,211 @@
+//! The commands that look things up: `init`, `bearing`, `frequencies`, `schema`.
+
+use crate::args::{BearingCommand, FrequenciesArgs, InitArgs, ScenarioArgs};
+use crate::failure::Failure;
+use crate::files;
+use crate::say::say;
+use brinell::bearing::catalogue::{self, Datum, Entry};
+use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::document;
+use brinell::scenario::Speed;
+use brinell_io::atomic_write;
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
+    let template = document::template();
+    let Some(file) = &args.file else {
+        say!("{}", template.trim_end());
+        return Ok(ExitCode::SUCCESS);
+    };
+    if file.exists() && !args.force {
+        return Err(Failure::Usage(format!(
+            "{} exists; --force overwrites it",
+            file.display()
+        )));
+    }
+    atomic_write(file, template.as_bytes())?;
+    say!("wrote {0}; edit it, then: brinell run {0}", file.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+pub(crate) fn schema() -> Result<ExitCode, Failure> {
+    say!(
+        "{}",
+        serde_json::to_string_pretty(&document::json_schema()).unwrap_or_default()
+    );
+    Ok(ExitCode::SUCCESS)
+}
+
+pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
+    match command {
+        BearingCommand::List => {
+            for entry in catalogue::all() {
+                say!("{:<8} {}", entry.name, entry.title);
+            }
+            say!("\n`brinell bearing show NAME` gives every number with its source.");
+        }
+        BearingCommand::Show { name } => {
+            let entry = find(name)?;
+            say!("{}: {}", entry.name, entry.title);
+            let width = entry.values.iter().map(|v| v.key.len()).max().unwrap_or(0);
+            for value in &entry.values {
+                let estimated = if value.estimated { "estimated: " } else { "" };
+                say!(
+                    "  {:<width$}  {:>10}  {estimated}{}",
+                    value.key,
+                    datum(&value.value),
+                    value.source
+                );
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn datum(value: &Datum) -> String {
+    match value {
+        Datum::Number(x) if x.abs() >= 1e6 => format!("{x:e}"),
+        Datum::Number(x) => x.to_string(),
+        Datum::Integer(n) => n.to_string(),
+        Datum::Text(text) => text.clone(),
+    }
+}
+
+fn find(name: &str) -> Result<&'static Entry, Failure> {
+    catalogue::find(name).ok_or_else(|| {
+        let names: Vec<&str> = catalogue::all().iter().map(|e| e.name.as_str()).collect();
+        Failure::Usage(format!(
+            "no bearing {name:?} in the catalogue; it holds {}",
+            names.join(", ")
+        ))
+    })
+}
+
+/// r/min at which Hz are orders.
+const ORDERS: f64 = 60.0;
+
+pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
+    let (geometry, own_speed) = geometry(args)?;
+    let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
+    if !rpm.is_finite() || rpm == 0.0 {
+        return Err(Failure::Usage(format!(
+            "--speed {rpm}: expected a speed other than 0, in r/min"
+        )));
+    }
+    let w = rpm / 60.0 * TAU;
+    let k = Kinematics::pure_rolling(&geometry, w);
+    let rows = [
+        ("shaft", rpm.abs() / 60.0, "turns of the inner ring"),
+        ("FTF", k.ftf, "turns of the cage"),
+        (
+            "BPFO",
+            k.bpfo,
+            "rollers passing a point of the outer raceway",
+        ),
+        (
+            "BPFI",
+            k.bpfi,
+            "rollers passing a point of the inner raceway",
+        ),
+        ("BSF", k.bsf, "turns of a roller relative to the cage"),
+        ("2 BSF", 2.0 * k.bsf, "strikes of damage on a roller"),
+    ];
+    if args.json {
+        let values: serde_json::Map<String, serde_json::Value> = rows
+            .iter()
+            .map(|(name, hz, _)| {
+                (
+                    format!("{}_hz", name.to_lowercase().replace(' ', "")),
+                    (*hz).into(),
+                )
+            })
+            .chain([("speed_rpm".to_owned(), rpm.into())])
+            .collect();
+        say!("{}", serde_json::Value::Object(values));
+    } else {
+        say!("Pure rolling at {rpm} r/min, outer ring at rest");
+        for (name, hz, meaning) in rows {
+            say!(
+                "  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}",
+                hz / (rpm.abs() / 60.0)
+            );
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> {
+    let Some(bearing) = &args.bearing else {
+        return from_numbers(args).map(|g| (g, None));
+    };
+    let path = PathBuf::from(bearing);
+    if catalogue::find(bearing).is_none() && path.exists() {
+        let loaded = files::scenario(
+            &ScenarioArgs {
+                scenario: path,
+                set: Vec::new(),
+            },
+            true,
+        )?;
+        let speed = match &loaded.scenario.operation.speed_rpm {
+            Speed::Constant(rpm) => Some(*rpm),
+            Speed::Profile(_) => None,
+        };
+        return Ok((Geometry::of(&loaded.scenario.bearing), speed));
+    }
+    let entry = find(bearing)?;
+    let number = |key: &str| {
+        entry
+            .values
+            .iter()
+            .find(|v| v.key == format!("bearing.{key}"))
+            .and_then(|v| match v.value {
+                Datum::Number(x) => Some(x),
+                Datum::Integer(n) => Some(n as f64),
+                Datum::Text(_) => None,
+            })
+    };
+    let needed = |key: &str| {
+        number(key)
+            .ok_or_else(|| Failure::Usage(format!("{}: the catalogue gives no {key}", entry.name)))
+    };
+    Ok((
+        Geometry {
+            inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
+            outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
+            pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
+            roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
+            rollers_per_row: needed("rollers_per_row")? as usize,
+        },
+        None,
+    ))
+}
+
+/// Raceways follow from pitch and rollers.
+fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
+    let (Some(pitch), Some(roller), Some(rollers)) = (args.pitch, args.roller, args.rollers) else {
+        return Err(Failure::Usage(
+            "--pitch, --roller and --rollers are needed together".into(),
+        ));
+    };
+    let fits = pitch.is_finite() && roller.is_finite() && roller > 0.0 && pitch > roller;
+    if !fits {
+        return Err(Failure::Usage(format!(
+            "--pitch {pitch} --roller {roller}: expected 0 < roller < pitch, in mm"
+        )));
+    }
+    if rollers < 3 {
+        return Err(Failure::Usage(format!(
+            "--rollers {rollers}: expected at least 3"
+        )));
+    }
+    Ok(Geometry {
+        inner_raceway_diameter: 1e-3 * (pitch - roller),
+        outer_raceway_diameter: 1e-3 * (pitch + roller),
+        pitch_diameter: 1e-3 * pitch,
+        roller_diameter: 1e-3 * roller,
+        rollers_per_row: rollers,
+    })
+}

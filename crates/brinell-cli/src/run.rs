@@ -1,0 +1,275 @@
+//! `brinell run`.
+
+use crate::args::{RunArgs, SignalFormat};
+use crate::failure::{Failure, INTERRUPTED};
+use crate::progress::Progress;
+use crate::say::{say, short};
+use crate::{files, page};
+use brinell::channel::Frame;
+use brinell::document::Loaded;
+use brinell::observe::load_zone::static_load_zone;
+use brinell::observe::{Kind, Watch};
+use brinell::signal::Indicator;
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::summary::{self, Parts};
+use brinell_io::{Column, Format, IoError, Metadata, SignalWriter, atomic_write, keys};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
+    let loaded = files::scenario(&args.scenario, args.quiet)?;
+    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let folder = folder(args, &loaded);
+    std::fs::create_dir_all(&folder).map_err(|error| {
+        Failure::Usage(format!(
+            "cannot make the folder {}: {error}",
+            folder.display()
+        ))
+    })?;
+    // What a reader needs to make sense of a partial run comes first.
+    atomic_write(folder.join("scenario.toml"), loaded.to_toml().as_bytes())?;
+    let writers = writers(args, &loaded, &simulation, &folder)?;
+
+    let mut recorder = Recorder {
+        watch: Watch::new(&loaded.scenario, &simulation),
+        simulation: &simulation,
+        row: vec![0.0; simulation.channels().len() + 1],
+        writers,
+        failed: None,
+        progress: Progress::new(loaded.scenario.simulation.duration_s, args.quiet),
+        stop: stop_flag()?,
+    };
+    let outcome = simulation.run(&mut recorder);
+    recorder.progress.finish();
+    let elapsed = recorder.progress.elapsed();
+    if let Some(error) = recorder.failed {
+        return Err(error.into());
+    }
+    let interrupted = recorder.stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
+    let ending = match &outcome.end {
+        End::Complete => brinell_io::Outcome::Complete,
+        End::Stopped => brinell_io::Outcome::Partial("interrupted".into()),
+        End::Failed(error) => brinell_io::Outcome::Partial(error.to_string()),
+    };
+    let mut written = Vec::new();
+    for writer in recorder.writers {
+        written.push(writer.finish(ending.clone())?);
+    }
+    let findings = recorder.watch.finish(&simulation);
+    let statics = static_load_zone(simulation.model());
+    let parts = Parts {
+        loaded: &loaded,
+        simulation: &simulation,
+        outcome: &outcome,
+        findings: &findings,
+        statics: &statics,
+    };
+    let path = folder.join("summary.json");
+    let text = serde_json::to_string_pretty(&summary::to_json(&parts)).unwrap_or_default() + "\n";
+    atomic_write(&path, text.as_bytes())?;
+    written.push(path);
+    if !args.no_report {
+        let path = folder.join("report.html");
+        atomic_write(
+            &path,
+            brinell_report::html(&page::report(&parts)).as_bytes(),
+        )?;
+        written.push(path);
+    }
+    if !args.quiet {
+        tell(&parts, elapsed, &written);
+    }
+    match outcome.end {
+        End::Failed(error) => Err(Failure::Run(error)),
+        End::Stopped if interrupted => Ok(ExitCode::from(INTERRUPTED)),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+fn folder(args: &RunArgs, loaded: &Loaded) -> PathBuf {
+    args.output.clone().unwrap_or_else(|| {
+        // A name is free text; a folder's is not.
+        let safe = |c: char| {
+            if c.is_alphanumeric() || "-_.".contains(c) {
+                c
+            } else {
+                '_'
+            }
+        };
+        let name: String = loaded.scenario.name.chars().map(safe).collect();
+        let name = name.trim_matches('.');
+        Path::new("out").join(if name.is_empty() { "run" } else { name })
+    })
+}
+
+fn writers(
+    args: &RunArgs,
+    loaded: &Loaded,
+    simulation: &Simulation,
+    folder: &Path,
+) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
+    let columns: Vec<Column> = std::iter::once(Column::new("t", "s", "time"))
+        .chain(
+            simulation
+                .channels()
+                .iter()
+                .map(|c| Column::new(&c.name, c.unit, &c.description)),
+        )
+        .collect();
+    let metadata = Metadata::default()
+        .with(keys::SCENARIO, loaded.to_toml())
+        .with(keys::VERSION, brinell::VERSION)
+        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
+    let mut formats: Vec<Format> = Vec::new();
+    for format in &args.signals {
+        let format = match format {
+            SignalFormat::Csv => Format::Csv,
+            SignalFormat::Parquet => Format::Parquet,
+            SignalFormat::None => continue,
+        };
+        if !formats.contains(&format) {
+            formats.push(format);
+        }
+    }
+    let make = |format: Format| {
+        format
+            .create(folder, &columns, &metadata)
+            .map_err(Failure::from)
+    };
+    formats.into_iter().map(make).collect()
+}
+
+/// Set by Ctrl-C; a second Ctrl-C ends the process at once.
+fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    })
+    .map_err(|error| Failure::Usage(format!("cannot listen for Ctrl-C: {error}")))?;
+    Ok(stop)
+}
+
+struct Recorder<'a> {
+    simulation: &'a Simulation,
+    watch: Watch,
+    row: Vec<f64>,
+    writers: Vec<Box<dyn SignalWriter>>,
+    failed: Option<IoError>,
+    progress: Progress,
+    stop: Arc<AtomicBool>,
+}
+
+impl Observer for Recorder<'_> {
+    fn step(&mut self, frame: &Frame) {
+        self.watch.step(frame);
+    }
+
+    fn sample(&mut self, _: u64, frame: &Frame) {
+        self.watch.sample(frame);
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.watch.row(self.simulation, index, row, filtered);
+        self.row[0] = index as f64 / self.simulation.sample_rate();
+        self.row[1..].copy_from_slice(row);
+        for writer in &mut self.writers {
+            if let Err(error) = writer.write_row(&self.row) {
+                self.failed = Some(error);
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.progress.at(t);
+        if self.stop.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// A few lines on what came out.
+fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
+    let Parts {
+        outcome,
+        findings,
+        loaded,
+        ..
+    } = *parts;
+    let reached = outcome.rows.saturating_sub(1) as f64 / parts.simulation.sample_rate();
+    match &outcome.end {
+        End::Complete => {}
+        End::Stopped => say!("Interrupted: the results are partial, up to t = {reached:.4} s."),
+        End::Failed(error) => {
+            say!("Failed: the results are partial, up to t = {reached:.4} s. {error}")
+        }
+    }
+    say!(
+        "{}: {reached} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
+        loaded.scenario.name,
+        reached / elapsed,
+        outcome.work.solver.steps,
+        outcome.work.solver.evaluations + outcome.work.sample_evaluations,
+    );
+    for channel in &findings.channels {
+        if channel.kind != Kind::AntiAliased || !channel.name.starts_with("measured_") {
+            continue;
+        }
+        let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {
+            continue;
+        };
+        let interval = rms.interval.map_or(String::new(), |i| {
+            format!(" (95 %: {} to {})", short(i.low, 3), short(i.high, 3))
+        });
+        let other = |i: Indicator| {
+            channel
+                .blocks
+                .estimate(i)
+                .map_or("-".into(), |e| short(e.value, 3))
+        };
+        say!(
+            "  {}: RMS {}{interval} m/s^2, peak to peak {}, kurtosis {}",
+            channel.name,
+            short(rms.value, 3),
+            other(Indicator::PeakToPeak),
+            other(Indicator::Kurtosis),
+        );
+    }
+    for line in &findings.lines {
+        let found = line.found.map_or("not found in the envelope".into(), |f| {
+            format!(
+                "{:.2} Hz ± {} in the envelope",
+                f.frequency,
+                short(f.uncertainty, 1)
+            )
+        });
+        say!(
+            "  defect {}: {} {found}; pure rolling {:.2} Hz",
+            line.defect + 1,
+            line.name,
+            line.nominal
+        );
+    }
+    let energy = &outcome.energy;
+    say!(
+        "  energy audit closes to {} of the turnover, momentum to {}",
+        short(
+            energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE),
+            1
+        ),
+        outcome
+            .momentum_imbalance
+            .map_or("(rigid mount)".into(), |x| short(x, 1)),
+    );
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
+}

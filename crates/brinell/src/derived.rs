@@ -1,0 +1,104 @@
+//! What follows from a scenario before anything moves: stiffnesses, time scales, the static load zone. SI.
+
+use crate::bearing::Kinematics;
+use crate::model::Model;
+use crate::observe::load_zone::{StaticLoadZone, static_load_zone};
+use crate::scenario::{Accuracy, LoadOn};
+use crate::simulate::settings;
+use crate::statics::NoBalance;
+use std::f64::consts::TAU;
+
+/// Derived quantities, as `brinell check` prints them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derived {
+    /// Largest |speed| of the run, rad/s; the frequencies below hold there.
+    pub top_speed: f64,
+    /// Pure-rolling speeds and defect frequencies at the top speed.
+    pub kinematics: Kinematics,
+    /// Static load distribution under the full load.
+    pub statics: Result<StaticLoadZone, NoBalance>,
+    /// Force of the heaviest contact that the linear quantities below are taken at, N.
+    pub contact_force: f64,
+    /// d Q/d delta of the inner and the outer contact at that force, N/m.
+    pub contact_stiffness: [f64; 2],
+    /// Natural frequency of a roller between its raceways, Hz.
+    pub roller_frequency: f64,
+    /// Damping ratio of that motion.
+    pub roller_damping_ratio: f64,
+    /// Natural frequencies of the rings on their supports alone, inner and outer, Hz.
+    pub support_frequencies: [f64; 2],
+    /// Centrifugal force of a roller, N.
+    pub centrifugal_force: f64,
+    /// Time between rollers at a point of the outer raceway, s.
+    pub roller_period: f64,
+    /// Time that a roller takes over each defect at the top speed, s.
+    pub defect_passes: Vec<f64>,
+    /// Longest step that the solver may take, s.
+    pub longest_step: f64,
+    /// Load times clearance bound of section 12: the support's force over the clearance, N, and the load, N.
+    pub support_share: (f64, f64),
+}
+
+impl Derived {
+    /// Of a model.
+    pub fn new(model: &Model, accuracy: Accuracy) -> Self {
+        let g = &model.geometry;
+        let m = &model.inertia;
+        let top_speed = model.rotation.max_speed();
+        let kinematics = model.kinematics(top_speed);
+        let statics = static_load_zone(model);
+        let centrifugal_force = m.roller * g.pitch_radius * kinematics.orbit_speed.powi(2);
+        let contact_force = statics
+            .as_ref()
+            .map_or(0.0, |z| z.largest)
+            .max(centrifugal_force);
+        let contact_stiffness = [&model.inner_contact, &model.outer_contact]
+            .map(|law| law.tangent(law.deflection(contact_force), None));
+        let between = contact_stiffness[0] + contact_stiffness[1];
+        let roller_angular = (between / m.roller).sqrt();
+        let damping = model.inner_contact.damping + model.outer_contact.damping;
+        let natural = |stiffness: f64, mass: f64| (stiffness / mass).sqrt() / TAU;
+        let (loaded, load) = match model.load.on {
+            LoadOn::OuterRing => (model.acting_outer_support(), model.load.full),
+            LoadOn::InnerRing => (model.inner_support, model.load.full),
+        };
+        Self {
+            top_speed,
+            kinematics,
+            contact_force,
+            contact_stiffness,
+            roller_frequency: roller_angular / TAU,
+            roller_damping_ratio: if roller_angular > 0.0 {
+                damping / (2.0 * m.roller * roller_angular)
+            } else {
+                0.0
+            },
+            support_frequencies: [
+                natural(model.inner_support.stiffness, m.inner_ring),
+                natural(model.acting_outer_support().stiffness, m.outer_ring),
+            ],
+            centrifugal_force,
+            roller_period: 1.0 / kinematics.bpfo,
+            defect_passes: model
+                .defects
+                .iter()
+                .map(|d| {
+                    let (first, last) = d.shape.arc();
+                    let (_, frequency) = kinematics.struck_by(d.surface);
+                    // One turn of the surface past the contacts takes Z (raceways) or 2 (a roller) strikes.
+                    let strikes = match d.surface {
+                        crate::scenario::Surface::Roller(_) => 2.0,
+                        _ => model.layout.rollers_per_row as f64,
+                    };
+                    (last - first) / (TAU * d.radius * frequency / strikes)
+                })
+                .collect(),
+            longest_step: settings(model, accuracy).max_step,
+            support_share: (
+                loaded.stiffness * g.clearance.max(0.0),
+                load[0].hypot(load[1]),
+            ),
+            statics,
+        }
+    }
+}
