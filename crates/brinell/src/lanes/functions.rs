@@ -37,7 +37,7 @@ pub fn sin_cos<L: Lanes>(x: L) -> (L, L) {
         polynomial(
             z,
             [
-                1.589_623_015_765_465_68e-10,
+                1.589_623_015_765_465_7e-10,
                 -2.505_074_776_285_780_7e-8,
                 2.755_731_362_138_572_5e-6,
                 -1.984_126_982_958_954e-4,
@@ -158,11 +158,12 @@ mod tests {
     use super::*;
 
     type Group = [f64; WIDTH];
+    type Function = fn(Group) -> Group;
 
     /// A function on arrays for each implementation that this processor has.
     macro_rules! each {
         ($function:expr) => {{
-            let portable: fn(Group) -> Group = |x| {
+            let portable: Function = |x| {
                 let f = $function;
                 Lanes::array(f(Portable::new(x)))
             };
@@ -195,7 +196,7 @@ mod tests {
 
     fn check(
         range: (f64, f64),
-        all: Vec<(&'static str, fn(Group) -> Group)>,
+        all: Vec<(&'static str, Function)>,
         error: impl Fn(f64, f64) -> f64,
         limit: f64,
     ) {

@@ -52,7 +52,7 @@ impl Layout {
     /// Slots after which the pattern of rows over groups of lanes repeats.
     pub fn row_period(&self) -> usize {
         let mut period = LANES;
-        while period % self.rows != 0 {
+        while !period.is_multiple_of(self.rows) {
             period += LANES;
         }
         period
