@@ -260,8 +260,9 @@ fn rollers<L: Lanes>(
             let rate = L::load(&contacts.approach_rate[at..]);
             let pressed = rate.times_plus(damping[k], elastic).positive_part();
             normal[k] = elastic.if_above(L::zero(), pressed, L::zero());
-            // Outside the load zone whole groups of inner contacts are open.
-            if normal[k].any_positive() {
+            // Outside the load zone whole groups of inner contacts are open. A contact that parts faster than its damper lets it push
+            // carries no force, but still loses its elastic energy.
+            if elastic.any_positive() {
                 friction[k] = mu * normal[k] * lanes::tanh(slip[k] * per_slip);
                 p_contact += (normal[k] - elastic) * rate;
                 p_friction += friction[k] * slip[k];
