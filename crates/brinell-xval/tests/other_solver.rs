@@ -34,8 +34,7 @@ fn model(path: &str) -> (Model, f64) {
         .join("../brinell/tests")
         .join(path);
     let text = std::fs::read_to_string(&path).unwrap();
-    let loaded =
-        document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
+    let loaded = document::read(&text, &[]).unwrap_or_else(|p| panic!("{}: {p:?}", path.display()));
     let model = Model::new(&loaded.scenario).unwrap();
     (model, loaded.scenario.simulation.sample_rate_hz)
 }
@@ -73,12 +72,13 @@ impl<'a> Record<'a> {
     }
 }
 
-/// Our solver at `reference` accuracy.
-fn ours(model: &Model, channels: &[Channel], times: &[f64]) -> Vec<Vec<f64>> {
+/// Our solver, with `share` of the tolerance of `reference` accuracy.
+fn ours(model: &Model, channels: &[Channel], times: &[f64], share: f64) -> Vec<Vec<f64>> {
     let mut record = Record::new(model, channels);
     let mut motion = Motion::new(model);
     let mut y = start::state(model).unwrap();
-    let settings = simulate::settings(model, Accuracy::Reference);
+    let mut settings = simulate::settings(model, Accuracy::Reference);
+    settings.tolerance *= share;
     let mut stepper = Stepper::new(&mut motion, settings, 0.0, &y);
     for &t in times {
         while stepper.t() < t {
@@ -87,7 +87,7 @@ fn ours(model: &Model, channels: &[Channel], times: &[f64]) -> Vec<Vec<f64>> {
         stepper.interpolate(t, &mut y);
         record.push(t, &y);
     }
-    println!("ours: {:?}", stepper.work());
+    println!("ours at {share} of the tolerance: {:?}", stepper.work());
     record.columns
 }
 
@@ -176,7 +176,11 @@ fn theirs(
     let atol: Vec<f64> = coordinates
         .iter()
         .map(|&(k, lever)| {
-            let size = if k < half { tolerance.length } else { tolerance.speed };
+            let size = if k < half {
+                tolerance.length
+            } else {
+                tolerance.speed
+            };
             size / lever
         })
         .collect();
@@ -243,12 +247,8 @@ fn theirs(
 /// Step of the Jacobian's differences, in tolerances.
 const DIFFERENCE: f64 = 1e3;
 
-fn run<E>(
-    problem: &OdeSolverProblem<E>,
-    method: Method,
-    times: &[f64],
-    at: impl FnMut(f64, &[f64]),
-) where
+fn run<E>(problem: &OdeSolverProblem<E>, method: Method, times: &[f64], at: impl FnMut(f64, &[f64]))
+where
     E: diffsol::OdeEquationsImplicit<
             T = f64,
             V = diffsol::NalgebraVec<f64>,
@@ -274,50 +274,129 @@ fn difference(ours: &[f64], theirs: &[f64], times: &[f64]) -> f64 {
     if num == 0.0 { 0.0 } else { (num / den).sqrt() }
 }
 
-fn compare(path: &str, duration: f64, method: Method, tolerance: Tolerance) {
-    let (model, rate) = model(path);
-    let patterns: Vec<String> = CHANNELS.map(str::to_owned).to_vec();
-    let (channels, idle) = channel::select(&model, &patterns);
-    assert!(idle.is_empty(), "{idle:?}");
-    let times: Vec<f64> = (0..=(duration * rate) as u64)
-        .map(|k| k as f64 / rate)
-        .collect();
-    let a = ours(&model, &channels, &times);
-    let b = theirs(&model, &channels, &times, method, &tolerance);
-    let mut worst: std::collections::BTreeMap<String, (f64, String)> = Default::default();
-    for (k, channel) in channels.iter().enumerate() {
-        let d = difference(&a[k], &b[k], &times);
-        let class = channel.name.split_once('_').unwrap();
-        let class = format!("{}_{}", if class.0.starts_with("roller") {"roller"} else {class.0}, class.1.split_once('_').filter(|_| class.0.starts_with("roller")).map_or(class.1, |x| x.1));
-        let e = worst.entry(class).or_insert((-1.0, String::new()));
-        if d > e.0 { *e = (d, channel.name.clone()); }
-    }
-    for (class, (d, name)) in worst { println!("{class:24} {d:.2e} {name}"); }
+/// What a channel's limit goes by.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Displacement,
+    Rate,
+    Acceleration,
 }
 
-const TIGHT: Tolerance = Tolerance { length: 1e-13, speed: 1e-8 };
+impl Kind {
+    fn of(channel: &Channel) -> Self {
+        match channel.unit {
+            "m" => Self::Displacement,
+            "m/s" | "rad/s" => Self::Rate,
+            "m/s^2" => Self::Acceleration,
+            unit => panic!("{}: {unit}", channel.name),
+        }
+    }
+}
+
+/// Limits on the relative difference of displacements, rates and accelerations.
+type Limits = [f64; 3];
+
+/// Our `reference` accuracy against Tsitouras. Worst found: 3e-5, 1.5e-4 and 8e-4, all in the heavy load, where a profile's steps
+/// make forces of kilonewtons jump; elsewhere 2e-5, 5e-5 and 2.5e-4, across the load, where a channel is small and the
+/// shift of an impact's instant weighs more.
+const REFERENCE: Limits = [1e-4, 5e-4, 3e-3];
+/// The same with a hundredth of our tolerance. Worst found: 3e-6, 1.5e-5 and 9e-5. So what is seen at `reference` accuracy is our
+/// tolerance, and both solvers tend to one trajectory.
+const HUNDREDTH: Limits = [1e-5, 5e-5, 3e-4];
+/// The implicit method at its looser tolerance, which is what is seen in y across the load (1.3e-4); accelerations come as near as
+/// Tsitouras's.
+const IMPLICIT: Limits = [5e-4, 5e-4, 1e-3];
+
+struct Case {
+    path: &'static str,
+    duration: f64,
+    method: Method,
+    tolerance: Tolerance,
+}
+
+impl Case {
+    fn check(&self, rungs: &[(f64, Limits)]) {
+        let (model, rate) = model(self.path);
+        let patterns: Vec<String> = CHANNELS.map(str::to_owned).to_vec();
+        let (channels, idle) = channel::select(&model, &patterns);
+        assert!(idle.is_empty(), "{idle:?}");
+        let times: Vec<f64> = (0..=(self.duration * rate) as u64)
+            .map(|k| k as f64 / rate)
+            .collect();
+        let b = theirs(&model, &channels, &times, self.method, &self.tolerance);
+        let mut failures = Vec::new();
+        for &(share, limits) in rungs {
+            let a = ours(&model, &channels, &times, share);
+            let mut worst = [(0.0, ""); 3];
+            for ((channel, a), b) in channels.iter().zip(&a).zip(&b) {
+                let kind = Kind::of(channel) as usize;
+                let d = difference(a, b, &times);
+                if d > worst[kind].0 {
+                    worst[kind] = (d, &channel.name);
+                }
+                if d.is_nan() || d > limits[kind] {
+                    failures.push(format!(
+                        "{} at {share} of our tolerance: {} differs by {d:.2e}, limit {:.0e}",
+                        self.path, channel.name, limits[kind]
+                    ));
+                }
+            }
+            println!("{} at {share} of our tolerance: {worst:?}", self.path);
+        }
+        assert!(failures.is_empty(), "{}", failures.join("\n"));
+    }
+}
+
+/// An explicit case: both rungs.
+fn tsit45(path: &'static str) {
+    let case = Case {
+        path,
+        duration: 8e-3,
+        method: Method::Tsit45,
+        tolerance: Tolerance {
+            length: 1e-15,
+            speed: 1e-10,
+        },
+    };
+    case.check(&[(1.0, REFERENCE), (0.01, HUNDREDTH)]);
+}
 
 #[test]
 fn xval_tsit45_outer_rectangle() {
-    compare("reference/outer-rectangle.toml", 8e-3, Method::Tsit45, TIGHT);
+    tsit45("reference/outer-rectangle.toml");
 }
+
 #[test]
 fn xval_tsit45_inner_defect_gravity() {
-    compare("reference/inner-defect-gravity.toml", 8e-3, Method::Tsit45, TIGHT);
+    tsit45("reference/inner-defect-gravity.toml");
 }
+
 #[test]
 fn xval_tsit45_roller_defect() {
-    compare("xval/roller-defect.toml", 8e-3, Method::Tsit45, TIGHT);
+    tsit45("xval/roller-defect.toml");
 }
+
 #[test]
 fn xval_tsit45_heavy_load_profile() {
-    compare("xval/heavy-load-profile.toml", 8e-3, Method::Tsit45, TIGHT);
+    tsit45("xval/heavy-load-profile.toml");
 }
+
 #[test]
 fn xval_tsit45_equilibrium() {
-    compare("xval/equilibrium.toml", 8e-3, Method::Tsit45, TIGHT);
+    tsit45("xval/equilibrium.toml");
 }
+
+/// An implicit method on the same equations: shorter and looser, for its Jacobian is dense and its order lower.
 #[test]
 fn xval_esdirk34_outer_rectangle() {
-    compare("reference/outer-rectangle.toml", 3e-3, Method::Esdirk34, TIGHT);
+    let case = Case {
+        path: "reference/outer-rectangle.toml",
+        duration: 3e-3,
+        method: Method::Esdirk34,
+        tolerance: Tolerance {
+            length: 1e-13,
+            speed: 1e-8,
+        },
+    };
+    case.check(&[(1.0, IMPLICIT)]);
 }

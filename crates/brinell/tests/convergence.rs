@@ -70,11 +70,9 @@ impl System for Oscillators {
     }
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let (sin, cos) = (t * t).sin_cos();
-        let _ = sin;
         dy[..2].copy_from_slice(&y[2..]);
         dy[2] = y[0].powi(-3) - y[0];
-        dy[3] = 2.0 * cos - 4.0 * t * t * y[1];
+        dy[3] = 2.0 * (t * t).cos() - 4.0 * t * t * y[1];
         self.flow = 1.0 / (y[0] * y[0]);
     }
 
@@ -84,7 +82,11 @@ impl System for Oscillators {
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b) * (a - b))
+        .sum::<f64>()
+        .sqrt()
 }
 
 /// Points within a step where its dense output is looked at.
@@ -167,19 +169,27 @@ impl Acting {
         let contacts = || ws.contacts.iter();
         let sign = |f: &f64| i8::from(*f > 0.0) - i8::from(*f < 0.0);
         Self {
-            closed: contacts().flat_map(|c| c.force.iter().map(|f| *f > 0.0)).collect(),
+            closed: contacts()
+                .flat_map(|c| c.force.iter().map(|f| *f > 0.0))
+                .collect(),
             pocket: ws.pocket_force.iter().map(sign).collect(),
-            on_damage: contacts().flat_map(|c| c.on_damage.iter().copied()).collect(),
+            on_damage: contacts()
+                .flat_map(|c| c.on_damage.iter().copied())
+                .collect(),
         }
     }
 }
 
-/// The longest stretch between two switches, no roller on damage, and the state at its start.
+/// Share of a stretch left out at each of its ends. A contact that has just closed or is about to open stands near delta = 0, where
+/// delta^(10/9) is not smooth, and no step is short enough there for an order to show.
+const MARGIN: f64 = 0.1;
+
+/// The longest stretch between two switches, no roller on damage, without its margins; and the state at its start.
 fn quiet_stretch(model: &Model, from: f64, to: f64) -> (f64, f64, Vec<f64>) {
     let mut motion = Motion::new(model);
     let settings = simulate::settings(model, Accuracy::Reference);
     let initial = start::state(model).unwrap();
-    let mut stepper = Stepper::new(&mut motion, settings, 0.0, &initial);
+    let mut stepper = Stepper::new(&mut motion, settings.clone(), 0.0, &initial);
     while stepper.t() < from {
         stepper.step(&mut motion).unwrap();
     }
@@ -198,10 +208,23 @@ fn quiet_stretch(model: &Model, from: f64, to: f64) -> (f64, f64, Vec<f64>) {
             acting = now;
         }
     }
-    best
+    let (from, to, first) = best;
+    let margin = MARGIN * (to - from);
+    let mut stepper = Stepper::new(&mut motion, settings, from, &first);
+    while stepper.t() < from + margin {
+        stepper.step(&mut motion).unwrap();
+    }
+    (stepper.t(), to - margin, stepper.y().to_vec())
 }
 
-/// Between two switches the bearing is smooth, and the order is the method's there: against a step eight times as short as
+/// The longest step, s: the fastest contact decays in about as long.
+const LONGEST: f64 = 3.2e-6;
+/// Halvings of it that are compared, the first included.
+const LEVELS: i32 = 5;
+/// Of these, the ones whose audit stands well above its round-off, about 5e-16 J.
+const AUDITED: usize = 3;
+
+/// Between two switches the bearing is smooth, and the order is the method's there: against steps eight times as short as
 /// the shortest, and against the energy audit, which needs no other solution.
 #[test]
 fn analytic_order_on_the_bearing_between_switches() {
@@ -221,10 +244,6 @@ fn analytic_order_on_the_bearing_between_switches() {
             .sum();
         sum.sqrt()
     };
-    // Stay clear of the switch that ends the stretch, wherever within its step it lies.
-    let to = from + 0.95 * (to - from);
-    let longest = 1e-6;
-    let levels = 4;
     let run = |step: f64, at: &mut dyn FnMut(&Stepper<_>)| {
         let mut motion = Motion::new(&model);
         let mut stepper = Stepper::new(&mut motion, fixed(step, mass.clone()), from, &first);
@@ -242,7 +261,9 @@ fn analytic_order_on_the_bearing_between_switches() {
         residual
     };
     // Grid of the comparisons, the same for all.
-    let grid: Vec<f64> = (1..40).map(|k| from + (to - from) * f64::from(k) / 40.0).collect();
+    let grid: Vec<f64> = (1..40)
+        .map(|k| from + (to - from) * f64::from(k) / 40.0)
+        .collect();
     let sample = |step: f64| {
         let mut states = Vec::new();
         let mut y = vec![0.0; first.len()];
@@ -255,10 +276,10 @@ fn analytic_order_on_the_bearing_between_switches() {
         assert_eq!(states.len(), grid.len());
         (states, residual)
     };
-    let (exact, _) = sample(longest * 0.5f64.powi(levels + 2));
+    let (exact, _) = sample(LONGEST * 0.5f64.powi(LEVELS + 2));
     let mut errors = [Vec::new(), Vec::new()];
-    for level in 0..levels {
-        let (states, residual) = sample(longest * 0.5f64.powi(level));
+    for level in 0..LEVELS {
+        let (states, residual) = sample(LONGEST * 0.5f64.powi(level));
         errors[0].push(
             states
                 .iter()
@@ -269,5 +290,5 @@ fn analytic_order_on_the_bearing_between_switches() {
         errors[1].push(residual);
     }
     assert_order("bearing, dense output", &errors[0], ORDER, NEAR);
-    assert_order("bearing, energy audit", &errors[1], ORDER, NEAR);
+    assert_order("bearing, energy audit", &errors[1][..AUDITED], ORDER, NEAR);
 }
