@@ -3,11 +3,11 @@
 mod common;
 
 use brinell::model::{Model, Motion};
-use brinell::scenario::{Accuracy, Defect, Scenario, Shape, Speed, Surface};
+use brinell::scenario::{Accuracy, Defect, Scenario, Shape, Speed, Start, Surface};
 use brinell::simulate::settings;
 use brinell::solver::Stepper;
 use brinell::start;
-use common::cases::{case, healthy, rectangle};
+use common::cases::{Random, case, healthy, rectangle};
 use common::{Rows, simulate_rows};
 use std::f64::consts::TAU;
 
@@ -139,30 +139,50 @@ impl Change {
         out
     }
 
-    /// Largest relative difference between the changed run and the run of the changed scenario.
-    fn deviation(&self, s: &Scenario) -> f64 {
+    /// Holds the changed run against the run of the changed scenario.
+    fn assert_holds(&self, name: &str, s: &Scenario) {
         let model = Model::new(s).unwrap();
         let changed = Model::new(&self.scenario(s)).unwrap();
         let y = start::state(&model).unwrap();
-        let expected: Vec<Vec<f64>> = trajectory(&model, &y)
-            .iter()
-            .map(|y| self.state(&changed, y))
-            .collect();
+        let base = trajectory(&model, &y);
+        let expected: Vec<Vec<f64>> = base.iter().map(|y| self.state(&changed, y)).collect();
         let found = trajectory(&changed, &self.state(&changed, &y));
-        difference(&changed, &expected, &found)
+        let deviation = difference(&changed, &expected, &found);
+        // What round-off alone makes of this run: the same equations from a start that differs in the last bits.
+        let round_off = (1..=3)
+            .map(|seed| {
+                let mut random = Random::new(seed);
+                let nudge = |y: &f64| y * (1.0 + 4.0 * f64::EPSILON * random.signed());
+                let nudged: Vec<f64> = y.iter().map(nudge).collect();
+                difference(&model, &base, &trajectory(&model, &nudged))
+            })
+            .fold(0.0, f64::max);
+        println!("{name}: {deviation:.1e}, round-off {round_off:.1e}");
+        assert!(
+            deviation < LARGEST && deviation < (100.0 * round_off).max(1e-10),
+            "{name}: {deviation:e}, round-off {round_off:e}"
+        );
     }
 }
+
+/// Impacts make round-off grow: from the drop of the `rolling` start, where every roller bounces, to 1e-2 of the motion within 1 ms; from equilibrium to
+/// 1e-5 (NN3007) or 6e-4 (the single row under gravity) in 5 ms. Past this bound the comparison with round-off would say nothing.
+const LARGEST: f64 = 3e-3;
 
 /// Damage on every surface, a load and gravity off the axes.
 fn askew(base: Scenario) -> Scenario {
     let mut s = base;
     s.operation.load_n = [260.0, 150.0];
     s.operation.gravity_m_per_s2 = [1.0, -9.81];
-    s.operation.load_ramp_s = 1e-3;
+    s.simulation.start = Start::Equilibrium;
     s.defects[0].center_deg = 24.0;
+    s.defects[0].shape = Shape::Rectangle {
+        length_mm: 3.0,
+        width_mm: 4.0,
+    };
     s.defects.push(Defect {
         on: Surface::InnerRaceway,
-        row: 2,
+        row: s.bearing.rows,
         center_deg: 17.0,
         depth_um: 20.0,
         shape: Shape::Profile {
@@ -181,12 +201,13 @@ fn askew(base: Scenario) -> Scenario {
     s
 }
 
-/// Round-off of angles (1e-16 rad of 27 mm against displacements of 1e-5 m: 1e-13) grows by a few orders at impacts within 5 ms.
-const ROUND_OFF_GROWN: f64 = 1e-7;
-
 #[test]
 fn prop_mirrored_bearing_moves_mirrored() {
-    for base in [rectangle(), case("xval/rest-speed-profile")] {
+    for base in [
+        rectangle(),
+        case("xval/single-row-inner-guided"),
+        case("xval/three-rows-drag-gap"),
+    ] {
         let rollers = base.bearing.rollers_per_row;
         let mirror = Change {
             roller: Box::new(move |j| (rollers - j) % rollers),
@@ -198,9 +219,7 @@ fn prop_mirrored_bearing_moves_mirrored() {
             damage: 0.0,
         };
         let s = askew(base);
-        let deviation = mirror.deviation(&s);
-        println!("{}: {deviation:.1e}", s.name);
-        assert!(deviation < ROUND_OFF_GROWN, "{deviation:e}");
+        mirror.assert_holds(&s.name, &s);
         // The same with the load left as it was is another motion: the comparison can fail.
         let mut wrong = s.clone();
         wrong.operation.load_n[1] *= -1.0;
@@ -231,12 +250,7 @@ fn prop_turned_bearing_moves_turned() {
             cage: angle,
             damage: angle,
         };
-        let deviation = turn.deviation(&s);
-        println!("by {degrees} degrees: {deviation:.1e}");
-        assert!(
-            deviation < ROUND_OFF_GROWN,
-            "by {degrees} degrees: {deviation:e}"
-        );
+        turn.assert_holds(&format!("by {degrees} degrees"), &s);
     }
 }
 
@@ -256,12 +270,7 @@ fn prop_bearing_turned_by_pitches_moves_turned() {
             cage: 0.0,
             damage: angle,
         };
-        let deviation = turn.deviation(&s);
-        println!("by {pitches} pitches: {deviation:.1e}");
-        assert!(
-            deviation < ROUND_OFF_GROWN,
-            "by {pitches} pitches: {deviation:e}"
-        );
+        turn.assert_holds(&format!("by {pitches} pitches"), &s);
     }
 }
 
