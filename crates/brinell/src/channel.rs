@@ -167,7 +167,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
         return law.stiffness * share;
     }
     let healthy = match model.kind {
-        ModelKind::Full => law.healthy(c.approach[slot]),
+        ModelKind::Full => law.stiffness * c.power[slot],
         ModelKind::Reference => model.series_contact.healthy(c.approach[slot]),
     };
     // Equal forces must give the healthy stiffness to the bit.
