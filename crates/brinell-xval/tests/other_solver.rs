@@ -9,7 +9,7 @@ use brinell::channel::{self, Channel, Frame};
 use brinell::model::{Model, Motion};
 use brinell::scenario::Accuracy;
 use brinell::solver::{Stepper, System};
-use brinell::{document, simulate, start};
+use brinell::{accuracy, document, start};
 use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem,
 };
@@ -77,7 +77,7 @@ fn ours(model: &Model, channels: &[Channel], times: &[f64], share: f64) -> Vec<V
     let mut record = Record::new(model, channels);
     let mut motion = Motion::new(model);
     let mut y = start::state(model).unwrap();
-    let mut settings = simulate::settings(model, Accuracy::Reference);
+    let mut settings = accuracy::settings(model, Accuracy::Reference);
     settings.tolerance *= share;
     let mut stepper = Stepper::new(&mut motion, settings, 0.0, &y);
     for &t in times {

@@ -1,10 +1,10 @@
 //! What follows from a scenario before anything moves: stiffnesses, time scales, the static load zone. SI.
 
+use crate::accuracy::settings;
 use crate::bearing::Kinematics;
 use crate::model::Model;
 use crate::observe::load_zone::{StaticLoadZone, static_load_zone};
 use crate::scenario::{Accuracy, LoadOn};
-use crate::simulate::settings;
 use crate::statics::NoBalance;
 use std::f64::consts::TAU;
 

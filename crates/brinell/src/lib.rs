@@ -1,5 +1,6 @@
 //! Vibration of rolling bearings with real damage, from first principles.
 
+pub mod accuracy;
 pub mod bearing;
 pub mod cage;
 pub mod channel;

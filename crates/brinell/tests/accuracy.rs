@@ -2,9 +2,9 @@
 
 mod common;
 
+use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Scenario, Start};
-use brinell::simulate::settings;
 use brinell::solver::{Settings, Stepper, System};
 use brinell::start;
 use brinell::statics::{self, Problem};

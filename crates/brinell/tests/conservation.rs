@@ -2,10 +2,10 @@
 
 mod common;
 
+use brinell::accuracy::{settings, tolerance};
 use brinell::defect::{Angles, SIDES, energy};
 use brinell::model::{Energy, Model, Motion, Power, imbalance};
 use brinell::scenario::{Accuracy, Guidance, LoadOn, ModelKind, Scenario, Start};
-use brinell::simulate::{settings, tolerance};
 use brinell::solver::{Stepper, System};
 use brinell::start;
 use common::cases::{every_term, random_state, rectangle};

@@ -7,7 +7,7 @@ use brinell::document;
 use brinell::model::{Energy, Model, Motion};
 use brinell::scenario::Accuracy;
 use brinell::solver::{BOGACKI_SHAMPINE, Settings, Stepper, System};
-use brinell::{simulate, start};
+use brinell::{accuracy, start};
 use std::path::Path;
 
 /// Order of the pair.
@@ -187,7 +187,7 @@ const MARGIN: f64 = 0.1;
 /// The longest stretch between two switches, no roller on damage, without its margins; and the state at its start.
 fn quiet_stretch(model: &Model, from: f64, to: f64) -> (f64, f64, Vec<f64>) {
     let mut motion = Motion::new(model);
-    let settings = simulate::settings(model, Accuracy::Reference);
+    let settings = accuracy::settings(model, Accuracy::Reference);
     let initial = start::state(model).unwrap();
     let mut stepper = Stepper::new(&mut motion, settings.clone(), 0.0, &initial);
     while stepper.t() < from {

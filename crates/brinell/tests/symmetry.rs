@@ -2,9 +2,9 @@
 
 mod common;
 
+use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Defect, Scenario, Shape, Speed, Start, Surface};
-use brinell::simulate::settings;
 use brinell::solver::Stepper;
 use brinell::start;
 use common::cases::{Random, case, healthy, rectangle};
