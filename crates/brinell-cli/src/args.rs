@@ -73,6 +73,9 @@ pub(crate) struct RunArgs {
         value_name = "FORMAT"
     )]
     pub(crate) signals: Vec<SignalFormat>,
+    /// Also write each picture of the report into FOLDER/plots, as files of these formats
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
+    pub(crate) plots: Vec<PlotFormat>,
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
@@ -90,6 +93,15 @@ pub(crate) enum SignalFormat {
     Parquet,
     /// No signal file
     None,
+}
+
+/// Formats of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlotFormat {
+    /// Vector drawing
+    Svg,
+    /// Pixels, twice the drawing's size
+    Png,
 }
 
 #[derive(Debug, Args)]

@@ -24,6 +24,8 @@ pub(crate) enum Failure {
     Read(PathBuf, std::io::Error),
     /// A result cannot be written.
     Write(IoError),
+    /// A picture cannot be drawn.
+    Picture(brinell_report::Error),
     /// The run failed.
     Run(RunError),
 }
@@ -34,7 +36,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => 2,
             Self::Run(RunError::Model(_) | RunError::NoBalance(_)) => 2,
-            Self::Write(_) | Self::Run(_) => 1,
+            Self::Write(_) | Self::Picture(_) | Self::Run(_) => 1,
         })
     }
 
@@ -49,6 +51,7 @@ impl Failure {
             Self::Usage(message) => eprintln!("error: {message}"),
             Self::Read(path, error) => eprintln!("error: cannot read {}: {error}", path.display()),
             Self::Write(error) => eprintln!("error: {error}"),
+            Self::Picture(error) => eprintln!("error: {error}"),
             Self::Run(error) => eprintln!("error: {error}"),
         }
     }

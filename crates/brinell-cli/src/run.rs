@@ -1,6 +1,6 @@
 //! `brinell run`.
 
-use crate::args::{RunArgs, SignalFormat};
+use crate::args::{PlotFormat, RunArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::progress::Progress;
 use crate::say::{say, short};
@@ -23,12 +23,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let loaded = files::scenario(&args.scenario, args.quiet)?;
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     let folder = folder(args, &loaded);
-    std::fs::create_dir_all(&folder).map_err(|error| {
-        Failure::Usage(format!(
-            "cannot make the folder {}: {error}",
-            folder.display()
-        ))
-    })?;
+    make_folder(&folder)?;
     // What a reader needs to make sense of a partial run comes first.
     atomic_write(folder.join("scenario.toml"), loaded.to_toml().as_bytes())?;
     let writers = writers(args, &loaded, &simulation, &folder)?;
@@ -71,13 +66,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let text = serde_json::to_string_pretty(&summary::to_json(&parts)).unwrap_or_default() + "\n";
     atomic_write(&path, text.as_bytes())?;
     written.push(path);
-    if !args.no_report {
-        let path = folder.join("report.html");
-        atomic_write(
-            &path,
-            brinell_report::html(&page::report(&parts)).as_bytes(),
-        )?;
-        written.push(path);
+    if !args.no_report || !args.plots.is_empty() {
+        let report = page::report(&parts);
+        if !args.no_report {
+            let path = folder.join("report.html");
+            atomic_write(&path, brinell_report::html(&report).as_bytes())?;
+            written.push(path);
+        }
+        plots(args, &report, &folder, &mut written)?;
     }
     if !args.quiet {
         tell(&parts, elapsed, &written);
@@ -140,6 +136,43 @@ fn writers(
             .map_err(Failure::from)
     };
     formats.into_iter().map(make).collect()
+}
+
+/// Each picture as a file, and the one that says most on its own.
+fn plots(
+    args: &RunArgs,
+    report: &brinell_report::Report,
+    folder: &Path,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    if args.plots.is_empty() {
+        return Ok(());
+    }
+    let folder = folder.join("plots");
+    make_folder(&folder)?;
+    let mut pictures = brinell_report::pictures(report);
+    pictures.push(brinell_report::headline(report));
+    for picture in &pictures {
+        for format in &args.plots {
+            let (ending, bytes) = match format {
+                PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
+                PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
+            };
+            let path = folder.join(format!("{}.{ending}", picture.name));
+            atomic_write(&path, &bytes)?;
+            written.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::Usage(format!(
+            "cannot make the folder {}: {error}",
+            folder.display()
+        ))
+    })
 }
 
 /// Set by Ctrl-C; a second Ctrl-C ends the process at once.

@@ -8,11 +8,18 @@ use std::f64::consts::PI;
 /// Largest eccentricity ratio for which the short-bearing film is evaluated.
 pub const MAX_ECCENTRICITY: f64 = 0.95;
 
+/// Traction coefficient of the pocket at high slip, Eq. (48).
+pub const TRACTION_LIMIT: f64 = 0.1;
+/// Its initial slope, s/m.
+pub const TRACTION_SLOPE: f64 = 22.28;
+/// Its decay, s/m.
+pub const TRACTION_DECAY: f64 = 181.46;
+
 /// Traction curve of the pocket in its slip velocity (m/s), Eq. (48).
 #[inline]
 pub fn traction(slip: f64) -> f64 {
     let s = slip.abs();
-    (-0.1 + 22.28 * s) * (-181.46 * s).exp() + 0.1
+    (-TRACTION_LIMIT + TRACTION_SLOPE * s) * (-TRACTION_DECAY * s).exp() + TRACTION_LIMIT
 }
 
 /// Contact of rollers and pockets.

@@ -170,7 +170,8 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
         ModelKind::Full => law.healthy(c.approach[slot]),
         ModelKind::Reference => model.series_contact.healthy(c.approach[slot]),
     };
-    law.stiffness * c.elastic[slot] / healthy
+    // Equal forces must give the healthy stiffness to the bit.
+    law.stiffness * (c.elastic[slot] / healthy)
 }
 
 /// Every channel of a model, in the order of files.

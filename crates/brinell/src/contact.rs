@@ -2,7 +2,7 @@
 //!
 //! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is approach beyond first touch.
 
-use crate::power::Exponent;
+use crate::elementary::Exponent;
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
 /// the effective contact length in m to N/m^(10/9).
@@ -54,9 +54,14 @@ impl Hertz {
     /// Law `ecl`: K (g `[delta]_+^n` + (1 - g) `[delta - h]_+^n`), N.
     #[inline]
     pub fn damaged(&self, delta: f64, floor: &Floor) -> f64 {
-        let n = self.exponent;
-        self.stiffness
-            * (floor.share * n.of(delta) + (1.0 - floor.share) * n.of(delta - floor.depth))
+        self.damaged_given(self.exponent.of(delta), delta, floor)
+    }
+
+    /// The same where `[delta]_+^n` is known already.
+    #[inline]
+    pub fn damaged_given(&self, power: f64, delta: f64, floor: &Floor) -> f64 {
+        let sunk = self.exponent.of(delta - floor.depth);
+        self.stiffness * (floor.share * power + (1.0 - floor.share) * sunk)
     }
 
     /// Force of a closed contact: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N.

@@ -242,7 +242,15 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
     let contact = |side: Side, delta: f64| -> (f64, f64) {
         let law = model.contact(side);
-        match acting(model.defects_of(slot, side), law, &angles, side, delta) {
+        let power = law.exponent.of(delta);
+        match acting(
+            model.defects_of(slot, side),
+            law,
+            &angles,
+            side,
+            delta,
+            power,
+        ) {
             Some((force, floor)) => (force, law.tangent(delta, Some(&floor))),
             None => (law.healthy(delta), law.tangent(delta, None::<&Floor>)),
         }

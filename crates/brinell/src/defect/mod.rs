@@ -117,17 +117,18 @@ impl Defect {
     }
 }
 
-/// The damage that one contact stands on: where several defects meet it, the one with the smallest elastic sum acts.
+/// The damage that one contact stands on, for the approach delta and its power `[delta]_+^n`: where several defects meet it, the one with the smallest elastic sum acts.
 pub fn acting<'a>(
     defects: impl Iterator<Item = &'a Defect>,
     law: &Hertz,
     angles: &Angles,
     side: Side,
     delta: f64,
+    power: f64,
 ) -> Option<(f64, Floor)> {
     defects
         .filter_map(|d| d.floor(d.local_angle(angles, side)))
-        .map(|floor| (law.damaged(delta, &floor), floor))
+        .map(|floor| (law.damaged_given(power, delta, &floor), floor))
         .reduce(|a, b| {
             // With no force on either (a gap, or both floors below), the shorter remaining length stands for the contact.
             if b.0 < a.0 || (b.0 == a.0 && b.1.share < a.1.share) {

@@ -6,7 +6,7 @@
 //! has slot j N_r + i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
 
 /// Slots are padded to a multiple of this many.
-pub const LANES: usize = 8;
+pub const LANES: usize = crate::lanes::WIDTH;
 
 /// Index arithmetic of the state vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,6 +47,15 @@ impl Layout {
     /// Roller of a slot within its row.
     pub fn roller(&self, slot: usize) -> usize {
         slot / self.rows
+    }
+
+    /// Slots after which the pattern of rows over groups of lanes repeats.
+    pub fn row_period(&self) -> usize {
+        let mut period = LANES;
+        while !period.is_multiple_of(self.rows) {
+            period += LANES;
+        }
+        period
     }
 
     /// Number of positions; the state has twice as many entries.

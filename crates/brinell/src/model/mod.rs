@@ -15,15 +15,15 @@ pub use energy::{Energy, Power};
 pub use layout::{LANES, Layout};
 pub use momentum::imbalance;
 pub use motion::Motion;
-pub use workspace::Workspace;
+pub use workspace::{Kernel, Workspace};
 
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
-use crate::defect::{Defect, Side};
+use crate::defect::{Defect, SIDES, Side};
+use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
 use crate::operation::{Load, Rotation};
-use crate::power::Exponent;
 use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
 use std::f64::consts::TAU;
 
@@ -123,8 +123,12 @@ pub struct Model {
     pub gravity: [f64; 2],
     /// alpha of each slot, rad: the pocket's angle on its cage.
     pub pocket_angle: Vec<f64>,
+    /// 1 for the slots of rollers, 0 for padding.
+    pub live: Vec<f64>,
     /// Damage.
     pub defects: Vec<Defect>,
+    /// Slots whose contact on each side some defect can meet.
+    pub exposed: [Vec<usize>; 2],
     /// Start.
     pub start: Start,
 }
@@ -182,8 +186,21 @@ impl Model {
                 requirement: "rows and rollers count from 1 and a profile's lists are equally long, the arc never decreasing",
             })?);
         }
+        let exposed = SIDES.map(|side| {
+            let meets = |&slot: &usize| {
+                defects
+                    .iter()
+                    .any(|d| d.meets(layout.row(slot), layout.roller(slot), side))
+            };
+            (0..layout.rollers()).filter(meets).collect()
+        });
+        let live = (0..layout.slots)
+            .map(|slot| f64::from(u8::from(slot < layout.rollers())))
+            .collect();
         Ok(Self {
             kind: s.simulation.model,
+            live,
+            exposed,
             layout,
             geometry,
             inertia,

@@ -5,6 +5,8 @@
     reason = "each test program uses its own part"
 )]
 
+pub mod cases;
+
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Outcome, Simulation};
 use std::ops::ControlFlow;

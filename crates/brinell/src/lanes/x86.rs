@@ -1,0 +1,345 @@
+//! Lanes in the registers of x86-64: one of AVX-512, or two of AVX2.
+//!
+//! Values of these types must only be used in functions compiled for their instructions; the equations of motion are
+//! entered through such functions alone, after the processor has been asked.
+
+use super::{Lanes, WIDTH};
+use std::arch::x86_64::*;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+macro_rules! operators {
+    ($type:ident, $($trait:ident $method:ident $body:expr;)*) => {
+        $(impl $trait for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                unsafe { $body(self, other) }
+            }
+        })*
+        impl Neg for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.xor(Self::splat(-0.0))
+            }
+        }
+        impl AddAssign for $type {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl SubAssign for $type {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+
+/// Eight numbers in one register of AVX-512.
+#[derive(Debug, Clone, Copy)]
+pub struct Avx512(__m512d);
+
+operators! {
+    Avx512,
+    Add add |a: Self, b: Self| Self(_mm512_add_pd(a.0, b.0));
+    Sub sub |a: Self, b: Self| Self(_mm512_sub_pd(a.0, b.0));
+    Mul mul |a: Self, b: Self| Self(_mm512_mul_pd(a.0, b.0));
+    Div div |a: Self, b: Self| Self(_mm512_div_pd(a.0, b.0));
+}
+
+impl Avx512 {
+    #[inline(always)]
+    fn int(self) -> __m512i {
+        // SAFETY: same size, every bit pattern is valid.
+        unsafe { std::mem::transmute::<__m512d, __m512i>(self.0) }
+    }
+
+    #[inline(always)]
+    fn from_int(x: __m512i) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { std::mem::transmute::<__m512i, __m512d>(x) })
+    }
+}
+
+// SAFETY of every block: see the module.
+impl Lanes for Avx512 {
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        unsafe { Self(_mm512_set1_pd(x)) }
+    }
+
+    #[inline(always)]
+    fn new(x: [f64; WIDTH]) -> Self {
+        unsafe { Self(_mm512_loadu_pd(x.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn array(self) -> [f64; WIDTH] {
+        let mut out = [0.0; WIDTH];
+        unsafe { _mm512_storeu_pd(out.as_mut_ptr(), self.0) };
+        out
+    }
+
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        let from = &from[..WIDTH];
+        unsafe { Self(_mm512_loadu_pd(from.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        let to = &mut to[..WIDTH];
+        unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) };
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        unsafe { Self(_mm512_fmadd_pd(self.0, b.0, c.0)) }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.and_bits(!(1 << 63))
+    }
+
+    #[inline(always)]
+    fn with_sign(self, sign: Self) -> Self {
+        self.abs().xor(sign.and_bits(1 << 63))
+    }
+
+    #[inline(always)]
+    fn if_above(self, other: Self, x: Self, y: Self) -> Self {
+        unsafe {
+            let above = _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0);
+            Self(_mm512_mask_blend_pd(above, y.0, x.0))
+        }
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, _mm512_setzero_pd()) != 0 }
+    }
+
+    #[inline(always)]
+    fn and_bits(self, bits: u64) -> Self {
+        unsafe { Self::from_int(_mm512_and_si512(self.int(), _mm512_set1_epi64(bits as i64))) }
+    }
+
+    #[inline(always)]
+    fn or_bits(self, bits: u64) -> Self {
+        unsafe { Self::from_int(_mm512_or_si512(self.int(), _mm512_set1_epi64(bits as i64))) }
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        unsafe { Self::from_int(_mm512_and_si512(self.int(), other.int())) }
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        unsafe { Self::from_int(_mm512_xor_si512(self.int(), other.int())) }
+    }
+
+    #[inline(always)]
+    fn add_bits(self, bits: u64) -> Self {
+        unsafe { Self::from_int(_mm512_add_epi64(self.int(), _mm512_set1_epi64(bits as i64))) }
+    }
+
+    #[inline(always)]
+    fn minus_bits(self) -> Self {
+        unsafe { Self::from_int(_mm512_sub_epi64(_mm512_setzero_si512(), self.int())) }
+    }
+
+    #[inline(always)]
+    fn shift_up<const N: i32>(self) -> Self {
+        unsafe { Self::from_int(_mm512_sll_epi64(self.int(), _mm_cvtsi32_si128(N))) }
+    }
+
+    #[inline(always)]
+    fn shift_down<const N: i32>(self) -> Self {
+        unsafe { Self::from_int(_mm512_srl_epi64(self.int(), _mm_cvtsi32_si128(N))) }
+    }
+}
+
+/// Eight numbers in two registers of AVX2.
+#[derive(Debug, Clone, Copy)]
+pub struct Avx2(__m256d, __m256d);
+
+operators! {
+    Avx2,
+    Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0), _mm256_add_pd(a.1, b.1));
+    Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0), _mm256_sub_pd(a.1, b.1));
+    Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0), _mm256_mul_pd(a.1, b.1));
+    Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0), _mm256_div_pd(a.1, b.1));
+}
+
+impl Avx2 {
+    #[inline(always)]
+    fn int(self) -> (__m256i, __m256i) {
+        // SAFETY: same size, every bit pattern is valid.
+        unsafe {
+            (
+                std::mem::transmute::<__m256d, __m256i>(self.0),
+                std::mem::transmute::<__m256d, __m256i>(self.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn from_int(x: __m256i, y: __m256i) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            Self(
+                std::mem::transmute::<__m256i, __m256d>(x),
+                std::mem::transmute::<__m256i, __m256d>(y),
+            )
+        }
+    }
+}
+
+// SAFETY of every block: see the module.
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        unsafe { Self(_mm256_set1_pd(x), _mm256_set1_pd(x)) }
+    }
+
+    #[inline(always)]
+    fn new(x: [f64; WIDTH]) -> Self {
+        Self::load(&x)
+    }
+
+    #[inline(always)]
+    fn array(self) -> [f64; WIDTH] {
+        let mut out = [0.0; WIDTH];
+        self.store(&mut out);
+        out
+    }
+
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        let from = &from[..WIDTH];
+        unsafe {
+            Self(
+                _mm256_loadu_pd(from.as_ptr()),
+                _mm256_loadu_pd(from[4..].as_ptr()),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        let to = &mut to[..WIDTH];
+        unsafe {
+            _mm256_storeu_pd(to.as_mut_ptr(), self.0);
+            _mm256_storeu_pd(to[4..].as_mut_ptr(), self.1);
+        }
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_fmadd_pd(self.0, b.0, c.0),
+                _mm256_fmadd_pd(self.1, b.1, c.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.and_bits(!(1 << 63))
+    }
+
+    #[inline(always)]
+    fn with_sign(self, sign: Self) -> Self {
+        self.abs().xor(sign.and_bits(1 << 63))
+    }
+
+    #[inline(always)]
+    fn if_above(self, other: Self, x: Self, y: Self) -> Self {
+        unsafe {
+            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
+            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, other.1);
+            Self(
+                _mm256_blendv_pd(y.0, x.0, first),
+                _mm256_blendv_pd(y.1, x.1, second),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        unsafe {
+            let zero = _mm256_setzero_pd();
+            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, zero);
+            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, zero);
+            _mm256_movemask_pd(_mm256_or_pd(first, second)) != 0
+        }
+    }
+
+    #[inline(always)]
+    fn and_bits(self, bits: u64) -> Self {
+        self.and(Self::splat(f64::from_bits(bits)))
+    }
+
+    #[inline(always)]
+    fn or_bits(self, bits: u64) -> Self {
+        let other = Self::splat(f64::from_bits(bits));
+        unsafe { Self(_mm256_or_pd(self.0, other.0), _mm256_or_pd(self.1, other.1)) }
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_and_pd(self.0, other.0),
+                _mm256_and_pd(self.1, other.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_xor_pd(self.0, other.0),
+                _mm256_xor_pd(self.1, other.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn add_bits(self, bits: u64) -> Self {
+        let (x, y) = self.int();
+        unsafe {
+            let b = _mm256_set1_epi64x(bits as i64);
+            Self::from_int(_mm256_add_epi64(x, b), _mm256_add_epi64(y, b))
+        }
+    }
+
+    #[inline(always)]
+    fn minus_bits(self) -> Self {
+        let (x, y) = self.int();
+        unsafe {
+            let zero = _mm256_setzero_si256();
+            Self::from_int(_mm256_sub_epi64(zero, x), _mm256_sub_epi64(zero, y))
+        }
+    }
+
+    #[inline(always)]
+    fn shift_up<const N: i32>(self) -> Self {
+        let (x, y) = self.int();
+        unsafe { Self::from_int(_mm256_slli_epi64::<N>(x), _mm256_slli_epi64::<N>(y)) }
+    }
+
+    #[inline(always)]
+    fn shift_down<const N: i32>(self) -> Self {
+        let (x, y) = self.int();
+        unsafe { Self::from_int(_mm256_srli_epi64::<N>(x), _mm256_srli_epi64::<N>(y)) }
+    }
+}

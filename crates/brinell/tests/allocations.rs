@@ -1,0 +1,117 @@
+//! A run costs memory once: nothing is allocated per step, and what it holds does not grow with its duration.
+
+mod common;
+
+use brinell::channel::Frame;
+use brinell::observe::Watch;
+use brinell::observe::waveform::KEPT;
+use brinell::scenario::Scenario;
+use brinell::simulate::{End, Observer, Simulation};
+use common::cases::rectangle;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicIsize, AtomicUsize, Ordering::Relaxed};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+static LIVE: AtomicIsize = AtomicIsize::new(0);
+
+// SAFETY: every call is handed on to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Relaxed);
+        LIVE.fetch_add(layout.size() as isize, Relaxed);
+        // SAFETY: the caller's contract is the system allocator's.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size() as isize, Relaxed);
+        // SAFETY: the caller's contract is the system allocator's.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// What the process held at two instants of the run, and what it allocated between them.
+struct Meter<'a> {
+    watch: Option<(Watch, &'a Simulation)>,
+    /// Samples at the two instants.
+    instants: [u64; 2],
+    live: [isize; 2],
+    allocations: [usize; 2],
+    steps: u64,
+}
+
+impl Observer for Meter<'_> {
+    fn step(&mut self, frame: &Frame) {
+        self.steps += 1;
+        if let Some((watch, _)) = &mut self.watch {
+            watch.step(frame);
+        }
+    }
+
+    fn sample(&mut self, _: u64, frame: &Frame) {
+        if let Some((watch, _)) = &mut self.watch {
+            watch.sample(frame);
+        }
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        if let Some((watch, simulation)) = &mut self.watch {
+            watch.row(simulation, index, row, filtered);
+        }
+        for k in 0..2 {
+            if index == self.instants[k] {
+                self.live[k] = LIVE.load(Relaxed);
+                self.allocations[k] = ALLOCATIONS.load(Relaxed);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+fn metered(s: &Scenario, between: [f64; 2], watched: bool) -> (isize, usize, u64) {
+    let simulation = Simulation::new(s).unwrap();
+    let mut meter = Meter {
+        watch: watched.then(|| (Watch::new(s, &simulation), &simulation)),
+        instants: between.map(|t| (t * simulation.sample_rate()) as u64),
+        live: [0; 2],
+        allocations: [0; 2],
+        steps: 0,
+    };
+    let outcome = simulation.run(&mut meter);
+    assert_eq!(outcome.end, End::Complete);
+    assert!(meter.live[0] > 0 && meter.live[1] > 0, "both instants met");
+    (
+        meter.live[1] - meter.live[0],
+        meter.allocations[1] - meter.allocations[0],
+        meter.steps,
+    )
+}
+
+// One test in this file: the counts are of the whole process.
+#[test]
+fn prop_steps_allocate_nothing_and_memory_does_not_grow() {
+    let mut s = rectangle();
+    s.simulation.duration_s = 0.41;
+    s.simulation.record = vec!["*".into()];
+    let (grown, allocations, steps) = metered(&s, [0.1, 0.4], false);
+    assert!(steps > 10_000, "{steps} steps");
+    assert_eq!(allocations, 0, "allocations from 0.1 to 0.4 s");
+    assert_eq!(grown, 0, "bytes from 0.1 to 0.4 s");
+
+    // With everything that summary and report are made of, at a rate that fills the kept waveform by 0.1 s.
+    s.simulation.duration_s = 0.3;
+    s.simulation.sample_rate_hz = 10.0 * KEPT as f64 * 1.01;
+    s.simulation.record = vec!["outer_*".into()];
+    let (grown, allocations, _) = metered(&s, [0.1, 0.29], true);
+    println!(
+        "watched: {grown} bytes more at 0.29 s than at 0.1 s, {allocations} allocations between"
+    );
+    // Statistics close a block for each revolution, 33 ms: some numbers of each of 8 channels.
+    assert!(grown < 16_384, "{grown} bytes");
+}
