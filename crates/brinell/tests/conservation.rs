@@ -232,10 +232,11 @@ fn prop_power_balance_at_any_instant() {
 
 #[test]
 fn prop_energy_audit_closes() {
-    // What an accuracy leaves unexplained, as a share of everything that moved. Switches and damage edges make it first order
-    // in the step, so the thousandth of the tolerance (a tenth of the step) leaves about a tenth, not a thousandth.
-    const STANDARD: f64 = 1e-2;
-    const REFERENCE: f64 = 1e-3;
+    // What an accuracy leaves unexplained, as a share of everything that moved: three times the largest found. Switches and damage edges make it first
+    // order in the step there, so a thousandth of the tolerance (a tenth of the step) may leave as much as a tenth; a fifth is asked.
+    const STANDARD: f64 = 1e-3;
+    const REFERENCE: f64 = 5e-5;
+    const SHRINKS: f64 = 0.2;
     let mut report = String::new();
     let mut failures = Vec::new();
     for (name, mut s) in every_term() {
@@ -259,7 +260,8 @@ fn prop_energy_audit_closes() {
         report += &format!(
             "{name}: turnover {turnover:.3e} J, residual {standard:.2e} (standard), {reference:.2e} (reference) J, lever {lever:.2e} J\n"
         );
-        if standard.abs() > STANDARD * turnover || reference.abs() > REFERENCE * turnover {
+        let within = standard.abs() < STANDARD * turnover && reference.abs() < REFERENCE * turnover;
+        if !(within && reference.abs() < SHRINKS * standard.abs()) {
             failures.push(name);
         }
     }
