@@ -4,7 +4,7 @@
 //! centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`].
 
 use super::{Model, Power, Workspace};
-use crate::defect::{Angles, SIDES, acting};
+use crate::defect::{Angles, SIDES, acting, edge_gradient};
 use crate::scenario::Guidance;
 
 /// Relative motion of one contact.
@@ -101,6 +101,10 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
             + r * dtheta * (f_in + f_out + push);
     }
 
+    if model.rules.is_conservative() && !model.defects.is_empty() {
+        edge_reaction(model, q, a, (w, ring_angle), ws, &mut power);
+    }
+
     for row in 0..l.rows {
         let at = l.cage(row);
         let (guide_x, guide_v, guide_speed, reaction) = match model.guidance {
@@ -153,6 +157,44 @@ pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &
     ws.power = power;
 }
 
+/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
+/// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
+///
+/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles know nothing of the
+/// rings' displacements, so that force has no reaction on them: the momentum audit books it as external.
+fn edge_reaction(
+    model: &Model,
+    q: &[f64],
+    a: &mut [f64],
+    (w, ring_angle): (f64, f64),
+    ws: &mut Workspace,
+    power: &mut Power,
+) {
+    let l = &model.layout;
+    for slot in 0..l.rollers() {
+        let angles = Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: ring_angle,
+        };
+        let arm = model.geometry.pitch_radius + q[l.r() + slot];
+        ws.edge_force[slot] = 0.0;
+        for side in SIDES {
+            let contacts = &ws.contacts[side as usize];
+            if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
+                continue;
+            }
+            let delta = contacts.approach[slot];
+            let defects = model.defects_of(slot, side);
+            let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
+            ws.edge_force[slot] -= e.orbit / arm;
+            a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
+            a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
+            power.drive += e.ring * w;
+        }
+    }
+}
+
 /// Normal forces of every contact, sections 2 and 3.
 fn normal_contacts(model: &Model, q: &[f64], v: &[f64], ring_angle: f64, ws: &mut Workspace) {
     let l = &model.layout;
@@ -187,15 +229,15 @@ fn normal_contacts(model: &Model, q: &[f64], v: &[f64], ring_angle: f64, ws: &mu
                     spin: q[l.phi() + slot],
                     ring: ring_angle,
                 };
-                if let Some((force, floor)) = acting(
+                if let Some(acting) = acting(
                     model.defects_of(slot, side),
                     law,
                     &angles,
                     side,
                     approach.delta,
                 ) {
-                    elastic = force;
-                    damaged_length = floor.damaged_length;
+                    elastic = acting.elastic;
+                    damaged_length = acting.floor.damaged_length;
                     on_damage = true;
                 }
             }

@@ -20,7 +20,7 @@ pub use workspace::Workspace;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
-use crate::defect::{Defect, Side};
+use crate::defect::{Defect, Rules, Side};
 use crate::friction::{Friction, drag_factor};
 use crate::operation::{Load, Rotation};
 use crate::power::Exponent;
@@ -125,6 +125,8 @@ pub struct Model {
     pub pocket_angle: Vec<f64>,
     /// Damage.
     pub defects: Vec<Defect>,
+    /// How damage acts.
+    pub rules: Rules,
     /// Start.
     pub start: Start,
 }
@@ -176,10 +178,10 @@ impl Model {
             .collect();
         let mut defects = Vec::with_capacity(s.defects.len());
         for (k, defect) in s.defects.iter().enumerate() {
-            defects.push(Defect::new(defect, b).ok_or_else(|| ModelError {
+            defects.push(Defect::new(defect, b, &s.contact).ok_or_else(|| ModelError {
                 key: format!("defects.{k}"),
                 value: format!("{defect:?}"),
-                requirement: "rows and rollers count from 1 and a profile's lists are equally long, the arc never decreasing",
+                requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
             })?);
         }
         Ok(Self {
@@ -246,6 +248,7 @@ impl Model {
             gravity: s.operation.gravity_m_per_s2,
             pocket_angle,
             defects,
+            rules: Rules::new(&s.contact),
             start: s.simulation.start,
         })
     }
