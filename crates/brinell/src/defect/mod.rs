@@ -6,12 +6,15 @@
 mod acting;
 mod course;
 mod envelope;
+pub mod fit;
 mod grid;
 mod ground;
 mod outline;
 mod profile;
 mod random;
+pub mod section;
 mod shape;
+pub mod simplify;
 
 pub use acting::{Acting, EdgeGradient, acting, edge_gradient, energy, tangent};
 pub use course::{Course, Line};

@@ -243,6 +243,21 @@ impl Shape {
         }
     }
 
+    /// Ends of `segments` parts of the arc, m: the joints of the paper's six arcs where there are six, else equal parts.
+    pub(super) fn joints(&self, segments: usize) -> Vec<f64> {
+        let (first, last) = self.arc();
+        if matches!(self, Self::Li2023Irregular { .. }) && segments == LI2023_ARCS_MM.len() {
+            let ends = LI2023_ARCS_MM.iter().scan(first, |s, arc| {
+                *s += 1e-3 * arc;
+                Some(*s)
+            });
+            return [first].into_iter().chain(ends).collect();
+        }
+        (0..=segments)
+            .map(|k| first + (last - first) * k as f64 / segments as f64)
+            .collect()
+    }
+
     /// Area of the outline, m^2; of a closed form by the midpoint rule.
     pub fn area(&self) -> f64 {
         const CELLS: u32 = 20_000;
