@@ -5,7 +5,7 @@
 
 use crate::defect::Side;
 use crate::model::{Model, Workspace};
-use crate::scenario::ModelKind;
+use crate::scenario::{Law, ModelKind};
 
 /// One instant of a run, evaluated.
 #[derive(Debug, Clone, Copy)]
@@ -158,8 +158,11 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
-    let share =
-        crate::contact::remaining_share(model.geometry.roller_length, c.damaged_length[slot]);
+    let length = model.geometry.roller_length;
+    let share = match model.rules.law {
+        Law::Sliced if model.kind == ModelKind::Full => 1.0 - c.damaged_length[slot] / length,
+        _ => crate::contact::remaining_share(length, c.damaged_length[slot]),
+    };
     if !c.on_damage[slot] {
         return law.stiffness;
     }

@@ -101,6 +101,8 @@ pub struct Cage {
 pub enum Law {
     /// Effective contact length (the paper, made continuous).
     Ecl,
+    /// Independent slices across the roller, each at its own depth (in the manner of ISO/TS 16281).
+    Sliced,
 }
 
 /// How a roller follows the damage's floor.
@@ -108,6 +110,8 @@ pub enum Law {
 pub enum RollerPath {
     /// The depth under the contact line (the paper).
     Point,
+    /// The depth that a roller of finite radius can reach.
+    Envelope,
 }
 
 /// `edge_reaction`: whether the damage's slopes push the rollers along.
@@ -115,6 +119,8 @@ pub enum RollerPath {
 pub enum EdgeReaction {
     /// No (the paper); the energy audit carries the parametric work.
     None,
+    /// The generalised force -dE/du on what turns; only with `sliced` and `envelope`.
+    Conservative,
 }
 
 /// `[contact]`: normal contact of rollers and raceways.
@@ -244,6 +250,55 @@ pub enum Shape {
         /// Largest L_s, mm (4 in the paper).
         max_width_mm: f64,
     },
+    /// Seen from above: the inside of closed polygons, each closing on its first point. The even-odd rule makes holes.
+    Outline {
+        /// Points (s, z) of each polygon, mm, from the defect's centre: s along the rolling direction, z along the axis.
+        polygons_mm: Vec<Vec<[f64; 2]>>,
+    },
+    /// Depths on a grid, a profilometer's scan for one; the defect's own depth is not used.
+    DepthMap {
+        /// The scan.
+        grid: DepthGrid,
+    },
+    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area asked for.
+    Grown {
+        /// Polygons as in [`Shape::Outline`], mm.
+        outline: Vec<Vec<[f64; 2]>>,
+        /// Largest L_s wanted, mm. Either this or the area is given.
+        max_width_mm: Option<f64>,
+        /// Area wanted, mm^2.
+        area_mm2: Option<f64>,
+    },
+    /// A ragged spall drawn from a seed, the same on every machine; the mean of its depths is the defect's depth.
+    Random {
+        /// Which one.
+        seed: u64,
+        /// Extent along the rolling direction, mm.
+        length_mm: f64,
+        /// Extent along the axis, mm.
+        width_mm: f64,
+        /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets.
+        roughness: f64,
+    },
+}
+
+/// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthGrid {
+    /// s of the first column, mm.
+    pub s0_mm: f64,
+    /// z of the first row, mm.
+    pub z0_mm: f64,
+    /// Distance of columns, mm.
+    pub ds_mm: f64,
+    /// Distance of rows, mm.
+    pub dz_mm: f64,
+    /// Nodes along s.
+    pub columns: usize,
+    /// Nodes along z.
+    pub rows: usize,
+    /// `depth_um[row * columns + column]` at (s0 + column ds, z0 + row dz), um; 0 is undamaged, negative a raised edge.
+    pub depth_um: Vec<f64>,
 }
 
 /// One `[[defects]]` entry.
@@ -255,7 +310,7 @@ pub struct Defect {
     pub row: usize,
     /// psi, degrees.
     pub center_deg: f64,
-    /// h, um; a profile's own depths override it.
+    /// h, um; the depths of a profile or a depth map override it.
     pub depth_um: f64,
     /// Outline.
     pub shape: Shape,

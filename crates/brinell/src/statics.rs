@@ -4,8 +4,7 @@
 //! roller's radial offset is eliminated, for it has one equilibrium at given ring offsets. Centrifugal force and gravity act
 //! on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
 
-use crate::contact::Floor;
-use crate::defect::{Angles, Side, acting, energy};
+use crate::defect::{Angles, Side, acting, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
 
@@ -242,17 +241,10 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
     let contact = |side: Side, delta: f64| -> (f64, f64) {
         let law = model.contact(side);
-        let power = law.exponent.of(delta);
-        match acting(
-            model.defects_of(slot, side),
-            law,
-            &angles,
-            side,
-            delta,
-            power,
-        ) {
-            Some((force, floor)) => (force, law.tangent(delta, Some(&floor))),
-            None => (law.healthy(delta), law.tangent(delta, None::<&Floor>)),
+        let defects = model.defects_of(slot, side);
+        match acting(defects.clone(), law, &angles, side, delta) {
+            Some(acting) => (acting.elastic, tangent(defects, law, &angles, side, delta)),
+            None => (law.healthy(delta), law.tangent(delta, None)),
         }
     };
     let balance = |r: f64| {

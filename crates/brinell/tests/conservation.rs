@@ -237,6 +237,7 @@ fn prop_energy_audit_closes() {
     const STANDARD: f64 = 1e-3;
     const REFERENCE: f64 = 5e-5;
     const SHRINKS: f64 = 0.2;
+    const TYPICAL: f64 = 1e-5;
     let mut report = String::new();
     let mut failures = Vec::new();
     for (name, mut s) in every_term() {
@@ -261,7 +262,9 @@ fn prop_energy_audit_closes() {
             "{name}: turnover {turnover:.3e} J, residual {standard:.2e} (standard), {reference:.2e} (reference) J, lever {lever:.2e} J\n"
         );
         let within = standard.abs() < STANDARD * turnover && reference.abs() < REFERENCE * turnover;
-        if !(within && reference.abs() < SHRINKS * standard.abs()) {
+        // A standard run's errors may cancel by chance: then a typical residual stands for it.
+        let typical = standard.abs().max(TYPICAL * turnover);
+        if !(within && reference.abs() < SHRINKS * typical) {
             failures.push(name);
         }
     }

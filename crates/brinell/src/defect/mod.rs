@@ -1,10 +1,32 @@
 //! Damage where it lies: which contact it meets, at which angle, and what it leaves of that contact (section 3).
+//!
+//! A [`Shape`] is damage seen from above; a [`Ground`] is the same made ready for one law, path and surface, so that a step of the
+//! simulation looks depths up in constant time; [`acting()`] is what a contact feels of it.
 
+mod acting;
+mod course;
+mod envelope;
+pub mod fit;
+mod grid;
+mod ground;
+mod outline;
+mod profile;
+mod random;
+pub mod section;
 mod shape;
+pub mod simplify;
 
-pub use shape::{Profile, Shape};
+pub use acting::{Acting, EdgeGradient, acting, acting_given, edge_gradient, energy, tangent};
+pub use course::{Course, Line};
+pub use envelope::envelope;
+pub use grid::Grid;
+pub use ground::{Ground, Rules, relative_radius, slice_position};
+pub use outline::{Fault, Outline, faults};
+pub use profile::Profile;
+pub use random::spall;
+pub use shape::Shape;
 
-use crate::contact::{Floor, Hertz, remaining_share};
+use crate::contact::{Floor, remaining_share};
 use crate::scenario::{self, Surface};
 use std::f64::consts::{PI, TAU};
 
@@ -54,11 +76,19 @@ pub struct Defect {
     pub radius: f64,
     /// L of the roller, m.
     pub roller_length: f64,
+    /// How damage acts.
+    pub rules: Rules,
+    /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
+    grounds: [Option<Ground>; 2],
 }
 
 impl Defect {
-    /// From the scenario. `None` where a profile's lists do not fit.
-    pub fn new(defect: &scenario::Defect, bearing: &scenario::Bearing) -> Option<Self> {
+    /// From the scenario. `None` where its shape makes no sense, or its row or roller counts from 0.
+    pub fn new(
+        defect: &scenario::Defect,
+        bearing: &scenario::Bearing,
+        contact: &scenario::Contact,
+    ) -> Option<Self> {
         let (surface, diameter) = match defect.on {
             Surface::OuterRaceway => (defect.on, bearing.outer_raceway_diameter_mm),
             Surface::InnerRaceway => (defect.on, bearing.inner_raceway_diameter_mm),
@@ -67,15 +97,36 @@ impl Defect {
                 bearing.roller_diameter_mm,
             ),
         };
+        let depth = 1e-6 * defect.depth_um;
+        let roller_length = 1e-3 * bearing.roller_length_mm;
+        let shape = Shape::new(&defect.shape, depth)?.within(roller_length);
+        let rules = Rules::new(contact);
+        let grounds = SIDES.map(|side| {
+            let met = match surface {
+                Surface::OuterRaceway => side == Side::Outer,
+                Surface::InnerRaceway => side == Side::Inner,
+                Surface::Roller(_) => true,
+            };
+            let radius = relative_radius(bearing, side);
+            met.then(|| Ground::new(&shape, depth, roller_length, radius, &rules))
+        });
         Some(Self {
             surface,
             row: defect.row.checked_sub(1)?,
             center: defect.center_deg.to_radians(),
-            depth: 1e-6 * defect.depth_um,
-            shape: Shape::new(&defect.shape)?,
+            depth,
+            shape,
             radius: 0.5e-3 * diameter,
-            roller_length: 1e-3 * bearing.roller_length_mm,
+            roller_length,
+            rules,
+            grounds,
         })
+    }
+
+    /// Depths under `side`; `None` where the defect does not meet it.
+    #[inline]
+    pub fn ground(&self, side: Side) -> Option<&Ground> {
+        self.grounds[side as usize].as_ref()
     }
 
     /// Whether the defect meets roller `roller` (from 0) of row `row` on `side` at all.
@@ -100,74 +151,37 @@ impl Defect {
         })
     }
 
-    /// What the damage leaves at the local angle u; `None` outside its arc.
+    /// L_s at the arc coordinate s (m), clamped to the roller; 0 off the damage.
     #[inline]
-    pub fn floor(&self, u: f64) -> Option<Floor> {
+    pub fn damaged_length(&self, s: f64) -> f64 {
+        let (first, last) = self.shape.arc();
+        if s < first || s > last {
+            return 0.0;
+        }
+        self.shape.damaged_length(s).clamp(0.0, self.roller_length)
+    }
+
+    /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its arc.
+    ///
+    /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which comes up to 0
+    /// at both ends of the arc: the force is continuous there, and the floor starts where the damage does.
+    #[inline]
+    pub fn floor(&self, u: f64, side: Side) -> Option<Floor> {
         let s = u * self.radius;
         let (first, last) = self.shape.arc();
         if s < first || s > last {
             return None;
         }
-        let damaged_length = self.shape.damaged_length(s).clamp(0.0, self.roller_length);
+        let damaged_length = self.damaged_length(s);
+        let along_envelope = self.ground(side).and_then(|g| g.floor.as_ref());
         Some(Floor {
             share: remaining_share(self.roller_length, damaged_length),
-            depth: self.shape.own_depth(s).unwrap_or(self.depth),
+            depth: match along_envelope {
+                Some(floor) => floor.value(s),
+                None => self.shape.own_depth(s).unwrap_or(self.depth),
+            },
             damaged_length,
         })
-    }
-}
-
-/// The damage that one contact stands on, for the approach delta and its power `[delta]_+^n`: where several defects meet it, the one with the smallest elastic sum acts.
-pub fn acting<'a>(
-    defects: impl Iterator<Item = &'a Defect>,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-    power: f64,
-) -> Option<(f64, Floor)> {
-    defects
-        .filter_map(|d| d.floor(d.local_angle(angles, side)))
-        .map(|floor| (law.damaged_given(power, delta, &floor), floor))
-        .reduce(|a, b| {
-            // With no force on either (a gap, or both floors below), the shorter remaining length stands for the contact.
-            if b.0 < a.0 || (b.0 == a.0 && b.1.share < a.1.share) {
-                b
-            } else {
-                a
-            }
-        })
-}
-
-/// Elastic energy of a contact that stands on any of `defects`, J: the integral of the acting elastic sum up to delta.
-pub fn energy<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> f64 {
-    if delta <= 0.0 {
-        return 0.0;
-    }
-    let mut floors = defects.filter_map(|d| d.floor(d.local_angle(angles, side)));
-    let all = floors.clone();
-    match (floors.next(), floors.next()) {
-        (None, _) => law.energy(delta),
-        (Some(floor), None) => law.damaged_energy(delta, &floor),
-        _ => {
-            // Overlapping damage: the acting defect may change on the way, so the work is integrated (midpoint rule).
-            const CELLS: u32 = 64;
-            let dx = delta / f64::from(CELLS);
-            let force = |x: f64| {
-                all.clone()
-                    .map(|f| law.damaged(x, &f))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            (0..CELLS)
-                .map(|k| force((f64::from(k) + 0.5) * dx) * dx)
-                .sum()
-        }
     }
 }
 

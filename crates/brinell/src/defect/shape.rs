@@ -2,6 +2,11 @@
 //!
 //! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no damage.
 
+use super::course::Line;
+use super::grid::Grid;
+use super::outline::Outline;
+use super::profile::Profile;
+use super::random;
 use crate::scenario;
 
 /// Six joined arcs of the paper's irregular defect (Eq. 27 made whole), lengths in mm for a peak half-width of 2 mm.
@@ -46,50 +51,16 @@ pub enum Shape {
         /// L_s over its tabulated value.
         scale: f64,
     },
-}
-
-/// Piecewise-linear width and depth; the arc may repeat where they jump.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
-    arc: Vec<f64>,
-    width: Vec<f64>,
-    depth: Option<Vec<f64>>,
-}
-
-impl Profile {
-    /// From equally long lists (m), the arc never decreasing. `None` where they do not fit or are empty.
-    pub fn new(arc: Vec<f64>, width: Vec<f64>, depth: Option<Vec<f64>>) -> Option<Self> {
-        let fits = arc.len() >= 2
-            && arc.len() == width.len()
-            && depth.as_ref().is_none_or(|d| d.len() == arc.len())
-            && arc.windows(2).all(|w| w[0] <= w[1]);
-        fits.then_some(Self { arc, width, depth })
-    }
-
-    /// Index k and fraction f with s between points k and k + 1; the right-hand value at a jump.
-    fn locate(&self, s: f64) -> (usize, f64) {
-        let k = self
-            .arc
-            .partition_point(|&a| a <= s)
-            .clamp(1, self.arc.len() - 1)
-            - 1;
-        let step = self.arc[k + 1] - self.arc[k];
-        let fraction = if step > 0.0 {
-            ((s - self.arc[k]) / step).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
-        (k, fraction)
-    }
-}
-
-fn lerp(values: &[f64], (k, fraction): (usize, f64)) -> f64 {
-    values[k] + (values[k + 1] - values[k]) * fraction
+    /// Polygons, one depth.
+    Outline(Outline),
+    /// Depths on a grid.
+    DepthMap(Grid),
 }
 
 impl Shape {
-    /// From the scenario's units. `None` where a profile's lists do not fit.
-    pub fn new(shape: &scenario::Shape) -> Option<Self> {
+    /// From the scenario's units; `depth` (m) is the defect's. `None` where a shape makes no sense: a profile whose lists do not fit, polygons
+    /// without area, a grid with holes.
+    pub fn new(shape: &scenario::Shape, depth: f64) -> Option<Self> {
         let metres = |v: &[f64], unit: f64| v.iter().map(|x| x * unit).collect::<Vec<_>>();
         Some(match shape {
             scenario::Shape::Rectangle {
@@ -114,7 +85,54 @@ impl Shape {
             scenario::Shape::Li2023Irregular { max_width_mm } => Self::Li2023Irregular {
                 scale: max_width_mm / LI2023_WIDTH_MM,
             },
+            scenario::Shape::Outline { polygons_mm } => Self::Outline(outline(polygons_mm)?),
+            scenario::Shape::DepthMap { grid } => Self::DepthMap(Grid::new(grid)?),
+            scenario::Shape::Grown {
+                outline: polygons,
+                max_width_mm,
+                area_mm2,
+            } => {
+                let seed = outline(polygons)?;
+                let factor = match (max_width_mm, area_mm2) {
+                    (Some(width), None) => 1e-3 * width / seed.width().largest(),
+                    (None, Some(area)) => (1e-6 * area / seed.width().integral()).sqrt(),
+                    _ => return None,
+                };
+                Self::Outline(seed.scaled(factor)?)
+            }
+            scenario::Shape::Random {
+                seed,
+                length_mm,
+                width_mm,
+                roughness,
+            } => {
+                let fits = [length_mm, width_mm]
+                    .iter()
+                    .all(|x| x.is_finite() && **x > 0.0)
+                    && (0.0..=1.0).contains(roughness)
+                    && depth.is_finite();
+                if !fits {
+                    return None;
+                }
+                // The pattern is drawn for some depth even where the defect has none.
+                let grid = random::spall(*seed, *length_mm, *width_mm, *roughness, 1e6 * depth);
+                match Grid::new(&grid) {
+                    Some(grid) => Self::DepthMap(grid),
+                    None => Self::Rectangle {
+                        half_length: 0.5e-3 * length_mm,
+                        width: 0.0,
+                    },
+                }
+            }
         })
+    }
+
+    /// The same without what a roller of length L (m) does not reach.
+    pub fn within(self, length: f64) -> Self {
+        match self {
+            Self::DepthMap(grid) => Self::DepthMap(grid.within(length)),
+            other => other,
+        }
     }
 
     /// First and last s of the damage, m.
@@ -122,11 +140,13 @@ impl Shape {
         match self {
             Self::Rectangle { half_length, .. } => (-half_length, *half_length),
             Self::Circle { radius } => (-radius, *radius),
-            Self::Profile(p) => (p.arc[0], p.arc[p.arc.len() - 1]),
+            Self::Profile(p) => p.arc(),
             Self::Li2023Irregular { .. } => {
                 let half = 0.5e-3 * LI2023_ARCS_MM.iter().sum::<f64>();
                 (-half, half)
             }
+            Self::Outline(outline) => outline.width().span(),
+            Self::DepthMap(grid) => grid.width().span(),
         }
     }
 
@@ -136,7 +156,7 @@ impl Shape {
         match self {
             Self::Rectangle { width, .. } => *width,
             Self::Circle { radius } => 2.0 * (radius * radius - s * s).max(0.0).sqrt(),
-            Self::Profile(p) => lerp(&p.width, p.locate(s)),
+            Self::Profile(p) => p.width(s),
             Self::Li2023Irregular { scale } => {
                 let mut from_start = (s - self.arc().0) * 1e3;
                 let mut index = 0;
@@ -147,32 +167,151 @@ impl Shape {
                 let fraction = (from_start / LI2023_ARCS_MM[index]).clamp(0.0, 1.0);
                 2e-3 * li2023_half_width_mm(index, fraction) * scale
             }
+            Self::Outline(outline) => outline.width().value(s),
+            Self::DepthMap(grid) => grid.width().value(s),
         }
     }
 
-    /// h_s(s), m, where the shape carries its own depths.
+    /// h_s(s), m, where the shape carries its own depths: of a depth map the mean over the damaged width, 0 where that is raised.
     #[inline]
     pub fn own_depth(&self, s: f64) -> Option<f64> {
         match self {
-            Self::Profile(Profile {
-                depth: Some(depth), ..
-            }) => {
-                let Self::Profile(p) = self else { return None };
-                Some(lerp(depth, p.locate(s)))
-            }
+            Self::Profile(p) => p.depth(s),
+            Self::DepthMap(grid) => Some(grid.mean_depth().value(s).max(0.0)),
             _ => None,
         }
     }
 
-    /// Area of the outline, m^2, by the midpoint rule.
+    /// h_s(s) over the arc as straight pieces; `depth` (m) where the shape has none of its own. 0 where an outline leaves a gap.
+    pub(super) fn depths(&self, depth: f64) -> Vec<Line> {
+        match self {
+            Self::Profile(p) => p.depths(depth),
+            Self::Outline(outline) => outline
+                .width()
+                .breakpoints()
+                .windows(2)
+                .filter(|w| outline.width().value(0.5 * (w[0] + w[1])) > 0.0)
+                .map(|w| Line::flat(w[0], w[1], depth))
+                .collect(),
+            Self::DepthMap(grid) => grid
+                .mean_lines()
+                .iter()
+                .map(|l| Line {
+                    at_from: l.at_from.max(0.0),
+                    at_to: l.at_to.max(0.0),
+                    ..*l
+                })
+                .collect(),
+            _ => {
+                let (first, last) = self.arc();
+                vec![Line::flat(first, last, depth)]
+            }
+        }
+    }
+
+    /// Depth along the line z = const as straight pieces (law `sliced`): widths alone are centred on z = 0, outlines and grids lie where they
+    /// lie. A border at z counts as damaged, `slack` (m) being the distance at which it lies on it.
+    pub(super) fn along(&self, z: f64, slack: f64, depth: f64) -> Vec<Line> {
+        let from_middle = z.abs();
+        let flat = |[from, to]: [f64; 2]| Line::flat(from, to, depth);
+        match self {
+            Self::Rectangle { half_length, width } => {
+                let damaged = *width > 0.0 && from_middle <= 0.5 * width + slack;
+                let line = flat([-half_length, *half_length]);
+                damaged.then_some(line).into_iter().collect()
+            }
+            Self::Circle { radius } => {
+                let half = (radius * radius - z * z).max(0.0).sqrt();
+                vec![flat([-half, half])]
+            }
+            Self::Profile(p) => p.along(from_middle, slack, depth),
+            Self::Li2023Irregular { scale } if *scale <= 0.0 => Vec::new(),
+            Self::Li2023Irregular { .. } => {
+                let wide = |s: f64| 0.5 * self.damaged_length(s) - from_middle + slack;
+                spans(self.arc(), wide).into_iter().map(flat).collect()
+            }
+            Self::Outline(outline) => outline.chords(z, slack).into_iter().map(flat).collect(),
+            Self::DepthMap(grid) => grid.along(z),
+        }
+    }
+
+    /// Height of the highest raised edge, m; 0 where none is.
+    pub fn raised(&self) -> f64 {
+        match self {
+            Self::DepthMap(grid) => (-grid.extremes().1).max(0.0),
+            _ => 0.0,
+        }
+    }
+
+    /// Ends of `segments` parts of the arc, m: the joints of the paper's six arcs where there are six, else equal parts.
+    pub(super) fn joints(&self, segments: usize) -> Vec<f64> {
+        let (first, last) = self.arc();
+        if matches!(self, Self::Li2023Irregular { .. }) && segments == LI2023_ARCS_MM.len() {
+            let ends = LI2023_ARCS_MM.iter().scan(first, |s, arc| {
+                *s += 1e-3 * arc;
+                Some(*s)
+            });
+            return [first].into_iter().chain(ends).collect();
+        }
+        (0..=segments)
+            .map(|k| first + (last - first) * k as f64 / segments as f64)
+            .collect()
+    }
+
+    /// Area of the outline, m^2; of a closed form by the midpoint rule.
     pub fn area(&self) -> f64 {
         const CELLS: u32 = 20_000;
+        match self {
+            Self::Outline(outline) => return outline.width().integral(),
+            Self::DepthMap(grid) => return grid.width().integral(),
+            _ => {}
+        }
         let (first, last) = self.arc();
         let ds = (last - first) / f64::from(CELLS);
         (0..CELLS)
             .map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds)
             .sum()
     }
+}
+
+fn outline(polygons_mm: &[Vec<[f64; 2]>]) -> Option<Outline> {
+    let metres = |p: &Vec<[f64; 2]>| p.iter().map(|x| x.map(|x| 1e-3 * x)).collect();
+    Outline::new(polygons_mm.iter().map(metres).collect())
+}
+
+/// Intervals on which f >= 0, their ends found by bisection; f may change sign at most once in each of many cells.
+fn spans((first, last): (f64, f64), f: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    const CELLS: u32 = 8192;
+    let s = |k: u32| first + (last - first) * f64::from(k) / f64::from(CELLS);
+    let border = |mut inside: f64, mut outside: f64| {
+        while (outside - inside).abs() > 1e-15 {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            if f(middle) >= 0.0 {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        inside
+    };
+    let mut spans = Vec::new();
+    let mut open = (f(first) >= 0.0).then_some(first);
+    for k in 0..CELLS {
+        let (a, b) = (s(k), s(k + 1));
+        match (open, f(b) >= 0.0) {
+            (None, true) => open = Some(border(b, a)),
+            (Some(from), false) => {
+                spans.push([from, border(a, b)]);
+                open = None;
+            }
+            _ => {}
+        }
+    }
+    spans.extend(open.map(|from| [from, last]));
+    spans
 }
 
 #[cfg(test)]

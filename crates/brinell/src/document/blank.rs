@@ -111,3 +111,40 @@ pub(crate) fn profile() -> Shape {
 pub(crate) fn irregular() -> Shape {
     Shape::Li2023Irregular { max_width_mm: NONE }
 }
+
+pub(crate) fn outline() -> Shape {
+    Shape::Outline {
+        polygons_mm: Vec::new(),
+    }
+}
+
+pub(crate) fn depth_map() -> Shape {
+    Shape::DepthMap {
+        grid: DepthGrid {
+            s0_mm: NONE,
+            z0_mm: NONE,
+            ds_mm: NONE,
+            dz_mm: NONE,
+            columns: 0,
+            rows: 0,
+            depth_um: Vec::new(),
+        },
+    }
+}
+
+pub(crate) fn grown() -> Shape {
+    Shape::Grown {
+        outline: Vec::new(),
+        max_width_mm: None,
+        area_mm2: None,
+    }
+}
+
+pub(crate) fn random() -> Shape {
+    Shape::Random {
+        seed: 0,
+        length_mm: NONE,
+        width_mm: NONE,
+        roughness: NONE,
+    }
+}

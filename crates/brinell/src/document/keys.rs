@@ -55,7 +55,7 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
-    const SUFFIXES: [(&str, &str); 14] = [
+    const SUFFIXES: [(&str, &str); 15] = [
         ("_kg_per_m3", "kg/m^3"),
         ("_ns_per_m", "N s/m"),
         ("_m_per_s2", "m/s^2"),
@@ -64,6 +64,7 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
         ("_pa_s", "Pa s"),
         ("_deg", "deg"),
         ("_rpm", "r/min"),
+        ("_mm2", "mm^2"),
         ("_mm", "mm"),
         ("_um", "um"),
         ("_kg", "kg"),

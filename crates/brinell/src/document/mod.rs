@@ -5,6 +5,7 @@
 
 mod blank;
 mod checks;
+mod damage;
 mod example;
 mod keys;
 mod leaf;

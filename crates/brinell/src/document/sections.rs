@@ -1,11 +1,11 @@
-//! Every key of a scenario file: name, meaning, range, default, once and in order.
+//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage stand in [`super::damage`].
 
 use std::f64::consts::PI;
 
 use super::blank;
+use super::damage::defect;
 use super::keys::Fallback::{Catalogued, Needed, Required};
-use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
-use super::words::SurfaceWord;
+use super::keys::{Keys, assumed, derived, key, stated};
 use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
@@ -16,7 +16,7 @@ const STEEL: f64 = 7.85e-6;
 const PALMGREN: f64 = 8.06e4;
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
-const PAPER: &str = "Li et al. 2023";
+pub(super) const PAPER: &str = "Li et al. 2023";
 
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");
@@ -373,128 +373,6 @@ fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
         assumed(500.0, "the paper does not state it"),
         &mut s.outer_damping_ns_per_m,
     );
-}
-
-/// The shapes of a defect.
-const SHAPES: &[Variant<Shape>] = &[
-    Variant {
-        name: "rectangle",
-        doc: "as wide all along",
-        blank: blank::rectangle,
-    },
-    Variant {
-        name: "circle",
-        doc: "a round pit",
-        blank: blank::circle,
-    },
-    Variant {
-        name: "profile",
-        doc: "points joined by lines; where arc_mm repeats, it jumps",
-        blank: blank::profile,
-    },
-    Variant {
-        name: "li2023_irregular",
-        doc: "the paper's irregular spall, 7 mm long",
-        blank: blank::irregular,
-    },
-];
-
-fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
-    let (mut word, mut roller) = match d.on {
-        Surface::OuterRaceway => (SurfaceWord::OuterRaceway, 1),
-        Surface::InnerRaceway => (SurfaceWord::InnerRaceway, 1),
-        Surface::Roller(number) => (SurfaceWord::Roller, number),
-    };
-    k.key(key("on", "damaged surface"), Required, &mut word);
-    k.only_where(
-        key("roller", "which roller of the row, from 1").from(1.0),
-        word == SurfaceWord::Roller,
-        "on = \"roller\"",
-        &mut roller,
-    );
-    d.on = match word {
-        SurfaceWord::OuterRaceway => Surface::OuterRaceway,
-        SurfaceWord::InnerRaceway => Surface::InnerRaceway,
-        SurfaceWord::Roller => Surface::Roller(roller),
-    };
-    k.key(
-        key("row", "which row, from 1").from(1.0),
-        assumed(1, "the first row"),
-        &mut d.row,
-    );
-    let center = if word == SurfaceWord::OuterRaceway {
-        derived(
-            load[1].atan2(load[0]).to_degrees(),
-            "the middle of the load zone",
-        )
-    } else {
-        assumed(0.0, "it turns through the load anyway")
-    };
-    k.key(
-        key("center_deg", "psi, counter-clockwise from +x"),
-        center,
-        &mut d.center_deg,
-    );
-    k.one_of(
-        key(
-            "shape",
-            "outline; length along the rolling direction, width along the axis",
-        ),
-        SHAPES,
-        &mut d.shape,
-        shape,
-    );
-    let depth = match &d.shape {
-        Shape::Profile {
-            depth_um: Some(_), ..
-        } => stated(0.0, "the profile has depths of its own"),
-        _ => Needed("a profile with depth_um of its own does without"),
-    };
-    k.key(
-        key("depth_um", "h; a profile's own depths override it").from(0.0),
-        depth,
-        &mut d.depth_um,
-    );
-}
-
-fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
-    const WIDTH: Spec = key(
-        "width_mm",
-        "L_s, along the axis, at most the roller's length",
-    )
-    .from(0.0);
-    match shape {
-        Shape::Rectangle {
-            length_mm,
-            width_mm,
-        } => {
-            let length = key("length_mm", "along the rolling direction").above(0.0);
-            k.key(length, Required, length_mm);
-            k.key(WIDTH, Required, width_mm);
-        }
-        Shape::Circle { diameter_mm } => {
-            let diameter = key("diameter_mm", "2 a, at most the roller's length").above(0.0);
-            k.key(diameter, Required, diameter_mm);
-        }
-        Shape::Profile {
-            arc_mm,
-            width_mm,
-            depth_um,
-        } => {
-            let arc = key("arc_mm", "s of each point, never decreasing");
-            k.key(arc, Required, arc_mm);
-            k.key(WIDTH, Required, width_mm);
-            let depth = key(
-                "depth_um",
-                "h_s at each point; left out: the defect's depth",
-            );
-            k.optional(depth.from(0.0), depth_um);
-        }
-        Shape::Li2023Irregular { max_width_mm } => {
-            let width = key("max_width_mm", "largest L_s, at most the roller's length");
-            k.key(width.from(0.0), stated(4.0, PAPER), max_width_mm);
-        }
-    }
 }
 
 fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {

@@ -20,14 +20,17 @@ words! { Guidance:
 
 words! { Law:
     Ecl = "ecl", "effective contact length";
+    Sliced = "sliced", "independent slices, each at its own depth";
 }
 
 words! { RollerPath:
     Point = "point", "the depth under the contact line";
+    Envelope = "envelope", "the depth that the roller's radius lets it reach";
 }
 
 words! { EdgeReaction:
     None = "none", "slopes of the damage do not push";
+    Conservative = "conservative", "-dE/du on what turns; sliced and envelope only";
 }
 
 words! { LoadOn:

@@ -210,7 +210,12 @@ impl ContactState {
 
 /// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic energy with
 /// the angle at a fixed approach, the mean of both ends. Jumps at an edge are included.
+///
+/// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
 pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
+    if model.rules.is_conservative() {
+        return 0.0;
+    }
     let mut work = 0.0;
     for slot in 0..model.layout.rollers() {
         for side in SIDES {

@@ -6,7 +6,7 @@
 //! no force and never move.
 
 use super::{Kernel, Model, Power, Workspace};
-use crate::defect::{Angles, SIDES, acting};
+use crate::defect::{Angles, SIDES, acting_given, edge_gradient};
 use crate::elementary::Exponent;
 use crate::lanes::{self, Lanes, Portable, WIDTH};
 use crate::scenario::Guidance;
@@ -79,6 +79,9 @@ fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mu
     normal_contacts::<L>(model, q, v, &rings, ws);
     damaged_contacts(model, q, ring_angle, ws);
     let mut sums = rollers::<L>(model, q, v, a, w, &rings, ws);
+    if model.rules.is_conservative() && !model.defects.is_empty() {
+        edge_reaction(model, q, a, (w, ring_angle), ws, &mut sums.power);
+    }
     cages(model, q, v, a, w, &mut sums);
     self::rings(model, t, q, v, a, &mut sums);
     ws.power = sums.power;
@@ -141,7 +144,7 @@ fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspac
                 ring: ring_angle,
             };
             let delta = contacts.approach[slot];
-            let found = acting(
+            let found = acting_given(
                 model.defects_of(slot, side),
                 law,
                 &angles,
@@ -151,10 +154,48 @@ fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspac
             );
             contacts.on_damage[slot] = found.is_some();
             contacts.damaged_length[slot] = 0.0;
-            if let Some((elastic, floor)) = found {
-                contacts.elastic[slot] = elastic;
-                contacts.damaged_length[slot] = floor.damaged_length;
+            if let Some(acting) = found {
+                contacts.elastic[slot] = acting.elastic;
+                contacts.damaged_length[slot] = acting.floor.damaged_length;
             }
+        }
+    }
+}
+
+/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
+/// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
+///
+/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles know nothing of the
+/// rings' displacements, so that force has no reaction on them: the momentum audit books it as external.
+fn edge_reaction(
+    model: &Model,
+    q: &[f64],
+    a: &mut [f64],
+    (w, ring_angle): (f64, f64),
+    ws: &mut Workspace,
+    power: &mut Power,
+) {
+    let l = &model.layout;
+    for slot in 0..l.rollers() {
+        let angles = Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: ring_angle,
+        };
+        let arm = model.geometry.pitch_radius + q[l.r() + slot];
+        ws.edge_force[slot] = 0.0;
+        for side in SIDES {
+            let contacts = &ws.contacts[side as usize];
+            if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
+                continue;
+            }
+            let delta = contacts.approach[slot];
+            let defects = model.defects_of(slot, side);
+            let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
+            ws.edge_force[slot] -= e.orbit / arm;
+            a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
+            a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
+            power.drive += e.ring * w;
         }
     }
 }

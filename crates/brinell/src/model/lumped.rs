@@ -34,7 +34,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
     let acting = SIDES.map(|side| {
         model
             .defects_of(slot, side)
-            .filter_map(|d| d.floor(d.local_angle(angles, side)))
+            .filter_map(|d| d.floor(d.local_angle(angles, side), side))
             .map(|floor| {
                 (
                     with_floors(model, &healthy, &[(side, floor)]).elastic(delta),

@@ -20,7 +20,7 @@ pub use workspace::{Kernel, Workspace};
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
-use crate::defect::{Defect, SIDES, Side};
+use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
 use crate::operation::{Load, Rotation};
@@ -129,6 +129,8 @@ pub struct Model {
     pub defects: Vec<Defect>,
     /// Slots whose contact on each side some defect can meet.
     pub exposed: [Vec<usize>; 2],
+    /// How damage acts.
+    pub rules: Rules,
     /// Start.
     pub start: Start,
 }
@@ -180,10 +182,10 @@ impl Model {
             .collect();
         let mut defects = Vec::with_capacity(s.defects.len());
         for (k, defect) in s.defects.iter().enumerate() {
-            defects.push(Defect::new(defect, b).ok_or_else(|| ModelError {
+            defects.push(Defect::new(defect, b, &s.contact).ok_or_else(|| ModelError {
                 key: format!("defects.{k}"),
                 value: format!("{defect:?}"),
-                requirement: "rows and rollers count from 1 and a profile's lists are equally long, the arc never decreasing",
+                requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
             })?);
         }
         let exposed = SIDES.map(|side| {
@@ -263,6 +265,7 @@ impl Model {
             gravity: s.operation.gravity_m_per_s2,
             pocket_angle,
             defects,
+            rules: Rules::new(&s.contact),
             start: s.simulation.start,
         })
     }

@@ -50,7 +50,9 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], dy: &[f64], ws: &Workspace) -
             let tangential = arm * a[l.theta() + slot] + 2.0 * dr * dtheta;
             let orbit_speed = g.pitch_radius * dtheta;
             let drag = model.drag * orbit_speed * orbit_speed.abs();
-            let (radial, tangential) = (m.roller * radial, m.roller * tangential + drag);
+            // Drag and the push of damage's slopes have no reaction on any body.
+            let external = drag - ws.edge_force[slot];
+            let (radial, tangential) = (m.roller * radial, m.roller * tangential + external);
             add([
                 radial * cos - tangential * sin - m.roller * model.gravity[0],
                 radial * sin + tangential * cos - m.roller * model.gravity[1],

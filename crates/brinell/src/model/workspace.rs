@@ -100,6 +100,8 @@ pub struct Workspace {
     pub sin: Vec<f64>,
     /// Inner and outer contacts, indexed by `Side as usize`.
     pub contacts: [Contacts; 2],
+    /// Tangential push of damage's slopes on each roller along e_t, N; 0 without `edge_reaction`.
+    pub edge_force: Vec<f64>,
     /// F_c of each slot, N.
     pub pocket_force: Vec<f64>,
     /// f_c of each slot, N.
@@ -129,6 +131,7 @@ impl Workspace {
             cos: vec![1.0; slots],
             sin: zeros(),
             contacts: [Contacts::new(slots), Contacts::new(slots)],
+            edge_force: zeros(),
             pocket_force: zeros(),
             pocket_friction: zeros(),
             cage_lanes: vec![[[0.0; WIDTH]; CAGE]; layout.row_period() / WIDTH],

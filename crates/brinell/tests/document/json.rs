@@ -126,7 +126,7 @@ fn regress_schema_refuses_what_does_not() {
         ("1800.0", "[]", ".operation.speed_rpm"),
         (
             "[operation]",
-            "[contact]\nlaw = \"sliced\"\n[operation]",
+            "[contact]\nlaw = \"slice\"\n[operation]",
             ".contact.law",
         ),
     ] {

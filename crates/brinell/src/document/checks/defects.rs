@@ -12,11 +12,17 @@ impl Checker<'_> {
         for (i, defect) in self.s.defects.iter().enumerate() {
             self.whereabouts(i, defect);
             self.width(i, defect);
-            if let Shape::Profile { .. } = defect.shape {
-                self.profile(i, defect);
+            match &defect.shape {
+                Shape::Profile { .. } => self.profile(i, defect),
+                Shape::Outline { polygons_mm } => self.outline(i, "outline", polygons_mm),
+                Shape::DepthMap { grid } => self.depth_map(i, grid),
+                Shape::Grown { .. } => self.grown(i, defect),
+                _ => {}
             }
             self.arc(i, defect);
         }
+        self.edge_reaction();
+        self.overlaps();
     }
 
     fn whereabouts(&mut self, i: usize, defect: &Defect) {
@@ -53,6 +59,8 @@ impl Checker<'_> {
             Shape::Li2023Irregular { max_width_mm } => {
                 ("li2023_irregular.max_width_mm", *max_width_mm)
             }
+            Shape::Random { width_mm, .. } => ("random.width_mm", *width_mm),
+            Shape::Outline { .. } | Shape::DepthMap { .. } | Shape::Grown { .. } => return,
         };
         let length = self.s.bearing.roller_length_mm;
         if width > length {
@@ -143,7 +151,7 @@ impl Checker<'_> {
             Surface::Roller(_) => ("roller", "bearing.roller_diameter_mm", b.roller_diameter_mm),
         };
         let half_circle = 0.5 * PI * diameter;
-        let Some(shape) = crate::defect::Shape::new(&defect.shape) else {
+        let Some(shape) = crate::defect::Shape::new(&defect.shape, 1e-6 * defect.depth_um) else {
             return;
         };
         let (first, last) = shape.arc();
@@ -153,10 +161,17 @@ impl Checker<'_> {
             Shape::Circle { .. } => ("circle.diameter_mm", 2.0 * half_circle),
             Shape::Profile { .. } => ("profile.arc_mm", half_circle),
             Shape::Li2023Irregular { .. } => ("li2023_irregular", half_circle),
+            Shape::Outline { .. } => ("outline", half_circle),
+            Shape::DepthMap { .. } => ("depth_map", half_circle),
+            Shape::Grown { .. } => ("grown", half_circle),
+            Shape::Random { .. } => ("random.length_mm", 2.0 * half_circle),
         };
         if reach > half_circle {
             let allowed = match &defect.shape {
-                Shape::Profile { .. } => format!("-{0} to {0}", short(limit)),
+                Shape::Profile { .. }
+                | Shape::Outline { .. }
+                | Shape::DepthMap { .. }
+                | Shape::Grown { .. } => format!("-{0} to {0}", short(limit)),
                 Shape::Li2023Irregular { .. } => {
                     format!("a surface of diameter >= {} mm", short(2.0 * reach / PI))
                 }

@@ -5,6 +5,7 @@
 mod bearing;
 mod defects;
 mod operation;
+mod shapes;
 
 use std::collections::HashMap;
 

@@ -1,0 +1,269 @@
+//! Force, stiffness and energy of a contact that stands on damage, one defect or several (section 3).
+//!
+//! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` each slice feels the deepest of the depths that damage it;
+//! a defect that leaves a slice alone (h_k = 0) has no say there, so that it does not level another's raised edge.
+
+use super::{Angles, Defect, Side};
+use crate::contact::{Floor, Hertz};
+use crate::scenario::{Law, Surface};
+
+/// What acts in one contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Acting {
+    /// Elastic sum, N.
+    pub elastic: f64,
+    /// What the damage leaves.
+    pub floor: Floor,
+}
+
+/// One defect under one side of a roller, cut into slices.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    defect: &'a Defect,
+    slices: &'a [super::Course],
+    s: f64,
+}
+
+impl Cut<'_> {
+    #[inline]
+    fn depth(&self, k: usize) -> f64 {
+        self.slices[k].value(self.s)
+    }
+}
+
+/// The defects that the contact stands on.
+fn cuts<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+) -> impl Iterator<Item = Cut<'a>> + Clone {
+    defects.filter_map(move |defect| {
+        let ground = defect.ground(side)?;
+        let s = defect.local_angle(angles, side) * defect.radius;
+        (s >= ground.arc.0 && s <= ground.arc.1).then_some(Cut {
+            defect,
+            slices: &ground.slices,
+            s,
+        })
+    })
+}
+
+/// The deeper of two depths of a slice, where each damages it.
+#[inline]
+fn deeper(a: f64, b: f64) -> f64 {
+    if a == 0.0 || (b != 0.0 && b > a) {
+        b
+    } else {
+        a
+    }
+}
+
+/// Mean over the slices of f(delta - h_k); `undamaged` is f(delta), and nothing but undamaged slices gives it to the bit.
+#[inline]
+fn mean<'a>(
+    mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
+    undamaged: f64,
+    delta: f64,
+    f: impl Fn(f64) -> f64,
+) -> Option<f64> {
+    let all = cuts.clone();
+    let first = cuts.next()?;
+    let several = cuts.next().is_some();
+    let n = first.slices.len();
+    let (mut healthy, mut sum) = (0_usize, 0.0);
+    for k in 0..n {
+        let h = if several {
+            all.clone().fold(0.0, |h, cut| deeper(h, cut.depth(k)))
+        } else {
+            first.depth(k)
+        };
+        if h == 0.0 {
+            healthy += 1;
+        } else {
+            sum += f(delta - h);
+        }
+    }
+    Some(if healthy == n {
+        undamaged
+    } else if healthy == 0 {
+        sum / n as f64
+    } else {
+        (healthy as f64 * undamaged + sum) / n as f64
+    })
+}
+
+/// Law of a model's defects; `Ecl` where there are none.
+#[inline]
+fn law_of<'a>(mut defects: impl Iterator<Item = &'a Defect>) -> Law {
+    defects.next().map_or(Law::Ecl, |d| d.rules.law)
+}
+
+/// What acts in the contact of a roller at `angles` on `side` that is pressed by `delta` (m); `None` off all damage.
+pub fn acting<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    law: &Hertz,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+) -> Option<Acting> {
+    acting_given(defects, law, angles, side, delta, law.exponent.of(delta))
+}
+
+/// The same where `[delta]_+^n` is known already.
+#[inline]
+pub fn acting_given<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    law: &Hertz,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+    power: f64,
+) -> Option<Acting> {
+    if law_of(defects.clone()) == Law::Sliced {
+        let cuts = cuts(defects, angles, side);
+        let undamaged = law.stiffness * power;
+        let elastic = mean(cuts.clone(), undamaged, delta, |x| law.healthy(x))?;
+        let (length, damaged) = cuts.fold((0.0, 0.0_f64), |(_, widest), cut| {
+            (
+                cut.defect.roller_length,
+                widest.max(cut.defect.damaged_length(cut.s)),
+            )
+        });
+        return Some(Acting {
+            elastic,
+            floor: Floor {
+                share: 1.0 - damaged / length,
+                depth: 0.0,
+                damaged_length: damaged,
+            },
+        });
+    }
+    floors(defects, angles, side)
+        .map(|floor| Acting {
+            elastic: law.damaged_given(power, delta, &floor),
+            floor,
+        })
+        .reduce(|a, b| {
+            // With no force on either (a gap, or both floors below), the shorter remaining length stands for the contact.
+            if b.elastic < a.elastic || (b.elastic == a.elastic && b.floor.share < a.floor.share) {
+                b
+            } else {
+                a
+            }
+        })
+}
+
+fn floors<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+) -> impl Iterator<Item = Floor> + Clone {
+    defects.filter_map(move |d| d.floor(d.local_angle(angles, side), side))
+}
+
+/// d(elastic)/d(delta) of a contact, on damage or not, N/m.
+pub fn tangent<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    law: &Hertz,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+) -> f64 {
+    if law_of(defects.clone()) == Law::Sliced {
+        let cuts = cuts(defects, angles, side);
+        let undamaged = law.tangent(delta, None);
+        return mean(cuts, undamaged, delta, |x| law.tangent(x, None)).unwrap_or(undamaged);
+    }
+    let acting = acting(defects, law, angles, side, delta);
+    law.tangent(delta, acting.map(|a| a.floor).as_ref())
+}
+
+/// Elastic energy of a contact that may stand on any of `defects`, J: the integral of the acting elastic sum up to delta.
+pub fn energy<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    law: &Hertz,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+) -> f64 {
+    if law_of(defects.clone()) == Law::Sliced {
+        // Exact for several defects too: which depth acts in a slice does not depend on delta.
+        let cuts = cuts(defects, angles, side);
+        let undamaged = law.energy(delta);
+        return mean(cuts, undamaged, delta, |x| law.energy(x)).unwrap_or(undamaged);
+    }
+    if delta <= 0.0 {
+        return 0.0;
+    }
+    let mut floors = floors(defects, angles, side);
+    let all = floors.clone();
+    match (floors.next(), floors.next()) {
+        (None, _) => law.energy(delta),
+        (Some(floor), None) => law.damaged_energy(delta, &floor),
+        _ => {
+            // Overlapping damage: the acting defect may change on the way, so the work is integrated (midpoint rule).
+            const CELLS: u32 = 64;
+            let dx = delta / f64::from(CELLS);
+            let force = |x: f64| {
+                all.clone()
+                    .map(|f| law.damaged(x, &f))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            (0..CELLS)
+                .map(|k| force((f64::from(k) + 0.5) * dx) * dx)
+                .sum()
+        }
+    }
+}
+
+/// Derivatives of a contact's elastic energy at a fixed approach with the angles that carry it over damage, N m.
+///
+/// dE/du = (1/n_s) sum over slices of Q(delta - h_k) (-dh_k/ds) R, and u = theta - psi, theta - psi - W or theta - phi - psi (+ pi) by the
+/// damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EdgeGradient {
+    /// dE/dtheta.
+    pub orbit: f64,
+    /// dE/dphi.
+    pub spin: f64,
+    /// dE/dW.
+    pub ring: f64,
+}
+
+/// The derivatives under `sliced`; each slice counts for the defect that acts in it.
+pub fn edge_gradient<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    law: &Hertz,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+) -> EdgeGradient {
+    let mut gradient = EdgeGradient::default();
+    let cuts = cuts(defects, angles, side);
+    let Some(first) = cuts.clone().next() else {
+        return gradient;
+    };
+    let n = first.slices.len();
+    for k in 0..n {
+        let (h, cut) = cuts.clone().fold((0.0, first), |(h, acting), cut| {
+            let own = cut.depth(k);
+            if deeper(h, own) == h {
+                (h, acting)
+            } else {
+                (own, cut)
+            }
+        });
+        if h == 0.0 {
+            continue;
+        }
+        let push = law.healthy(delta - h) / n as f64;
+        let slope = -push * cut.slices[k].slope(cut.s) * cut.defect.radius;
+        gradient.orbit += slope;
+        match cut.defect.surface {
+            Surface::OuterRaceway => {}
+            Surface::InnerRaceway => gradient.ring -= slope,
+            Surface::Roller(_) => gradient.spin -= slope,
+        }
+    }
+    gradient
+}

@@ -1,0 +1,213 @@
+//! Damage as depths on a grid: bilinear between its nodes, 0 beyond its border. Lengths in m.
+
+use super::course::{Course, Line};
+use crate::scenario::DepthGrid;
+
+/// Depths at the nodes of a grid, with their width L_s(s) and mean depth h_s(s).
+///
+/// In L_s every damaged node (depth other than 0) stands for its cell, dz wide; h_s is the mean depth over that width, so that
+/// L_s h_s is the section of the damage. Both are tabulated at the columns and straight between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    start: [f64; 2],
+    step: [f64; 2],
+    columns: usize,
+    rows: usize,
+    depth: Vec<f64>,
+    width: Course,
+    mean: Course,
+    mean_lines: Vec<Line>,
+}
+
+impl Grid {
+    /// From the scenario's units. `None` where the sizes do not fit, a number is not finite, or nothing is damaged.
+    pub fn new(grid: &DepthGrid) -> Option<Self> {
+        let nodes = grid.columns.checked_mul(grid.rows)?;
+        let numbers = [grid.s0_mm, grid.z0_mm, grid.ds_mm, grid.dz_mm];
+        let fits = grid.columns >= 2
+            && grid.rows >= 2
+            && grid.depth_um.len() == nodes
+            && grid.ds_mm > 0.0
+            && grid.dz_mm > 0.0
+            && numbers.iter().chain(&grid.depth_um).all(|x| x.is_finite());
+        if !fits || grid.depth_um.iter().all(|h| *h == 0.0) {
+            return None;
+        }
+        let mut this = Self {
+            start: [1e-3 * grid.s0_mm, 1e-3 * grid.z0_mm],
+            step: [1e-3 * grid.ds_mm, 1e-3 * grid.dz_mm],
+            columns: grid.columns,
+            rows: grid.rows,
+            depth: grid.depth_um.iter().map(|h| 1e-6 * h).collect(),
+            width: Course::default(),
+            mean: Course::default(),
+            mean_lines: Vec::new(),
+        };
+        this.tabulate(f64::INFINITY);
+        Some(this)
+    }
+
+    /// Leaves out what a roller of length L (m) does not reach: cells beyond |z| = L/2.
+    pub fn within(mut self, length: f64) -> Self {
+        self.tabulate(0.5 * length);
+        self
+    }
+
+    fn tabulate(&mut self, reach: f64) {
+        let half = 0.5 * self.step[1];
+        let cells: Vec<f64> = (0..self.rows)
+            .map(|row| {
+                let z = self.z(row);
+                ((z + half).min(reach) - (z - half).max(-reach)).max(0.0)
+            })
+            .collect();
+        let mut width = vec![0.0; self.columns];
+        let mut section = vec![0.0; self.columns];
+        for (row, cell) in cells.iter().enumerate() {
+            for column in 0..self.columns {
+                let h = self.depth[row * self.columns + column];
+                if h != 0.0 {
+                    width[column] += cell;
+                    section[column] += cell * h;
+                }
+            }
+        }
+        let mean: Vec<f64> = width
+            .iter()
+            .zip(&section)
+            .map(|(w, a)| if *w > 0.0 { a / w } else { 0.0 })
+            .collect();
+        self.width = Course::of_lines(&self.lines(&width));
+        self.mean_lines = self.lines(&mean);
+        self.mean = Course::of_lines(&self.mean_lines);
+    }
+
+    fn s(&self, column: usize) -> f64 {
+        self.start[0] + column as f64 * self.step[0]
+    }
+
+    fn z(&self, row: usize) -> f64 {
+        self.start[1] + row as f64 * self.step[1]
+    }
+
+    /// Straight between columns, without what is 0 at both.
+    fn lines(&self, values: &[f64]) -> Vec<Line> {
+        (0..self.columns - 1)
+            .filter(|&c| values[c] != 0.0 || values[c + 1] != 0.0)
+            .map(|c| Line {
+                from: self.s(c),
+                to: self.s(c + 1),
+                at_from: values[c],
+                at_to: values[c + 1],
+            })
+            .collect()
+    }
+
+    /// L_s(s), m.
+    pub fn width(&self) -> &Course {
+        &self.width
+    }
+
+    /// h_s(s): mean depth over the damaged width, m.
+    pub fn mean_depth(&self) -> &Course {
+        &self.mean
+    }
+
+    /// h_s(s) as straight pieces between columns.
+    pub(super) fn mean_lines(&self) -> &[Line] {
+        &self.mean_lines
+    }
+
+    /// Depth along the line z = const as straight pieces between columns; none beyond the grid.
+    pub fn along(&self, z: f64) -> Vec<Line> {
+        let place = (z - self.start[1]) / self.step[1];
+        let top = (self.rows - 1) as f64;
+        if !(-1e-9..=top + 1e-9).contains(&place) {
+            return Vec::new();
+        }
+        let place = place.clamp(0.0, top);
+        let row = (place as usize).min(self.rows - 2);
+        let share = place - row as f64;
+        let values: Vec<f64> = (0..self.columns)
+            .map(|c| {
+                let (a, b) = (
+                    self.depth[row * self.columns + c],
+                    self.depth[(row + 1) * self.columns + c],
+                );
+                (1.0 - share) * a + share * b
+            })
+            .collect();
+        self.lines(&values)
+    }
+
+    /// Depth at (s, z), m.
+    pub fn depth(&self, s: f64, z: f64) -> f64 {
+        let line = self.along(z).into_iter().find(|l| s >= l.from && s <= l.to);
+        line.map_or(0.0, |l| {
+            l.at_from + (l.at_to - l.at_from) * (s - l.from) / (l.to - l.from)
+        })
+    }
+
+    /// Deepest and highest node, m; the highest is below 0 where an edge is raised.
+    pub fn extremes(&self) -> (f64, f64) {
+        let all = || self.depth.iter().copied();
+        (
+            all().fold(f64::NEG_INFINITY, f64::max),
+            all().fold(f64::INFINITY, f64::min),
+        )
+    }
+
+    /// Smallest and largest z of damaged nodes with the ramp to their undamaged neighbours, m.
+    pub fn heights(&self) -> (f64, f64) {
+        let damaged = |row: &usize| {
+            self.depth[row * self.columns..(row + 1) * self.columns]
+                .iter()
+                .any(|h| *h != 0.0)
+        };
+        let first = (0..self.rows).find(damaged).unwrap_or(0);
+        let last = (0..self.rows).rfind(damaged).unwrap_or(0);
+        (
+            self.z(first.saturating_sub(1)),
+            self.z((last + 1).min(self.rows - 1)),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_pyramid() {
+        // One node 6 um deep in the middle of 5 x 3 nodes, 1 mm apart: a tent in every direction.
+        let mut depth_um = vec![0.0; 15];
+        depth_um[7] = 6.0;
+        let g = Grid::new(&DepthGrid {
+            s0_mm: -2.0,
+            z0_mm: -1.0,
+            ds_mm: 1.0,
+            dz_mm: 1.0,
+            columns: 5,
+            rows: 3,
+            depth_um,
+        })
+        .unwrap();
+        for (s, z, h) in [
+            (0.0, 0.0, 6.0),
+            (0.5, 0.0, 3.0),
+            (0.5, -0.5, 1.5),
+            (1.5, 0.0, 0.0),
+            (0.0, 1.2, 0.0),
+        ] {
+            assert!(
+                (g.depth(1e-3 * s, 1e-3 * z) - 1e-6 * h).abs() < 1e-18,
+                "at {s} {z}"
+            );
+        }
+        assert_eq!(g.width().span(), (-1e-3, 1e-3));
+        assert!((g.width().value(0.0) - 1e-3).abs() < 1e-15);
+        assert!((g.mean_depth().value(0.0) - 6e-6).abs() < 1e-18);
+        assert!((g.clone().within(0.4e-3).width().value(0.0) - 0.4e-3).abs() < 1e-15);
+        assert_eq!(g.extremes(), (6e-6, 0.0));
+    }
+}

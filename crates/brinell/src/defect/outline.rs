@@ -1,0 +1,348 @@
+//! Damage seen from above: the inside of polygons by the even-odd rule. Points (s, z) in m.
+
+use super::course::{Course, Line};
+
+/// What is wrong with polygons; coordinates in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fault {
+    /// No polygon at all.
+    Nothing,
+    /// A polygon of fewer than three different corners, counted from 0: an open line.
+    Open {
+        /// Which polygon.
+        polygon: usize,
+    },
+    /// A coordinate that is not finite.
+    NotFinite {
+        /// Which polygon.
+        polygon: usize,
+    },
+    /// A polygon without area.
+    Flat {
+        /// Which polygon.
+        polygon: usize,
+    },
+    /// A polygon that crosses itself.
+    CrossesItself {
+        /// Which polygon.
+        polygon: usize,
+        /// Where.
+        at: [f64; 2],
+    },
+    /// Two polygons that cross: where they overlap, the even-odd rule leaves the surface undamaged.
+    Cross {
+        /// Which polygons.
+        polygons: [usize; 2],
+        /// Where.
+        at: [f64; 2],
+    },
+}
+
+/// An edge from left to right.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    polygon: usize,
+    left: [f64; 2],
+    right: [f64; 2],
+}
+
+impl Edge {
+    /// z at s.
+    fn at(&self, s: f64) -> f64 {
+        let share = (s - self.left[0]) / (self.right[0] - self.left[0]);
+        self.left[1] + (self.right[1] - self.left[1]) * share
+    }
+}
+
+/// Polygons with their width L_s(s).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    polygons: Vec<Vec<[f64; 2]>>,
+    width: Course,
+}
+
+impl Outline {
+    /// From polygons in m. `None` where one has a coordinate that is not finite, or nothing has an area.
+    pub fn new(polygons: Vec<Vec<[f64; 2]>>) -> Option<Self> {
+        if !polygons.iter().flatten().flatten().all(|x| x.is_finite()) {
+            return None;
+        }
+        let width = width(&polygons);
+        (width.integral() > 0.0).then_some(Self { polygons, width })
+    }
+
+    /// The same, larger by `factor` in both directions about the origin.
+    pub fn scaled(&self, factor: f64) -> Option<Self> {
+        let scaled = |p: &Vec<[f64; 2]>| p.iter().map(|x| x.map(|x| x * factor)).collect();
+        Self::new(self.polygons.iter().map(scaled).collect())
+    }
+
+    /// The polygons.
+    pub fn polygons(&self) -> &[Vec<[f64; 2]>] {
+        &self.polygons
+    }
+
+    /// L_s(s): the measure of the damaged z at s, straight between corners.
+    pub fn width(&self) -> &Course {
+        &self.width
+    }
+
+    /// Smallest and largest z, m.
+    pub fn heights(&self) -> (f64, f64) {
+        let z = || self.polygons.iter().flatten().map(|p| p[1]);
+        (
+            z().fold(f64::INFINITY, f64::min),
+            z().fold(f64::NEG_INFINITY, f64::max),
+        )
+    }
+
+    /// Where the line z = const is damaged: closed intervals of s, ascending. A border along the line counts, `slack` (m) being the
+    /// distance at which it lies on it.
+    pub fn chords(&self, z: f64, slack: f64) -> Vec<[f64; 2]> {
+        let mut all = self.crossings(z - slack);
+        all.extend(self.crossings(z + slack));
+        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut merged: Vec<[f64; 2]> = Vec::with_capacity(all.len());
+        for [from, to] in all {
+            match merged.last_mut() {
+                Some(last) if from <= last[1] => last[1] = last[1].max(to),
+                _ => merged.push([from, to]),
+            }
+        }
+        merged
+    }
+
+    fn crossings(&self, z: f64) -> Vec<[f64; 2]> {
+        let mut hits = Vec::new();
+        for polygon in &self.polygons {
+            for (p, q) in sides(polygon) {
+                if (p[1] <= z) != (q[1] <= z) {
+                    hits.push(p[0] + (z - p[1]) / (q[1] - p[1]) * (q[0] - p[0]));
+                }
+            }
+        }
+        hits.sort_by(f64::total_cmp);
+        hits.chunks_exact(2)
+            .map(|pair| [pair[0], pair[1]])
+            .filter(|[a, b]| b > a)
+            .collect()
+    }
+}
+
+/// Sides of a closed polygon.
+fn sides(polygon: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+    let next = polygon.iter().skip(1).chain(polygon.first());
+    polygon.iter().copied().zip(next.copied())
+}
+
+/// Twice the signed area.
+fn double_area(polygon: &[[f64; 2]]) -> f64 {
+    sides(polygon).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum()
+}
+
+fn edges(polygons: &[Vec<[f64; 2]>]) -> Vec<Edge> {
+    let mut all = Vec::new();
+    for (polygon, corners) in polygons.iter().enumerate() {
+        for (p, q) in sides(corners).filter(|(p, q)| p != q) {
+            let (left, right) = if p[0] <= q[0] { (p, q) } else { (q, p) };
+            all.push(Edge {
+                polygon,
+                left,
+                right,
+            });
+        }
+    }
+    all.sort_by(|a, b| a.left[0].total_cmp(&b.left[0]));
+    all
+}
+
+/// L_s(s) by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
+fn width(polygons: &[Vec<[f64; 2]>]) -> Course {
+    let edges = edges(polygons);
+    let mut stops: Vec<f64> = polygons.iter().flatten().map(|p| p[0]).collect();
+    stops.extend(crossings(&edges).iter().map(|(_, at)| at[0]));
+    stops.sort_by(f64::total_cmp);
+    stops.dedup();
+    let mut lines: Vec<Line> = Vec::with_capacity(stops.len());
+    let mut active: Vec<Edge> = Vec::new();
+    let mut next = 0;
+    for pair in stops.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        while next < edges.len() && edges[next].left[0] <= a {
+            active.push(edges[next]);
+            next += 1;
+        }
+        active.retain(|e| e.right[0] >= b);
+        let middle = 0.5 * (a + b);
+        active.sort_by(|e, f| e.at(middle).total_cmp(&f.at(middle)));
+        let sum = |s: f64| {
+            active
+                .chunks_exact(2)
+                .map(|pair| (pair[1].at(s) - pair[0].at(s)).max(0.0))
+                .sum::<f64>()
+        };
+        let line = Line {
+            from: a,
+            to: b,
+            at_from: sum(a),
+            at_to: sum(b),
+        };
+        if line.at_from > 0.0 || line.at_to > 0.0 {
+            lines.push(line);
+        }
+    }
+    Course::of_lines(&lines)
+}
+
+/// Where edges cross properly: which two, and the point. Edges must be sorted by their left ends.
+fn crossings(edges: &[Edge]) -> Vec<([usize; 2], [f64; 2])> {
+    let mut found = Vec::new();
+    let mut active: Vec<&Edge> = Vec::new();
+    for e in edges {
+        active.retain(|a| a.right[0] >= e.left[0]);
+        let (low, high) = (e.left[1].min(e.right[1]), e.left[1].max(e.right[1]));
+        for a in &active {
+            if a.left[1].min(a.right[1]) <= high
+                && a.left[1].max(a.right[1]) >= low
+                && let Some(at) = crossing(a, e)
+            {
+                found.push(([a.polygon, e.polygon], at));
+            }
+        }
+        active.push(e);
+    }
+    found
+}
+
+/// The point where two edges cross within both; touching is no crossing.
+fn crossing(a: &Edge, b: &Edge) -> Option<[f64; 2]> {
+    let side = |e: &Edge, p: [f64; 2]| {
+        (e.right[0] - e.left[0]) * (p[1] - e.left[1])
+            - (e.right[1] - e.left[1]) * (p[0] - e.left[0])
+    };
+    let (a0, a1) = (side(b, a.left), side(b, a.right));
+    let (b0, b1) = (side(a, b.left), side(a, b.right));
+    // Below this a corner lies on the other edge, as far as round-off can tell.
+    let size = |e: &Edge| (e.right[0] - e.left[0]).abs() + (e.right[1] - e.left[1]).abs();
+    let least = 1e-12 * size(a) * size(b);
+    if a0 * a1 >= 0.0 || b0 * b1 >= 0.0 || [a0, a1, b0, b1].iter().any(|x| x.abs() <= least) {
+        return None;
+    }
+    let share = a0 / (a0 - a1);
+    Some([0, 1].map(|k| a.left[k] + share * (a.right[k] - a.left[k])))
+}
+
+/// Everything wrong with polygons; [`Fault::Cross`] is the only one that can still be simulated.
+pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    if polygons.is_empty() {
+        faults.push(Fault::Nothing);
+    }
+    for (polygon, corners) in polygons.iter().enumerate() {
+        if !corners.iter().flatten().all(|x| x.is_finite()) {
+            faults.push(Fault::NotFinite { polygon });
+            continue;
+        }
+        let mut different: Vec<&[f64; 2]> = corners.iter().collect();
+        different.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        different.dedup();
+        let extent = corners
+            .iter()
+            .flatten()
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        if different.len() < 3 {
+            faults.push(Fault::Open { polygon });
+        } else if double_area(corners).abs() <= 1e-12 * extent * extent {
+            // A figure of eight can have no net area either; crossing itself is what is wrong with it.
+            let own = edges(std::slice::from_ref(corners));
+            if crossings(&own).is_empty() {
+                faults.push(Fault::Flat { polygon });
+            }
+        }
+    }
+    if faults
+        .iter()
+        .any(|f| matches!(f, Fault::NotFinite { .. } | Fault::Nothing))
+    {
+        return faults;
+    }
+    let mut named: Vec<[usize; 2]> = Vec::new();
+    for (mut pair, at) in crossings(&edges(polygons)) {
+        pair.sort_unstable();
+        if named.contains(&pair) {
+            continue;
+        }
+        named.push(pair);
+        faults.push(if pair[0] == pair[1] {
+            Fault::CrossesItself {
+                polygon: pair[0],
+                at,
+            }
+        } else {
+            Fault::Cross { polygons: pair, at }
+        });
+    }
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(half: f64) -> Vec<[f64; 2]> {
+        vec![[-half, -half], [half, -half], [half, half], [-half, half]]
+    }
+
+    #[test]
+    fn analytic_square_with_a_hole() {
+        let o = Outline::new(vec![square(2.0), square(1.0)]).unwrap();
+        assert!((o.width().integral() - 12.0).abs() < 1e-13);
+        assert_eq!(
+            (
+                o.width().value(0.0),
+                o.width().value(1.5),
+                o.width().value(2.1)
+            ),
+            (2.0, 4.0, 0.0)
+        );
+        assert_eq!(o.chords(0.0, 1e-9), [[-2.0, -1.0], [1.0, 2.0]]);
+        assert_eq!(o.chords(1.5, 1e-9), [[-2.0, 2.0]]);
+        // The border belongs to the damage, whichever side it is on.
+        assert_eq!(
+            (o.chords(2.0, 1e-9).len(), o.chords(-2.0, 1e-9).len()),
+            (1, 1)
+        );
+    }
+
+    #[test]
+    fn analytic_faults_are_told_apart() {
+        let bow = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        assert!(matches!(
+            faults(&[bow])[..],
+            [Fault::CrossesItself { polygon: 0, .. }]
+        ));
+        assert_eq!(
+            faults(&[vec![[0.0, 0.0], [1.0, 1.0]]]),
+            [Fault::Open { polygon: 0 }]
+        );
+        let flat = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
+        assert_eq!(faults(&[flat]), [Fault::Flat { polygon: 0 }]);
+        assert_eq!(faults(&[]), [Fault::Nothing]);
+        let moved = square(1.0)
+            .iter()
+            .map(|p| [p[0] + 0.5, p[1] + 0.5])
+            .collect();
+        assert!(matches!(
+            faults(&[square(1.0), moved])[..],
+            [Fault::Cross {
+                polygons: [0, 1],
+                ..
+            }]
+        ));
+        assert!(faults(&[square(2.0), square(1.0)]).is_empty());
+        // Halves that share an edge touch and do not cross.
+        let left = vec![[-1.0, -1.0], [0.0, -1.0], [0.0, 1.0], [-1.0, 1.0]];
+        let right = vec![[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]];
+        assert!(faults(&[left, right]).is_empty());
+    }
+}

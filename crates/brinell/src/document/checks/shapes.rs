@@ -1,0 +1,354 @@
+//! Outlines, depth maps, and damage that meets other damage.
+
+use super::{Checker, short};
+use crate::defect::{self, Fault};
+use crate::scenario::{Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, Shape};
+
+const LENGTH: &str = "bearing.roller_length_mm";
+/// Numbers that the slices of one depth map may take: 160 MB.
+const MOST_PIECES: f64 = 5e6;
+/// A corner less than this beyond the roller's end, mm, is round-off.
+const EDGE_SLACK: f64 = 1e-6;
+
+fn at([s, z]: [f64; 2]) -> String {
+    format!("s = {} mm, z = {} mm", short(1e3 * s), short(1e3 * z))
+}
+
+impl Checker<'_> {
+    /// Path of one key of a shape.
+    fn shape_key(&self, i: usize, shape: &str, name: &str) -> String {
+        format!("defects.{i}.shape.{shape}.{name}")
+    }
+
+    /// The key that holds an outline's polygons; `None` where what it holds could not be read or is ambiguous, which is then reported.
+    fn polygons_key(
+        &mut self,
+        i: usize,
+        shape: &str,
+        polygons: &[Vec<[f64; 2]>],
+    ) -> Option<String> {
+        let keys = ["points_mm", "polygons_mm"].map(|name| self.shape_key(i, shape, name));
+        let given = keys.clone().map(|key| self.finder.value(&key));
+        match given {
+            [Some(_), Some(_)] => {
+                self.error(
+                    &keys[0],
+                    "give points_mm or polygons_mm, not both".into(),
+                    "one polygon, or a list of them".into(),
+                    &[&keys[1]],
+                );
+                None
+            }
+            [None, None] => {
+                self.error(
+                    &keys[0],
+                    "missing: the corners of one polygon, or polygons_mm for several".into(),
+                    "points [s, z] in mm".into(),
+                    &[],
+                );
+                None
+            }
+            [text, other] => {
+                let key = keys[usize::from(text.is_none())].clone();
+                let empty = text.or(other).is_some_and(|text| text.starts_with("[]"));
+                // A list that came out empty and does not stand there as such was reported as unreadable.
+                let unread = polygons.iter().all(Vec::is_empty) && !empty;
+                (!unread).then_some(key)
+            }
+        }
+    }
+
+    pub(super) fn outline(&mut self, i: usize, shape: &str, polygons: &[Vec<[f64; 2]>]) {
+        let Some(key) = self.polygons_key(i, shape, polygons) else {
+            return;
+        };
+        let metres: Vec<Vec<[f64; 2]>> = polygons
+            .iter()
+            .map(|p| p.iter().map(|x| x.map(|x| 1e-3 * x)).collect())
+            .collect();
+        let which = |polygon: usize| match polygons.len() {
+            1 => "the outline".to_string(),
+            _ => format!("polygon {}", polygon + 1),
+        };
+        for fault in defect::faults(&metres) {
+            let (message, allowed) = match fault {
+                Fault::Nothing => ("there is no polygon".into(), "one polygon or more"),
+                Fault::Open { polygon } => (
+                    format!(
+                        "{} has fewer than three different corners and encloses nothing",
+                        which(polygon)
+                    ),
+                    "three corners or more; the last is joined to the first",
+                ),
+                Fault::NotFinite { polygon } => (
+                    format!("{} has a coordinate that is not a number", which(polygon)),
+                    "finite numbers",
+                ),
+                Fault::Flat { polygon } => (
+                    format!(
+                        "{} has no area: its corners lie on one line",
+                        which(polygon)
+                    ),
+                    "a polygon that encloses something",
+                ),
+                Fault::CrossesItself { polygon, at: p } => (
+                    format!("{} crosses itself at {}", which(polygon), at(p)),
+                    "sides that do not cross; several polygons for several spots",
+                ),
+                Fault::Cross {
+                    polygons: [a, b],
+                    at: p,
+                } => {
+                    let message = format!(
+                        "polygons {} and {} cross at {}: where they overlap the surface counts as undamaged, as in a hole",
+                        a + 1,
+                        b + 1,
+                        at(p)
+                    );
+                    self.warn(
+                        &key,
+                        message,
+                        "polygons apart or one within another".into(),
+                        &[],
+                    );
+                    continue;
+                }
+            };
+            self.error(&key, message, allowed.into(), &[]);
+        }
+        if shape == "outline"
+            && let Some(outline) = defect::Outline::new(metres)
+        {
+            self.on_raceway(&key, outline.heights());
+        }
+    }
+
+    /// Damage beyond the roller's ends, given its smallest and largest z in m.
+    fn on_raceway(&mut self, key: &str, (low, high): (f64, f64)) {
+        let half = 0.5 * self.s.bearing.roller_length_mm;
+        let (low, high) = (1e3 * low, 1e3 * high);
+        if low < -half - EDGE_SLACK || high > half + EDGE_SLACK {
+            self.error(
+                key,
+                format!(
+                    "off the raceway's edge: z from {} to {} mm, and the roller covers -{3} to {3} mm{2}",
+                    short(low),
+                    short(high),
+                    hint_of_scale(high - low, 2.0 * half),
+                    short(half)
+                ),
+                format!("z from -{0} to {0} mm", short(half)),
+                &[LENGTH],
+            );
+        }
+    }
+
+    pub(super) fn grown(&mut self, i: usize, defect: &Defect) {
+        let Shape::Grown {
+            outline,
+            max_width_mm,
+            area_mm2,
+        } = &defect.shape
+        else {
+            return;
+        };
+        self.outline(i, "grown", outline);
+        let [width, area] =
+            ["max_width_mm", "area_mm2"].map(|name| self.shape_key(i, "grown", name));
+        match (max_width_mm, area_mm2) {
+            (Some(_), Some(_)) => self.error(
+                &width,
+                "give max_width_mm or area_mm2, not both".into(),
+                "one of them".into(),
+                &[&area],
+            ),
+            (None, None) => self.error(
+                &width,
+                "missing: the width to grow to, or area_mm2".into(),
+                "one of them".into(),
+                &[],
+            ),
+            _ => {
+                let key = if max_width_mm.is_some() { width } else { area };
+                let depth = 1e-6 * defect.depth_um;
+                if let Some(defect::Shape::Outline(grown)) =
+                    defect::Shape::new(&defect.shape, depth)
+                {
+                    self.on_raceway(&key, grown.heights());
+                }
+            }
+        }
+    }
+
+    pub(super) fn depth_map(&mut self, i: usize, grid: &DepthGrid) {
+        let key = self.shape_key(i, "depth_map", "depth_um");
+        let text = self.finder.value(&key);
+        if text.is_none() || (grid.depth_um.is_empty() && text.as_deref() != Some("[]")) {
+            return;
+        }
+        let (columns, rows) = (grid.columns, grid.rows);
+        let sizes = ["columns", "rows"].map(|name| self.shape_key(i, "depth_map", name));
+        let also = [sizes[0].as_str(), sizes[1].as_str()];
+        let count = grid.depth_um.len();
+        if columns == 0 || rows == 0 {
+            return;
+        }
+        if count != columns.saturating_mul(rows) {
+            self.error(
+                &key,
+                format!("{count} depths for {columns} columns and {rows} rows"),
+                format!("{} numbers", columns.saturating_mul(rows)),
+                &also,
+            );
+            return;
+        }
+        if let Some(hole) = grid.depth_um.iter().position(|h| !h.is_finite()) {
+            self.error(
+                &key,
+                format!(
+                    "no depth in row {}, column {}",
+                    hole / columns + 1,
+                    hole % columns + 1
+                ),
+                "a finite number at every node; 0 where nothing is damaged".into(),
+                &[],
+            );
+            return;
+        }
+        let Some(map) = defect::Grid::new(grid) else {
+            let flat = grid.depth_um.iter().all(|h| *h == 0.0);
+            if flat {
+                self.error(
+                    &key,
+                    "every depth is 0: there is no damage".into(),
+                    "a depth other than 0 somewhere".into(),
+                    &[],
+                );
+            }
+            return;
+        };
+        if map.extremes().1 < 0.0
+            && (self.s.contact.law != Law::Sliced
+                || self.s.simulation.model == ModelKind::Reference)
+        {
+            self.error(
+                &key,
+                format!(
+                    "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\"",
+                    short(-1e6 * map.extremes().1)
+                ),
+                ">= 0, or those two".into(),
+                &["contact.law", "simulation.model"],
+            );
+        }
+        let half = 0.5 * self.s.bearing.roller_length_mm;
+        let (low, high) = map.heights();
+        let (low, high) = (1e3 * low, 1e3 * high);
+        if low >= half || high <= -half {
+            self.on_raceway(&key, map.heights());
+        } else if low < -half - grid.dz_mm || high > half + grid.dz_mm {
+            self.warn(
+                &key,
+                format!(
+                    "damage from z = {} to {} mm goes off the raceway's edge; the roller covers -{3} to {3} mm and what lies beyond is left out{2}",
+                    short(low),
+                    short(high),
+                    hint_of_scale(high - low, 2.0 * half),
+                    short(half)
+                ),
+                String::new(),
+                &[LENGTH],
+            );
+        }
+        let pieces = columns as f64 * self.s.contact.slices as f64;
+        if self.s.contact.law == Law::Sliced && pieces > MOST_PIECES {
+            self.error(
+                &sizes[0],
+                format!(
+                    "{columns} columns in each of {} slices are more than memory should hold",
+                    self.s.contact.slices
+                ),
+                format!("columns times contact.slices <= {MOST_PIECES:e}"),
+                &["contact.slices"],
+            );
+        }
+    }
+
+    pub(super) fn edge_reaction(&mut self) {
+        const KEY: &str = "contact.edge_reaction";
+        let c = &self.s.contact;
+        if c.edge_reaction != EdgeReaction::Conservative {
+            return;
+        }
+        if c.law != Law::Sliced || c.roller_path != RollerPath::Envelope {
+            self.error(
+                KEY,
+                "the push of slopes needs an energy without jumps".into(),
+                "\"none\", or law = \"sliced\" with roller_path = \"envelope\"".into(),
+                &["contact.law", "contact.roller_path"],
+            );
+        } else if self.s.simulation.model == ModelKind::Reference {
+            self.error(
+                KEY,
+                "the reference model prescribes how rollers turn: nothing can push them".into(),
+                "\"none\" where simulation.model = \"reference\"".into(),
+                &["simulation.model"],
+            );
+        }
+    }
+
+    /// Damage that overlaps on one surface of one row.
+    pub(super) fn overlaps(&mut self) {
+        let s = self.s;
+        let placed: Vec<(f64, f64, f64)> = s
+            .defects
+            .iter()
+            .map(|d| {
+                let depth = 1e-6 * d.depth_um;
+                let arc = defect::Shape::new(&d.shape, depth).map_or((0.0, 0.0), |x| x.arc());
+                let radius = 0.5e-3
+                    * match d.on {
+                        crate::scenario::Surface::OuterRaceway => {
+                            s.bearing.outer_raceway_diameter_mm
+                        }
+                        crate::scenario::Surface::InnerRaceway => {
+                            s.bearing.inner_raceway_diameter_mm
+                        }
+                        crate::scenario::Surface::Roller(_) => s.bearing.roller_diameter_mm,
+                    };
+                (d.center_deg.to_radians(), arc.0 / radius, arc.1 / radius)
+            })
+            .collect();
+        for i in 0..s.defects.len() {
+            for j in 0..i {
+                let (a, b) = (&s.defects[i], &s.defects[j]);
+                let ((ca, a0, a1), (cb, b0, b1)) = (placed[i], placed[j]);
+                // From the middle of one arc to the middle of the other, the short way round.
+                let apart = defect::wrap(ca + 0.5 * (a0 + a1) - cb - 0.5 * (b0 + b1)).abs();
+                let meet = apart < 0.5 * (a1 - a0 + b1 - b0);
+                if a.on != b.on || a.row != b.row || !meet {
+                    continue;
+                }
+                let rule = match s.contact.law {
+                    Law::Sliced => "each slice takes the deeper of the two",
+                    Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
+                };
+                self.warn(
+                    &format!("defects.{i}"),
+                    format!("overlaps defects.{j} along the rolling direction; {rule}"),
+                    String::new(),
+                    &[&format!("defects.{j}")],
+                );
+            }
+        }
+    }
+}
+
+/// A guess at what is wrong with an extent that is many times the roller.
+fn hint_of_scale(extent: f64, roller: f64) -> &'static str {
+    if extent > 100.0 * roller {
+        "; lengths in um instead of mm?"
+    } else {
+        ""
+    }
+}

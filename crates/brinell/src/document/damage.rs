@@ -1,0 +1,247 @@
+//! Every key of a `[[defects]]` entry and of its shape.
+
+use super::blank;
+use super::keys::Fallback::{Needed, Required};
+use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
+use super::sections::PAPER;
+use super::words::SurfaceWord;
+use crate::scenario::*;
+
+/// The shapes of a defect.
+const SHAPES: &[Variant<Shape>] = &[
+    Variant {
+        name: "rectangle",
+        doc: "as wide all along",
+        blank: blank::rectangle,
+    },
+    Variant {
+        name: "circle",
+        doc: "a round pit",
+        blank: blank::circle,
+    },
+    Variant {
+        name: "profile",
+        doc: "points joined by lines; where arc_mm repeats, it jumps",
+        blank: blank::profile,
+    },
+    Variant {
+        name: "li2023_irregular",
+        doc: "the paper's irregular spall, 7 mm long",
+        blank: blank::irregular,
+    },
+    Variant {
+        name: "outline",
+        doc: "polygons seen from above; a polygon within another is a hole",
+        blank: blank::outline,
+    },
+    Variant {
+        name: "depth_map",
+        doc: "depths on a grid, bilinear between its nodes",
+        blank: blank::depth_map,
+    },
+    Variant {
+        name: "grown",
+        doc: "an outline scaled alike in both directions to a width or an area",
+        blank: blank::grown,
+    },
+    Variant {
+        name: "random",
+        doc: "a ragged spall drawn from a seed, its mean depth the defect's",
+        blank: blank::random,
+    },
+];
+
+pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
+    let (mut word, mut roller) = match d.on {
+        Surface::OuterRaceway => (SurfaceWord::OuterRaceway, 1),
+        Surface::InnerRaceway => (SurfaceWord::InnerRaceway, 1),
+        Surface::Roller(number) => (SurfaceWord::Roller, number),
+    };
+    k.key(key("on", "damaged surface"), Required, &mut word);
+    k.only_where(
+        key("roller", "which roller of the row, from 1").from(1.0),
+        word == SurfaceWord::Roller,
+        "on = \"roller\"",
+        &mut roller,
+    );
+    d.on = match word {
+        SurfaceWord::OuterRaceway => Surface::OuterRaceway,
+        SurfaceWord::InnerRaceway => Surface::InnerRaceway,
+        SurfaceWord::Roller => Surface::Roller(roller),
+    };
+    k.key(
+        key("row", "which row, from 1").from(1.0),
+        assumed(1, "the first row"),
+        &mut d.row,
+    );
+    let center = if word == SurfaceWord::OuterRaceway {
+        derived(
+            load[1].atan2(load[0]).to_degrees(),
+            "the middle of the load zone",
+        )
+    } else {
+        assumed(0.0, "it turns through the load anyway")
+    };
+    k.key(
+        key("center_deg", "psi, counter-clockwise from +x"),
+        center,
+        &mut d.center_deg,
+    );
+    k.one_of(
+        key(
+            "shape",
+            "outline; length along the rolling direction, width along the axis",
+        ),
+        SHAPES,
+        &mut d.shape,
+        shape,
+    );
+    let depth = match &d.shape {
+        Shape::Profile {
+            depth_um: Some(_), ..
+        } => stated(0.0, "the profile has depths of its own"),
+        Shape::DepthMap { .. } => stated(0.0, "the depth map has depths of its own"),
+        _ => Needed("a profile with depth_um of its own, or a depth map, does without"),
+    };
+    let spec = key(
+        "depth_um",
+        "h; depths of a profile or a depth map override it",
+    );
+    k.key(spec.from(0.0), depth, &mut d.depth_um);
+}
+
+fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
+    const WIDTH: Spec = key(
+        "width_mm",
+        "L_s, along the axis, at most the roller's length",
+    )
+    .from(0.0);
+    match shape {
+        Shape::Rectangle {
+            length_mm,
+            width_mm,
+        } => {
+            let length = key("length_mm", "along the rolling direction").above(0.0);
+            k.key(length, Required, length_mm);
+            k.key(WIDTH, Required, width_mm);
+        }
+        Shape::Circle { diameter_mm } => {
+            let diameter = key("diameter_mm", "2 a, at most the roller's length").above(0.0);
+            k.key(diameter, Required, diameter_mm);
+        }
+        Shape::Profile {
+            arc_mm,
+            width_mm,
+            depth_um,
+        } => {
+            let arc = key("arc_mm", "s of each point, never decreasing");
+            k.key(arc, Required, arc_mm);
+            k.key(WIDTH, Required, width_mm);
+            let depth = key(
+                "depth_um",
+                "h_s at each point; left out: the defect's depth",
+            );
+            k.optional(depth.from(0.0), depth_um);
+        }
+        Shape::Li2023Irregular { max_width_mm } => {
+            let width = key("max_width_mm", "largest L_s, at most the roller's length");
+            k.key(width.from(0.0), stated(4.0, PAPER), max_width_mm);
+        }
+        Shape::Outline { polygons_mm } => polygons(k, polygons_mm),
+        Shape::DepthMap { grid } => depth_map(k, grid),
+        Shape::Grown {
+            outline,
+            max_width_mm,
+            area_mm2,
+        } => {
+            polygons(k, outline);
+            let width = key(
+                "max_width_mm",
+                "largest L_s after scaling; this or the area",
+            );
+            k.optional(width.above(0.0), max_width_mm);
+            let area = key("area_mm2", "area after scaling; this or the width");
+            k.optional(area.above(0.0), area_mm2);
+        }
+        Shape::Random {
+            seed,
+            length_mm,
+            width_mm,
+            roughness,
+        } => {
+            k.key(key("seed", "which spall"), stated(1, "the first"), seed);
+            let length = key("length_mm", "extent along the rolling direction").above(0.0);
+            k.key(length, Required, length_mm);
+            k.key(WIDTH.above(0.0), Required, width_mm);
+            let rough = key("roughness", "0: even ellipse; 1: as ragged as it gets");
+            k.key(
+                rough.from(0.0).to(1.0),
+                assumed(0.5, "between even and ragged"),
+                roughness,
+            );
+        }
+    }
+}
+
+/// One polygon as `points_mm`, several as `polygons_mm`.
+fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
+    let (mut one, mut several) = match &polygons[..] {
+        [] => (None, None),
+        [only] => (Some(only.clone()), None),
+        _ => (None, Some(polygons.clone())),
+    };
+    k.optional(
+        key("points_mm", "corners [s, z] of one polygon, in order"),
+        &mut one,
+    );
+    k.optional(
+        key("polygons_mm", "lists of corners, for several polygons"),
+        &mut several,
+    );
+    *polygons = one
+        .into_iter()
+        .chain(several.into_iter().flatten())
+        .collect();
+}
+
+/// Columns or rows of a grid at the most.
+const MOST_NODES: f64 = 20_000.0;
+
+fn depth_map<K: Keys>(k: &mut K, g: &mut DepthGrid) {
+    let spacing = |name, doc| key(name, doc).above(0.0);
+    let count = |name, doc| key(name, doc).from(2.0).to(MOST_NODES);
+    let centred = |n: usize, d: f64| {
+        let start = -0.5 * n.saturating_sub(1) as f64 * d;
+        derived(start, "the grid's middle at the defect's centre")
+    };
+    k.key(
+        spacing("ds_mm", "distance of columns, along the rolling direction"),
+        Required,
+        &mut g.ds_mm,
+    );
+    k.key(
+        spacing("dz_mm", "distance of rows, along the axis"),
+        Required,
+        &mut g.dz_mm,
+    );
+    k.key(count("columns", "nodes along s"), Required, &mut g.columns);
+    k.key(count("rows", "nodes along z"), Required, &mut g.rows);
+    k.key(
+        key("s0_mm", "s of the first column"),
+        centred(g.columns, g.ds_mm),
+        &mut g.s0_mm,
+    );
+    k.key(
+        key("z0_mm", "z of the first row"),
+        centred(g.rows, g.dz_mm),
+        &mut g.z0_mm,
+    );
+    k.key(
+        key(
+            "depth_um",
+            "depths row by row, columns of a row in order; 0 undamaged, negative raised",
+        ),
+        Required,
+        &mut g.depth_um,
+    );
+}

@@ -1,0 +1,87 @@
+//! A run over damage allocates nothing between its steps, whatever the damage.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use brinell::channel::Frame;
+use brinell::scenario::{EdgeReaction, Law, RollerPath, Scenario, Shape};
+use brinell::simulate::{End, Observer, Simulation};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call is handed on to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller's contract is the system allocator's.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's contract is the system allocator's.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+#[derive(Default)]
+struct Watch {
+    steps: usize,
+    first: usize,
+    last: usize,
+    damaged: usize,
+}
+
+impl Observer for Watch {
+    fn step(&mut self, frame: &Frame) {
+        self.last = ALLOCATIONS.load(Ordering::Relaxed);
+        if self.steps == 0 {
+            self.first = self.last;
+        }
+        self.steps += 1;
+        self.damaged += usize::from(frame.ws.contacts[1].on_damage.contains(&true));
+    }
+
+    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+// One test in this file: the count is of the whole process.
+#[test]
+fn prop_steps_over_damage_allocate_nothing() {
+    for (law, path, edge_reaction) in [
+        (Law::Ecl, RollerPath::Envelope, EdgeReaction::None),
+        (Law::Sliced, RollerPath::Point, EdgeReaction::None),
+        (
+            Law::Sliced,
+            RollerPath::Envelope,
+            EdgeReaction::Conservative,
+        ),
+    ] {
+        let mut s = Scenario::example();
+        s.contact.law = law;
+        s.contact.roller_path = path;
+        s.contact.edge_reaction = edge_reaction;
+        s.simulation.duration_s = 0.02;
+        s.defects[0].shape = Shape::Random {
+            seed: 4,
+            length_mm: 5.0,
+            width_mm: 4.0,
+            roughness: 0.6,
+        };
+        // A second one across the first, so that slices choose between them.
+        s.defects.push(s.defects[0].clone());
+        s.defects[1].shape = Shape::Circle { diameter_mm: 3.0 };
+        let simulation = Simulation::new(&s).unwrap();
+        let mut watch = Watch::default();
+        assert_eq!(simulation.run(&mut watch).end, End::Complete);
+        assert!(watch.steps > 1000 && watch.damaged > 100);
+        assert_eq!(watch.last - watch.first, 0, "{law:?} {path:?}");
+    }
+}

@@ -1,0 +1,480 @@
+//! Shapes of damage against closed forms, against each other, and against an independent geometry library.
+
+use brinell::contact::Hertz;
+use brinell::defect::{Angles, Defect, Outline, Shape, Side, acting, edge_gradient, energy, spall};
+use brinell::elementary::Exponent;
+use brinell::scenario::{self, DepthGrid, EdgeReaction, Law, RollerPath, Scenario, Surface};
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::float::clip::FloatClip;
+use i_overlay::string::clip::ClipRule;
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+const LAW: Hertz = Hertz {
+    stiffness: 1.898e8,
+    exponent: Exponent::TenNinths,
+    damping: 200.0,
+};
+
+fn circle_mm(radius: f64, corners: usize) -> Vec<[f64; 2]> {
+    (0..corners)
+        .map(|k| {
+            let (sin, cos) = (TAU * k as f64 / corners as f64).sin_cos();
+            [radius * cos, radius * sin]
+        })
+        .collect()
+}
+
+fn grid_mm(half: [f64; 2], step: f64, depth: impl Fn(f64, f64) -> f64) -> DepthGrid {
+    let [columns, rows] = half.map(|h| (2.0 * h / step).round() as usize + 1);
+    let s = |c: usize| -half[0] + c as f64 * step;
+    let z = |r: usize| -half[1] + r as f64 * step;
+    DepthGrid {
+        s0_mm: -half[0],
+        z0_mm: -half[1],
+        ds_mm: step,
+        dz_mm: step,
+        columns,
+        rows,
+        depth_um: (0..rows * columns)
+            .map(|k| depth(s(k % columns), z(k / columns)))
+            .collect(),
+    }
+}
+
+fn shape(of: scenario::Shape) -> Shape {
+    Shape::new(&of, 20e-6).unwrap()
+}
+
+/// The example's defect with another shape, law and path.
+fn defect(of: scenario::Shape, on: Surface, law: Law, path: RollerPath, slices: usize) -> Defect {
+    let mut s = Scenario::example();
+    s.contact.law = law;
+    s.contact.roller_path = path;
+    s.contact.slices = slices;
+    let d = scenario::Defect {
+        shape: of,
+        on,
+        ..s.defects[0].clone()
+    };
+    Defect::new(&d, &s.bearing, &s.contact).unwrap()
+}
+
+fn at(orbit: f64) -> Angles {
+    Angles {
+        orbit,
+        spin: 0.0,
+        ring: 0.0,
+    }
+}
+
+#[test]
+fn analytic_rectangle_and_circle_as_polygons() {
+    let corners = vec![[-1.5, -2.0], [1.5, -2.0], [1.5, 2.0], [-1.5, 2.0]];
+    let rectangle = shape(scenario::Shape::Outline {
+        polygons_mm: vec![corners],
+    });
+    let n = 720;
+    let circle = shape(scenario::Shape::Outline {
+        polygons_mm: vec![circle_mm(2.25, n)],
+    });
+    // A chord lies below its arc by at most the sagitta, along the radius; along z that is more where the border is steep.
+    let sagitta = 2.25e-3 * (1.0 - (PI / n as f64).cos());
+    for k in -999..=999 {
+        let s = 1.5e-3 * f64::from(k) / 1000.0;
+        assert!((rectangle.damaged_length(s) - 4e-3).abs() < 1e-15);
+        let s = 2.25e-3 * f64::from(k) / 1000.0;
+        let half = (2.25e-3f64.powi(2) - s * s).sqrt();
+        let steep = 2.25e-3 / half;
+        let off = (circle.damaged_length(s) - 2.0 * half).abs();
+        assert!(off <= 2.0 * sagitta * steep * 1.01, "{off} at {s}");
+    }
+    assert!((rectangle.area() - 12e-6).abs() < 1e-18);
+    assert!((circle.area() / (PI * 2.25e-3f64.powi(2)) - 1.0).abs() < 2e-5);
+    let (first, last) = rectangle.arc();
+    assert!((first + 1.5e-3).abs() < 1e-18 && (last - 1.5e-3).abs() < 1e-18);
+}
+
+#[test]
+fn analytic_rectangle_and_circle_as_depth_maps() {
+    for step in [0.05, 0.02] {
+        let rectangle = shape(scenario::Shape::DepthMap {
+            grid: grid_mm([2.5, 2.8], step, |s, z| {
+                if s.abs() <= 1.5 && z.abs() <= 2.0 {
+                    20.0
+                } else {
+                    0.0
+                }
+            }),
+        });
+        let circle = shape(scenario::Shape::DepthMap {
+            grid: grid_mm([2.5, 2.8], step, |s, z| {
+                if s.hypot(z) <= 2.25 { 20.0 } else { 0.0 }
+            }),
+        });
+        for k in -94..=94 {
+            let s = 1.5e-3 * f64::from(k) / 100.0;
+            let off = (rectangle.damaged_length(s) - 4e-3).abs();
+            assert!(
+                off <= 1.001e-3 * step && (rectangle.own_depth(s).unwrap() - 20e-6).abs() < 1e-18
+            );
+            let s = 2.25e-3 * f64::from(k) / 100.0;
+            let half = (2.25e-3f64.powi(2) - s * s).sqrt();
+            // One cell along z, and what the border climbs within one column.
+            let resolution = 1e-3 * step * (1.0 + 2.0 * s.abs() / half);
+            let off = (circle.damaged_length(s) - 2.0 * half).abs();
+            assert!(off <= resolution, "step {step}: {off} at {s}");
+        }
+        assert!((circle.area() / (PI * 2.25e-3f64.powi(2)) - 1.0).abs() < 0.1 * step);
+    }
+}
+
+#[test]
+fn analytic_grown_reaches_its_width_or_its_area() {
+    let outline = vec![vec![[-3.0, -0.5], [2.0, -1.0], [3.0, 0.25], [0.0, 1.0]]];
+    let grown = |max_width_mm, area_mm2| {
+        shape(scenario::Shape::Grown {
+            outline: outline.clone(),
+            max_width_mm,
+            area_mm2,
+        })
+    };
+    let Shape::Outline(wide) = grown(Some(3.0), None) else {
+        panic!("a grown outline is an outline")
+    };
+    assert!((wide.width().largest() - 3e-3).abs() < 1e-15);
+    assert!((grown(None, Some(9.0)).area() - 9e-6).abs() < 1e-18);
+    // Alike in both directions.
+    let same = shape(scenario::Shape::Outline {
+        polygons_mm: outline.clone(),
+    });
+    let ratio = (wide.width().span().1 - wide.width().span().0) / (same.arc().1 - same.arc().0);
+    assert!((wide.width().integral() / same.area() - ratio * ratio).abs() < 1e-12);
+}
+
+/// A star-shaped polygon around its centre.
+fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
+    (prop::collection::vec(0.3..2.5f64, 3..40), -1.0..1.0f64).prop_map(|(radii, turn)| {
+        let n = radii.len() as f64;
+        radii
+            .iter()
+            .enumerate()
+            .map(|(k, r)| {
+                let (sin, cos) = (TAU * k as f64 / n + turn).sin_cos();
+                [r * cos, r * sin]
+            })
+            .collect()
+    })
+}
+
+fn outline(polygons: &[Vec<[f64; 2]>]) -> Outline {
+    Outline::new(polygons.to_vec()).unwrap()
+}
+
+/// The parts of a polygon on both sides of s = cut: Sutherland and Hodgman's clip.
+fn split(polygon: &[[f64; 2]], cut: f64) -> [Vec<[f64; 2]>; 2] {
+    [1.0, -1.0].map(|side| {
+        let mut kept = Vec::new();
+        for (k, p) in polygon.iter().enumerate() {
+            let q = polygon[(k + 1) % polygon.len()];
+            let inside = |x: &[f64; 2]| side * (x[0] - cut) <= 0.0;
+            if inside(p) {
+                kept.push(*p);
+            }
+            if inside(p) != inside(&q) {
+                let f = (cut - p[0]) / (q[0] - p[0]);
+                kept.push([cut, p[1] + f * (q[1] - p[1])]);
+            }
+        }
+        kept
+    })
+}
+
+proptest! {
+    #[test]
+    fn prop_width_is_invariant_under_splitting_and_mirrors(polygon in star(), cut in -0.25..0.25f64) {
+        let whole = outline(std::slice::from_ref(&polygon));
+        let parts = outline(&split(&polygon, cut));
+        let up = outline(&[polygon.iter().map(|p| [p[0], -p[1]]).collect()]);
+        let back = outline(&[polygon.iter().map(|p| [-p[0], p[1]]).collect()]);
+        let (low, high) = whole.heights();
+        for k in 0..=200 {
+            let s = -2.5 + 5.0 * (f64::from(k) + 0.123) / 200.0;
+            let width = whole.width().value(s);
+            prop_assert!((0.0..=high - low + 1e-12).contains(&width));
+            prop_assert!((parts.width().value(s) - width).abs() < 1e-9);
+            prop_assert!((up.width().value(s) - width).abs() < 1e-9);
+            prop_assert!((back.width().value(-s) - width).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn xval_slicing_agrees_with_i_overlay(polygon in star(), hole in 0.05..0.25f64, share in 0.02..0.98f64) {
+        // A hole around the centre, which every star contains.
+        let polygons = vec![polygon, circle_mm(hole, 24)];
+        let ours = outline(&polygons);
+        let rule = ClipRule { invert: false, boundary_included: false };
+        let length = |line: Vec<[f64; 2]>| -> f64 {
+            let parts = line.clip_by_as::<i64>(&polygons, FillRule::EvenOdd, rule);
+            let long = |p: &[[f64; 2]]| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]);
+            parts.iter().map(|p| p.windows(2).map(long).sum::<f64>()).sum()
+        };
+        let (first, last) = ours.width().span();
+        let s = first + share * (last - first);
+        let theirs = length(vec![[s, -10.0], [s, 10.0]]);
+        prop_assert!((ours.width().value(s) - theirs).abs() < 1e-6, "L_s({s}): {} {theirs}", ours.width().value(s));
+        let (low, high) = ours.heights();
+        let z = low + share * (high - low);
+        let theirs = length(vec![[-10.0, z], [10.0, z]]);
+        let chords: f64 = ours.chords(z, 1e-9).iter().map(|c| c[1] - c[0]).sum();
+        prop_assert!((chords - theirs).abs() < 1e-5, "chords at {z}: {chords} {theirs}");
+    }
+
+    #[test]
+    fn prop_damage_is_within_the_roller_and_its_envelope_never_deeper(
+        seed in any::<u64>(), roughness in 0.0..1.0f64, length in 0.5..6.0f64, width in 0.5..6.0f64,
+    ) {
+        let spall = scenario::Shape::Random { seed, length_mm: length, width_mm: width, roughness };
+        let make = |law, path| defect(spall.clone(), Surface::OuterRaceway, law, path, 15);
+        let (plain, along) = (make(Law::Ecl, RollerPath::Point), make(Law::Ecl, RollerPath::Envelope));
+        let (cut, cut_along) = (make(Law::Sliced, RollerPath::Point), make(Law::Sliced, RollerPath::Envelope));
+        let (first, last) = plain.shape.arc();
+        prop_assert!((last - first - 1e-3 * length).abs() < 1e-9);
+        for k in 0..=100 {
+            let u = (first + (last - first) * f64::from(k) / 100.0) / plain.radius;
+            let (Some(a), Some(b)) = (plain.floor(u, Side::Outer), along.floor(u, Side::Outer)) else {
+                continue;
+            };
+            prop_assert!((0.0..=6e-3).contains(&a.damaged_length) && a.damaged_length == b.damaged_length);
+            prop_assert!(b.depth <= a.depth + 1e-15 && b.depth >= 0.0);
+            let force = |d: &Defect| acting([d].into_iter(), &LAW, &at(u), Side::Outer, 30e-6).map_or(0.0, |a| a.elastic);
+            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 1e-12));
+        }
+    }
+
+    #[test]
+    fn prop_sliced_and_ecl_agree_on_full_width_damage(u in -0.06..0.06f64, delta in -5e-6..60e-6f64) {
+        let full = scenario::Shape::Rectangle { length_mm: 3.0, width_mm: 6.0 };
+        for path in [RollerPath::Point, RollerPath::Envelope] {
+            let force = |law| {
+                let d = defect(full.clone(), Surface::OuterRaceway, law, path, 30);
+                let stored = energy([&d].into_iter(), &LAW, &at(u), Side::Outer, delta);
+                (acting([&d].into_iter(), &LAW, &at(u), Side::Outer, delta).map(|a| a.elastic), stored)
+            };
+            let ((a, ea), (b, eb)) = (force(Law::Ecl), force(Law::Sliced));
+            prop_assert_eq!(a.is_some(), b.is_some());
+            prop_assert!((a.unwrap_or(0.0) - b.unwrap_or(0.0)).abs() <= 1e-12 * LAW.healthy(60e-6));
+            prop_assert!((ea - eb).abs() <= 1e-12 * LAW.energy(60e-6));
+        }
+    }
+}
+
+/// Errors of the elastic sum with 2, 4, ... times as many slices, against very many, averaged over a passage.
+fn slice_errors(of: &scenario::Shape, delta: f64) -> Vec<f64> {
+    let force = |slices: usize| -> Vec<f64> {
+        let d = defect(
+            of.clone(),
+            Surface::OuterRaceway,
+            Law::Sliced,
+            RollerPath::Point,
+            slices,
+        );
+        (0..40)
+            .map(|k| {
+                let u = 1.4e-3 * (f64::from(k) / 20.0 - 0.975) / d.radius;
+                acting([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
+                    .map_or(LAW.healthy(delta), |a| a.elastic)
+            })
+            .collect()
+    };
+    let exact = force(9999);
+    [8, 16, 32, 64, 128]
+        .map(|n| {
+            let squares = force(n)
+                .iter()
+                .zip(&exact)
+                .map(|(a, b)| (a / b - 1.0).powi(2))
+                .sum::<f64>();
+            (squares / 40.0).sqrt()
+        })
+        .to_vec()
+}
+
+fn order(errors: &[f64]) -> f64 {
+    let n = errors.len() - 1;
+    (errors[0] / errors[n]).log2() / n as f64
+}
+
+#[test]
+fn analytic_sliced_converges_at_first_order_at_a_wall_and_second_on_a_slope() {
+    // A wall lies somewhere within a slice: first order. A smooth dent over the whole width: the midpoint rule's second.
+    let wall = slice_errors(&scenario::Shape::Circle { diameter_mm: 4.5 }, 12e-6);
+    let dent = scenario::Shape::DepthMap {
+        grid: grid_mm([2.0, 3.0], 0.02, |s, z| {
+            8.0 * (0.3 + (0.4 * z).cos()) * (1.0 - 0.2 * s * s)
+        }),
+    };
+    let dent = slice_errors(&dent, 30e-6);
+    println!("wall {wall:?}, order {:.2}", order(&wall));
+    println!("dent {dent:?}, order {:.2}", order(&dent));
+    assert!((0.8..1.6).contains(&order(&wall)), "{wall:?}");
+    assert!((1.8..2.2).contains(&order(&dent)), "{dent:?}");
+    assert!(wall[2] < 0.03 && dent[2] < 1e-4);
+}
+
+#[test]
+fn analytic_envelope_radii_of_every_surface() {
+    let (r, inner, outer) = (3e-3, 21.5e-3, 27.5e-3);
+    let outside = 1.0 / (1.0 / r - 1.0 / outer);
+    let inside = 1.0 / (1.0 / r + 1.0 / inner);
+    let rectangle = scenario::Shape::Rectangle {
+        length_mm: 3.0,
+        width_mm: 4.0,
+    };
+    for (on, side, radius) in [
+        (Surface::OuterRaceway, Side::Outer, outside),
+        (Surface::InnerRaceway, Side::Inner, inside),
+        (Surface::Roller(3), Side::Outer, outside),
+        (Surface::Roller(3), Side::Inner, inside),
+    ] {
+        let d = defect(rectangle.clone(), on, Law::Ecl, RollerPath::Envelope, 1);
+        let from_edge = 0.2e-3;
+        let u = (1.5e-3 - from_edge) / d.radius;
+        let h = d.floor(u, side).unwrap().depth;
+        assert!(
+            (h - from_edge * from_edge / (2.0 * radius)).abs() < 1e-18,
+            "{on:?} {side:?}"
+        );
+    }
+}
+
+#[test]
+fn analytic_edge_gradient_is_the_derivative_of_the_energy() {
+    let mut raised = spall(5, 3.0, 4.0, 0.8, 15.0);
+    raised.depth_um.iter_mut().enumerate().for_each(|(k, h)| {
+        if k % 7 == 0 {
+            *h *= -0.3
+        }
+    });
+    let map = scenario::Shape::DepthMap { grid: raised };
+    let rectangle = scenario::Shape::Rectangle {
+        length_mm: 2.0,
+        width_mm: 3.0,
+    };
+    for (on, side) in [
+        (Surface::OuterRaceway, Side::Outer),
+        (Surface::InnerRaceway, Side::Inner),
+        (Surface::Roller(3), Side::Outer),
+        (Surface::Roller(3), Side::Inner),
+    ] {
+        let both: Vec<Defect> = [&map, &rectangle]
+            .map(|x| defect(x.clone(), on, Law::Sliced, RollerPath::Envelope, 12))
+            .to_vec();
+        let base = if on == Surface::Roller(3) && side == Side::Inner {
+            PI
+        } else {
+            0.0
+        };
+        for k in 0..60 {
+            let x = (1.7e-3 * (f64::from(k) / 30.0 - 0.99)) / both[0].radius;
+            let angles = Angles {
+                orbit: x - base + 0.3 + 0.2,
+                spin: if base > 0.0 || on == Surface::Roller(3) {
+                    0.5
+                } else {
+                    0.0
+                },
+                ring: if on == Surface::InnerRaceway {
+                    0.5
+                } else {
+                    0.0
+                },
+            };
+            let angles = Angles {
+                orbit: if on == Surface::OuterRaceway {
+                    x
+                } else {
+                    angles.orbit
+                },
+                ..angles
+            };
+            let delta = 14e-6;
+            let stored = |a: &Angles| energy(both.iter(), &LAW, a, side, delta);
+            let e = edge_gradient(both.iter(), &LAW, &angles, side, delta);
+            let step = 1e-7;
+            let by = |f: &dyn Fn(&mut Angles, f64)| {
+                let [up, down] = [step, -step].map(|h| {
+                    let mut a = angles;
+                    f(&mut a, h);
+                    stored(&a)
+                });
+                (up - down) / (2.0 * step)
+            };
+            let numeric = [
+                by(&|a, h| a.orbit += h),
+                by(&|a, h| a.spin += h),
+                by(&|a, h| a.ring += h),
+            ];
+            let scale = 1e-4 * LAW.healthy(delta) * 0.1 * both[0].radius;
+            for (ours, theirs) in [e.orbit, e.spin, e.ring].into_iter().zip(numeric) {
+                // A kink within the step leaves a difference of the order of the step.
+                assert!(
+                    (ours - theirs).abs() < scale + 2e-3 * theirs.abs(),
+                    "{on:?} {side:?} {k}: {e:?} {numeric:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
+    let flat = |length_mm, depth_um| {
+        let mut s = Scenario::example();
+        s.contact.law = Law::Sliced;
+        s.contact.edge_reaction = EdgeReaction::None;
+        let d = scenario::Defect {
+            shape: scenario::Shape::Rectangle {
+                length_mm,
+                width_mm: 2.0,
+            },
+            depth_um,
+            ..s.defects[0].clone()
+        };
+        Defect::new(&d, &s.bearing, &s.contact).unwrap()
+    };
+    let (shallow, deep) = (flat(4.0, 3.0), flat(2.0, 9.0));
+    let force = |d: &[&Defect], u| {
+        acting(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6)
+            .unwrap()
+            .elastic
+    };
+    assert_eq!(force(&[&shallow, &deep], 0.0), force(&[&deep], 0.0));
+    assert_eq!(force(&[&deep, &shallow], 0.0), force(&[&deep], 0.0));
+    let off = 1.5e-3 / deep.radius;
+    assert_eq!(force(&[&shallow, &deep], off), force(&[&shallow], off));
+    // A ridge 5 um high under a defect that leaves its slices alone: it still carries.
+    let ridge = scenario::Shape::DepthMap {
+        grid: grid_mm([1.0, 3.0], 0.5, |_, z| if z > 1.6 { -5.0 } else { 0.0 }),
+    };
+    let ridge = defect(
+        ridge,
+        Surface::OuterRaceway,
+        Law::Sliced,
+        RollerPath::Point,
+        30,
+    );
+    let alone = acting([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6)
+        .unwrap()
+        .elastic;
+    let with = acting(
+        [&deep, &ridge].into_iter(),
+        &LAW,
+        &at(0.0),
+        Side::Outer,
+        -1e-6,
+    )
+    .unwrap()
+    .elastic;
+    assert!(alone > 0.0 && alone == with);
+}
