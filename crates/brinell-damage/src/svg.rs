@@ -274,6 +274,8 @@ impl Reader<'_> {
                 let to_mm = to_mm * transform(node)?;
                 return self.children(node, to_mm, style, inside, depth);
             }
+            // A copy of the wanted element is not the wanted element.
+            "use" if !inside => return Ok(()),
             "use" => {
                 let xlink = ("http://www.w3.org/1999/xlink", "href");
                 let href = node
@@ -282,7 +284,7 @@ impl Reader<'_> {
                     .unwrap_or_default();
                 let id = href.trim().trim_start_matches('#');
                 let target = find(node.document(), id)?;
-                if matches!(target.tag_name().name(), "svg" | "symbol") && inside {
+                if matches!(target.tag_name().name(), "svg" | "symbol") {
                     return Err(nested(target));
                 }
                 let shift = Affine::translate((number(node, "x")?, number(node, "y")?));
