@@ -3,9 +3,8 @@
 //! Order: missing points are marked; units and sign; the turn to `s`, `z`; the form (fitted to the points that are
 //! there); the zero; filling; the threshold; specks; the origin. Memory: three copies of the grid at most.
 
-use crate::direction::Direction;
-use crate::error::{DamageError, check_range};
-use crate::form::Form;
+use crate::depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero, check};
+use crate::error::DamageError;
 use crate::form_fit::{quantile, remove};
 use crate::geometry::DepthGrid;
 use crate::holes::{drop_specks, fill};
@@ -15,108 +14,11 @@ use crate::{depth_csv, depth_npy};
 /// The largest grid that is read: 4096 x 4096.
 pub(crate) const MAX_POINTS: usize = 1 << 24;
 /// Deeper than this (um) is not damage to a raceway but a wrong unit.
-const MAX_DEPTH_UM: f64 = 5000.0;
+pub(crate) const MAX_DEPTH_UM: f64 = 5000.0;
 /// Absolute values above this (um) are not lengths on a bearing.
 const MAX_RAW_UM: f64 = 1e9;
 /// The rim: this share of the grid's length and width on each side, one point at least.
 const RIM: f64 = 0.05;
-
-/// What the numbers of a depth map count.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unit {
-    /// Micrometres.
-    Um,
-    /// Millimetres.
-    Mm,
-    /// Metres.
-    M,
-    /// So many nanometres per count: for PNG and integer arrays.
-    NmPerCount(f64),
-}
-
-/// What to do about missing points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Fill {
-    /// Refuse a map that has any.
-    #[default]
-    None,
-    /// Join their neighbours smoothly.
-    Neighbours,
-}
-
-/// What counts as depth 0, after the form is off.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Zero {
-    /// The map's own zero.
-    AsIs,
-    /// The median of the map's rim: its outermost 5 % on each side.
-    #[default]
-    RimMedian,
-    /// The depth that this percentage of the points does not exceed (50: the median).
-    Percentile(f64),
-}
-
-/// Which side of the picture a file's first row is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum FirstRow {
-    /// The top, as in a printed table or an image.
-    #[default]
-    Top,
-    /// The bottom, as where rows count upwards along `y`.
-    Bottom,
-}
-
-/// How to read a depth map.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DepthMapOptions {
-    /// From point to point along the rolling direction, mm.
-    pub ds_mm: f64,
-    /// From point to point along the axis, mm.
-    pub dz_mm: f64,
-    /// The unit of the numbers.
-    pub unit: Unit,
-    /// The numbers are heights, up out of the material; else depths, into it.
-    pub height_positive_up: bool,
-    /// A number that marks missing points, beside NaN, infinities and empty cells.
-    pub missing: Option<f64>,
-    /// What to do about missing points.
-    pub fill: Fill,
-    /// The raceway's form, to take off.
-    pub remove_form: Form,
-    /// What counts as depth 0.
-    pub zero: Zero,
-    /// Which side the file's first row is.
-    pub first_row: FirstRow,
-    /// Where the roller passes to, in the picture.
-    pub rolling_direction: Direction,
-    /// Shallower (and less raised) than this is undamaged.
-    pub threshold_um: f64,
-    /// Damaged spots smaller than this are noise, mm^2; 0 keeps all.
-    pub speck_mm2: f64,
-    /// Puts the damage's bounding box at the origin; else the map's centre is the origin.
-    pub center: bool,
-}
-
-impl Default for DepthMapOptions {
-    /// Heights in um every 0.01 mm, nothing taken off but the rim's level, all beyond 1 um damage.
-    fn default() -> Self {
-        Self {
-            ds_mm: 0.01,
-            dz_mm: 0.01,
-            unit: Unit::Um,
-            height_positive_up: true,
-            missing: None,
-            fill: Fill::None,
-            remove_form: Form::None,
-            zero: Zero::RimMedian,
-            first_row: FirstRow::Top,
-            rolling_direction: Direction::Right,
-            threshold_um: 1.0,
-            speck_mm2: 0.0,
-            center: true,
-        }
-    }
-}
 
 /// Numbers as they stand in a file; NaN is missing.
 #[derive(Default)]
@@ -192,11 +94,10 @@ pub fn read_depth_map(
         }
     };
     if raw.width < 2 || raw.height < 2 {
-        return Err(DamageError::NothingDamaged {
-            why: format!(
-                "the map has {} x {} points; it needs at least 2 x 2",
-                raw.width, raw.height
-            ),
+        return Err(DamageError::Unsupported {
+            at: "the map".to_owned(),
+            what: format!("a grid of {} x {} points", raw.width, raw.height),
+            way_out: "at least 2 x 2 are needed, one line per row",
         });
     }
     let mut warnings = std::mem::take(&mut raw.warnings);
@@ -238,50 +139,7 @@ pub fn read_depth_map(
     Ok(grid)
 }
 
-fn check(options: &DepthMapOptions) -> Result<(), DamageError> {
-    const SPACING: &str = "a number of mm above 0, at most 10";
-    check_range("ds_mm", options.ds_mm, 0.0, 10.0, SPACING)?;
-    check_range("dz_mm", options.dz_mm, 0.0, 10.0, SPACING)?;
-    let least = -f64::MIN_POSITIVE;
-    check_range(
-        "threshold_um",
-        options.threshold_um,
-        least,
-        MAX_DEPTH_UM,
-        "0 to 5000 um",
-    )?;
-    check_range(
-        "speck_mm2",
-        options.speck_mm2,
-        least,
-        1e6,
-        "an area of 0 mm^2 or more",
-    )?;
-    if let Unit::NmPerCount(nm) = options.unit {
-        check_range(
-            "unit",
-            nm,
-            0.0,
-            1e6,
-            "a number of nm per count above 0, at most 1e6",
-        )?;
-    }
-    if let Zero::Percentile(p) = options.zero {
-        check_range("zero", p, least, 100.0, "a percentile from 0 to 100")?;
-    }
-    if let Form::Cylinder { radius_mm: Some(r) } = options.remove_form {
-        check_range(
-            "radius_mm",
-            r,
-            0.0,
-            1e5,
-            "a number of mm above 0, at most 100000",
-        )?;
-    }
-    Ok(())
-}
-
-/// To depths in um, positive into the material, the first row on top.
+/// To depths in um, positive into the material; NaN where missing.
 fn to_depth(raw: &mut Raw, options: &DepthMapOptions) -> Result<(), DamageError> {
     let um = match options.unit {
         Unit::Um => 1.0,
@@ -298,13 +156,6 @@ fn to_depth(raw: &mut Raw, options: &DepthMapOptions) -> Result<(), DamageError>
         *value *= factor;
         if value.abs() > MAX_RAW_UM {
             return Err(absurd(*value, MAX_RAW_UM));
-        }
-    }
-    if options.first_row == FirstRow::Bottom {
-        let (width, height) = (raw.width, raw.height);
-        for row in 0..height / 2 {
-            let (upper, lower) = raw.values.split_at_mut((height - 1 - row) * width);
-            upper[row * width..(row + 1) * width].swap_with_slice(&mut lower[..width]);
         }
     }
     Ok(())
@@ -333,20 +184,23 @@ fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageEr
     } else {
         return Ok(count);
     };
-    let row = first / raw.width;
     Err(DamageError::MissingPoints {
         count,
         total: raw.values.len(),
-        row: 1 + match options.first_row {
-            FirstRow::Top => row,
-            FirstRow::Bottom => raw.height - 1 - row,
-        },
+        row: first / raw.width + 1,
         column: first % raw.width + 1,
         way_out,
     })
 }
 
-fn turned(raw: Raw, options: &DepthMapOptions) -> Scan {
+fn turned(mut raw: Raw, options: &DepthMapOptions) -> Scan {
+    if options.first_row == FirstRow::Bottom {
+        let (width, height) = (raw.width, raw.height);
+        for row in 0..height / 2 {
+            let (upper, lower) = raw.values.split_at_mut((height - 1 - row) * width);
+            upper[row * width..(row + 1) * width].swap_with_slice(&mut lower[..width]);
+        }
+    }
     let direction = options.rolling_direction;
     let (columns, rows) = if direction.along_rows() {
         (raw.width, raw.height)

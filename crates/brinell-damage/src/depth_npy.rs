@@ -70,10 +70,10 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
 /// What follows a key of the header, a Python dictionary of three known keys.
 fn entry<'a>(header: &'a str, key: &'static str) -> Result<&'a str, DamageError> {
     for quote in ['\'', '"'] {
-        if let Some((_, rest)) = header.split_once(&format!("{quote}{key}{quote}")) {
-            if let Some(value) = rest.trim_start().strip_prefix(':') {
-                return Ok(value.trim_start());
-            }
+        if let Some((_, rest)) = header.split_once(&format!("{quote}{key}{quote}"))
+            && let Some(value) = rest.trim_start().strip_prefix(':')
+        {
+            return Ok(value.trim_start());
         }
     }
     Err(broken("its header", format!("`{key}` is missing")))

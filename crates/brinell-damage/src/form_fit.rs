@@ -8,7 +8,7 @@
 //!
 //! y is the circle of curvature k through (0, 0) with slope angle asin(p) there; at k = 0 it is a straight line, and
 //! nothing is singular on the way. Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
-//! then on the points within three robust standard deviations of the surface, or within the threshold, until that
+//! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust standard deviations of the surface, or within the threshold, until that
 //! set stays.
 
 use crate::depth::Scan;
@@ -16,10 +16,11 @@ use crate::error::DamageError;
 use crate::form::{Form, FormReport};
 
 /// More points than this add time, not accuracy.
-const MAX_SAMPLES: usize = 200_000;
+const MAX_SAMPLES: usize = 100_000;
 /// Fewer than this are no surface.
 const MIN_SAMPLES: usize = 16;
 const SOFT_PASSES: usize = 25;
+const HALF_PASSES: usize = 40;
 const HARD_PASSES: usize = 60;
 /// The standard deviation of a normal distribution over its median absolute deviation.
 const MAD_TO_SIGMA: f64 = 1.4826;
@@ -176,6 +177,20 @@ impl Fit<'_> {
                 *weight = least / r.abs().max(least);
             }
         }
+        for _ in 0..HALF_PASSES {
+            let residuals = self.residuals(&q).ok_or_else(past_end)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let mut changed = false;
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                let kept = if r.abs() <= typical { 1.0 } else { 0.0 };
+                changed |= *weight != kept;
+                *weight = kept;
+            }
+            if !changed {
+                break;
+            }
+            q = self.step(&q).ok_or_else(past_end)?;
+        }
         let mut steady = 0;
         for _ in 0..HARD_PASSES {
             let residuals = self.residuals(&q).ok_or_else(past_end)?;
@@ -291,7 +306,7 @@ fn solve(a: &mut [[f64; 6]; 5], n: usize) -> Option<[f64; 5]> {
     for i in 0..n {
         let pivot = (i..n).max_by(|&r, &s| a[r][i].abs().total_cmp(&a[s][i].abs()))?;
         a.swap(i, pivot);
-        if !(a[i][i].abs() > 0.0) {
+        if a[i][i] == 0.0 || !a[i][i].is_finite() {
             return None;
         }
         for r in i + 1..n {

@@ -27,6 +27,7 @@
 mod depth;
 mod depth_csv;
 mod depth_npy;
+mod depth_options;
 mod direction;
 mod error;
 mod form;
@@ -49,11 +50,16 @@ mod threshold;
 #[cfg(feature = "svg")]
 mod svg;
 #[cfg(feature = "svg")]
+mod svg_page;
+#[cfg(feature = "svg")]
 mod svg_shape;
 #[cfg(feature = "svg")]
 mod svg_style;
+#[cfg(feature = "svg")]
+mod svg_union;
 
-pub use depth::{DepthMapOptions, Fill, FirstRow, Unit, Zero, read_depth_map};
+pub use depth::read_depth_map;
+pub use depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero};
 pub use direction::Direction;
 pub use error::DamageError;
 pub use form::{Form, FormReport};

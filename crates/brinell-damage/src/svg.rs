@@ -3,15 +3,16 @@
 //! A stroke's width is not part of the outline. Clips, masks, text and embedded images are left out, with a warning.
 
 use i_overlay::core::fill_rule::FillRule;
-use i_overlay::float::simplify::SimplifyShape;
 use kurbo::{Affine, BezPath, PathEl, Point};
 use roxmltree::{Document, Node, NodeId};
 
 use crate::error::{DamageError, check_range, excerpt};
-use crate::geometry::{Polygons, signed_area};
+use crate::geometry::Polygons;
 use crate::kind::{FileKind, describe};
-use crate::svg_shape::{broken, length, mm_per, number, numbers, outline, place, transform};
+use crate::svg_page::page;
+use crate::svg_shape::{broken, number, outline, place, transform};
 use crate::svg_style::{Sheets, Style};
+use crate::svg_union::{Rings, united};
 
 /// Farther out than this (mm), a drawing's scale must be wrong.
 const MAX_MM: f64 = 1e4;
@@ -116,7 +117,7 @@ pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageEr
         elements: 0,
         warnings: Vec::new(),
     };
-    let page = page(root, options)?;
+    let page = page(root, options.mm_per_unit)?;
     let style = reader.sheets.style(root, Style::default());
     let inside = reader.wanted.is_none() || reader.wanted == Some(root.id());
     reader.children(root, page, style, inside, 0)?;
@@ -151,54 +152,6 @@ fn find<'a, 'i>(document: &'a Document<'i>, id: &str) -> Result<Node<'a, 'i>, Da
     })
 }
 
-/// The map from user units to mm, `z` up, the page's centre at the origin.
-fn page(root: Node<'_, '_>, options: &SvgOptions) -> Result<Affine, DamageError> {
-    let view = match root.attribute("viewBox") {
-        None => None,
-        Some(text) => match numbers(root, text)?.as_slice() {
-            &[x, y, w, h] if w > 0.0 && h > 0.0 => Some([x, y, w, h]),
-            _ => {
-                return Err(broken(
-                    root,
-                    "its viewBox must be four numbers, the last two above 0",
-                ));
-            }
-        },
-    };
-    let side = |name: &str| root.attribute(name).and_then(length).filter(|l| l.0 > 0.0);
-    let (width, height) = (side("width"), side("height"));
-    let physical = |side: Option<(f64, &str)>| side.and_then(|(v, unit)| Some(v * mm_per(unit)?));
-    let own_scale = || -> Result<f64, DamageError> {
-        let (Some(w), Some(h)) = (physical(width), physical(height)) else {
-            return Err(DamageError::NoScale {
-                why: "its width and height are not in mm, cm, in, pt or pc".to_owned(),
-            });
-        };
-        let Some([_, _, view_w, view_h]) = view else {
-            // Without a viewBox a user unit is a CSS pixel, 96 to the inch.
-            return Ok(25.4 / 96.0);
-        };
-        let (across, down) = (w / view_w, h / view_h);
-        if (across - down).abs() > 1e-3 * across.max(down) {
-            return Err(DamageError::NoScale {
-                why: format!("it is {across:.5} mm per unit across and {down:.5} mm down"),
-            });
-        }
-        Ok(0.5 * (across + down))
-    };
-    let scale = match options.mm_per_unit {
-        Some(scale) => scale,
-        None => own_scale()?,
-    };
-    let user = |side: Option<(f64, &str)>| {
-        side.map_or(0.0, |(v, unit)| {
-            v * mm_per(unit).map_or(1.0, |mm| mm * 96.0 / 25.4)
-        })
-    };
-    let [x, y, w, h] = view.unwrap_or([0.0, 0.0, user(width), user(height)]);
-    Ok(Affine::scale_non_uniform(scale, -scale) * Affine::translate((-x - 0.5 * w, -y - 0.5 * h)))
-}
-
 fn nested(node: Node<'_, '_>) -> DamageError {
     DamageError::Unsupported {
         at: place(node),
@@ -206,8 +159,6 @@ fn nested(node: Node<'_, '_>) -> DamageError {
         way_out: "ungroup it, or save as plain SVG",
     }
 }
-
-type Rings = Vec<Vec<[f64; 2]>>;
 
 struct Reader<'a> {
     sheets: Sheets<'a>,
@@ -339,7 +290,7 @@ impl Reader<'_> {
     ) -> Result<(), DamageError> {
         for point in path.elements().iter().flat_map(control_points) {
             let far = point.x.abs().max(point.y.abs());
-            if !(far <= MAX_MM) {
+            if !point.is_finite() || far > MAX_MM {
                 return Err(DamageError::TooLarge {
                     what: "the distance from the page's centre",
                     value: format!("{far:.3e} mm ({})", place(node)),
@@ -441,27 +392,6 @@ impl Reader<'_> {
         }
         Ok(result)
     }
-}
-
-/// The union of rings by a fill rule: outer rings counter-clockwise, holes clockwise, none crossing.
-fn united(rings: &[Vec<[f64; 2]>], rule: FillRule) -> Rings {
-    let rings: Rings = rings
-        .iter()
-        .filter(|ring| ring.len() >= 3)
-        .cloned()
-        .collect();
-    let shapes = rings.simplify_shape_as::<i64>(rule);
-    let mut result = Rings::new();
-    for shape in shapes {
-        for (i, mut ring) in shape.into_iter().enumerate() {
-            let area = signed_area(&ring);
-            if (i == 0) != (area > 0.0) {
-                ring.reverse();
-            }
-            result.push(ring);
-        }
-    }
-    result
 }
 
 fn control_points(element: &PathEl) -> Vec<Point> {

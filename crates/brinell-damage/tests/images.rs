@@ -463,3 +463,39 @@ fn prop_twenty_thousand_pixels_square_are_refused_at_once() {
         assert!(begin.elapsed().as_millis() < 200);
     }
 }
+
+/// The most memory that this process has held, MB (Linux).
+fn peak_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kb = line.and_then(|l| l.split_whitespace().next()?.parse::<f64>().ok());
+    kb.unwrap_or(0.0) / 1024.0
+}
+
+#[test]
+#[ignore = "half a gigabyte and some seconds; `-- --ignored --nocapture --test-threads 1` by hand"]
+fn prop_the_largest_images_stay_within_a_gigabyte() {
+    let side = 8192;
+    let middle = 4000.0;
+    let disc = |x: usize, y: usize| (x as f64 - middle).hypot(y as f64 - middle) < 3000.0;
+    let photo = grey_png(side, side, |x, y| if disc(x, y) { 0.2 } else { 0.8 });
+    let texture = grey_png(side, side, |x, y| {
+        f64::from(((x * 7919) ^ (y * 104_729)) as u8) / 255.0
+    });
+    for (name, image) in [("disc", photo), ("texture", texture)] {
+        for smooth in [EDGES, SHARP, Smooth::SubPixel { blur_px: 1.5 }] {
+            let begin = Instant::now();
+            let options = ImageOptions {
+                speck_mm2: 0.0,
+                ..options(smooth)
+            };
+            let result = read_image(&image, &options).map(|d| d.polygons_mm.len());
+            println!(
+                "{name}, {smooth:?}: {:?}, peak {:.0} MB, {result:?}",
+                begin.elapsed(),
+                peak_mb()
+            );
+        }
+    }
+    assert!(peak_mb() < 1000.0);
+}
