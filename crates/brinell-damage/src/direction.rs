@@ -15,8 +15,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    #[cfg(feature = "image")]
     /// `[s, z]` of a point `x` to the right and `y` down.
+    #[cfg(feature = "image")]
     pub(crate) fn turn(self, x: f64, y: f64) -> [f64; 2] {
         match self {
             Self::Right => [x, -y],

@@ -8,7 +8,7 @@ use brinell_damage::{
     DamageError, DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
     read_depth_map,
 };
-use common::{Noise, npy, npy_f8};
+use common::{Noise, npy, npy_f8, peak_mb};
 
 fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
     read_depth_map(bytes, None, options).unwrap()
@@ -579,4 +579,32 @@ fn prop_unusable_maps_are_refused_in_words() {
             found: Some(FileKind::Npy)
         }
     );
+}
+
+#[test]
+#[ignore = "half a gigabyte and some seconds; `-- --ignored --nocapture --test-threads 1` by hand"]
+fn prop_the_largest_map_stays_within_a_gigabyte() {
+    let step = 0.001;
+    let map = npy_f8(4096, 4096, |row, column| {
+        let (s, z) = place(4096, 4096, step, row, column);
+        raceway(27.5, 0.02, s, z) - spall(s, z)
+    });
+    let options = DepthMapOptions {
+        ds_mm: step,
+        dz_mm: step,
+        remove_form: Form::Cylinder { radius_mm: None },
+        speck_mm2: 0.01,
+        ..Default::default()
+    };
+    println!("before reading: {:.0} MB", peak_mb());
+    let begin = std::time::Instant::now();
+    let grid = read(&map, &options);
+    println!(
+        "{:?}, peak {:.0} MB, {:?}",
+        begin.elapsed(),
+        peak_mb(),
+        grid.form
+    );
+    assert!((grid.area_mm2() - 3.2).abs() < 0.01);
+    assert!(peak_mb() < 1000.0);
 }

@@ -122,3 +122,11 @@ pub fn holds(polygons: &[Vec<[f64; 2]>], [s, z]: [f64; 2]) -> bool {
     }
     inside
 }
+
+/// The most memory that this process has held, MB (Linux).
+pub fn peak_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kb = line.and_then(|l| l.split_whitespace().next()?.parse::<f64>().ok());
+    kb.unwrap_or(0.0) / 1024.0
+}
