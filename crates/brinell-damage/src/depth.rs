@@ -1,0 +1,280 @@
+//! A profilometer's grid of heights or depths: read, levelled, filled, thresholded.
+//!
+//! Order: missing points are marked; units and sign; the turn to `s`, `z`; the form (fitted to the points that are
+//! there); the zero; filling; the threshold; specks; the origin. Memory: three copies of the grid at most.
+
+use crate::depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero, check};
+use crate::error::DamageError;
+use crate::form_fit::{quantile, remove};
+use crate::geometry::DepthGrid;
+use crate::holes::{drop_specks, fill};
+use crate::kind::{FileKind, describe};
+use crate::{depth_csv, depth_npy};
+
+/// The largest grid that is read: 4096 x 4096.
+pub(crate) const MAX_POINTS: usize = 1 << 24;
+/// Deeper than this (um) is not damage to a raceway but a wrong unit.
+pub(crate) const MAX_DEPTH_UM: f64 = 5000.0;
+/// Absolute values above this (um) are not lengths on a bearing.
+const MAX_RAW_UM: f64 = 1e9;
+/// The rim: this share of the grid's length and width on each side, one point at least.
+const RIM: f64 = 0.05;
+
+/// Numbers as they stand in a file; NaN is missing.
+#[derive(Default)]
+pub(crate) struct Raw {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) values: Vec<f64>,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Raw {
+    pub(crate) fn too_large(points: String) -> DamageError {
+        DamageError::TooLarge {
+            what: "the number of points",
+            value: points,
+            limit: format!("{MAX_POINTS} (4096 x 4096)"),
+            way_out: "cut out the damage or thin the scan out, and adapt `ds_mm` and `dz_mm`",
+        }
+    }
+}
+
+/// Depths in `s` and `z`, the grid's centre at the origin.
+pub(crate) struct Scan {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    ds_mm: f64,
+    dz_mm: f64,
+    pub(crate) depth_um: Vec<f64>,
+}
+
+impl Scan {
+    /// `(s, z)` of a point, mm.
+    pub(crate) fn place(&self, column: usize, row: usize) -> (f64, f64) {
+        let from_middle = |i: usize, n: usize| i as f64 - 0.5 * (n - 1) as f64;
+        (
+            from_middle(column, self.columns) * self.ds_mm,
+            from_middle(row, self.rows) * self.dz_mm,
+        )
+    }
+}
+
+/// Reads a depth map of up to 2^24 points. `format`: what the file's name or the user says it is; the content must
+/// agree. `None`: as the content shows.
+pub fn read_depth_map(
+    bytes: &[u8],
+    format: Option<FileKind>,
+    options: &DepthMapOptions,
+) -> Result<DepthGrid, DamageError> {
+    check(options)?;
+    let found = FileKind::of_content(bytes);
+    let kind = match format {
+        Some(format) => Some(format.confirm(found)?),
+        None => found,
+    };
+    let mut raw = match kind {
+        Some(FileKind::Csv) => depth_csv::read(bytes)?,
+        Some(FileKind::Npy) => depth_npy::read(bytes)?,
+        #[cfg(feature = "image")]
+        Some(FileKind::Png) => crate::pixels::heights(bytes)?,
+        #[cfg(not(feature = "image"))]
+        Some(FileKind::Png) => {
+            return Err(DamageError::LeftOut {
+                kind: FileKind::Png,
+                feature: "image",
+            });
+        }
+        _ => {
+            return Err(DamageError::WrongKind {
+                what: describe(bytes),
+                wanted: "a depth map",
+                way_out: "save it as CSV, NPY or 16-bit grey PNG",
+            });
+        }
+    };
+    if raw.width < 2 || raw.height < 2 {
+        return Err(DamageError::Unsupported {
+            at: "the map".to_owned(),
+            what: format!("a grid of {} x {} points", raw.width, raw.height),
+            way_out: "at least 2 x 2 are needed, one line per row",
+        });
+    }
+    let mut warnings = std::mem::take(&mut raw.warnings);
+    to_depth(&mut raw, options)?;
+    let missing = check_missing(&raw, options)?;
+    let mut scan = turned(raw, options);
+    let form = remove(&mut scan, options.remove_form, options.threshold_um)?;
+    if let Some(form) = form.filter(|form| form.excluded > form.used) {
+        warnings.push(format!(
+            "the form was fitted to {} points only, as {} lie apart from it; look at the result before using it",
+            form.used, form.excluded
+        ));
+    }
+    set_zero(&mut scan, options.zero);
+    if missing > 0 {
+        let (count, layers) = fill(&mut scan);
+        warnings.push(format!(
+            "{count} of {} points were missing and are filled from their neighbours, up to {layers} points deep",
+            scan.depth_um.len()
+        ));
+    }
+    finish_depths(&mut scan, options, &mut warnings)?;
+    let (s0_mm, z0_mm) = scan.place(0, 0);
+    let mut grid = DepthGrid {
+        s0_mm,
+        z0_mm,
+        ds_mm: options.ds_mm,
+        dz_mm: options.dz_mm,
+        columns: scan.columns,
+        rows: scan.rows,
+        depth_um: scan.depth_um,
+        form,
+        warnings,
+    };
+    if let (true, Some([low, high])) = (options.center, grid.damaged_bounds()) {
+        grid.s0_mm = -0.5 * (low[0] + high[0]) as f64 * grid.ds_mm;
+        grid.z0_mm = -0.5 * (low[1] + high[1]) as f64 * grid.dz_mm;
+    }
+    Ok(grid)
+}
+
+/// To depths in um, positive into the material; NaN where missing.
+fn to_depth(raw: &mut Raw, options: &DepthMapOptions) -> Result<(), DamageError> {
+    let um = match options.unit {
+        Unit::Um => 1.0,
+        Unit::Mm => 1e3,
+        Unit::M => 1e6,
+        Unit::NmPerCount(nm) => 1e-3 * nm,
+    };
+    let factor = if options.height_positive_up { -um } else { um };
+    for value in &mut raw.values {
+        if !value.is_finite() || options.missing == Some(*value) {
+            *value = f64::NAN;
+            continue;
+        }
+        *value *= factor;
+        if value.abs() > MAX_RAW_UM {
+            return Err(absurd(*value, MAX_RAW_UM));
+        }
+    }
+    Ok(())
+}
+
+fn absurd(um: f64, limit: f64) -> DamageError {
+    DamageError::TooLarge {
+        what: "the depth of a point",
+        value: format!("{um:.3e} um"),
+        limit: format!("{limit:e} um"),
+        way_out: "check `unit`, `missing` and `zero`",
+    }
+}
+
+/// How many points are missing, if that can be helped.
+fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageError> {
+    let missing = |v: &f64| v.is_nan();
+    let Some(first) = raw.values.iter().position(missing) else {
+        return Ok(0);
+    };
+    let count = raw.values.iter().filter(|v| missing(v)).count();
+    let way_out = if 2 * count > raw.values.len() {
+        "that is more than half; check `missing`, or scan again"
+    } else if options.fill == Fill::None {
+        "fill them from their neighbours with `fill`"
+    } else {
+        return Ok(count);
+    };
+    Err(DamageError::MissingPoints {
+        count,
+        total: raw.values.len(),
+        row: first / raw.width + 1,
+        column: first % raw.width + 1,
+        way_out,
+    })
+}
+
+fn turned(mut raw: Raw, options: &DepthMapOptions) -> Scan {
+    if options.first_row == FirstRow::Bottom {
+        let (width, height) = (raw.width, raw.height);
+        for row in 0..height / 2 {
+            let (upper, lower) = raw.values.split_at_mut((height - 1 - row) * width);
+            upper[row * width..(row + 1) * width].swap_with_slice(&mut lower[..width]);
+        }
+    }
+    let direction = options.rolling_direction;
+    let (columns, rows) = if direction.along_rows() {
+        (raw.width, raw.height)
+    } else {
+        (raw.height, raw.width)
+    };
+    Scan {
+        columns,
+        rows,
+        ds_mm: options.ds_mm,
+        dz_mm: options.dz_mm,
+        depth_um: direction.turn_grid(raw.width, raw.height, &raw.values),
+    }
+}
+
+fn set_zero(scan: &mut Scan, zero: Zero) {
+    let (columns, rows) = (scan.columns, scan.rows);
+    let there = |d: &f64| !d.is_nan();
+    let level = match zero {
+        Zero::AsIs => return,
+        Zero::Percentile(p) => quantile(scan.depth_um.iter().copied().filter(there), 0.01 * p),
+        Zero::RimMedian => {
+            let band = |n: usize| ((RIM * n as f64) as usize).max(1);
+            let (across, along) = (band(columns), band(rows));
+            let rim = (0..scan.depth_um.len()).filter(|i| {
+                let (column, row) = (i % columns, i / columns);
+                column < across || column + across >= columns || row < along || row + along >= rows
+            });
+            quantile(rim.map(|i| scan.depth_um[i]).filter(there), 0.5)
+        }
+    };
+    scan.depth_um.iter_mut().for_each(|d| *d -= level);
+}
+
+fn finish_depths(
+    scan: &mut Scan,
+    options: &DepthMapOptions,
+    warnings: &mut Vec<String>,
+) -> Result<(), DamageError> {
+    for depth in &mut scan.depth_um {
+        if depth.abs() < options.threshold_um {
+            *depth = 0.0;
+        } else if depth.abs() > MAX_DEPTH_UM {
+            return Err(absurd(*depth, MAX_DEPTH_UM));
+        }
+    }
+    let damaged = scan.depth_um.iter().filter(|&&d| d != 0.0).count();
+    if damaged == scan.depth_um.len() {
+        return Err(DamageError::AllDamaged {
+            why: format!(
+                "every point lies {} um or more from the zero level; check `remove_form`, `zero` and `threshold_um`",
+                options.threshold_um
+            ),
+        });
+    }
+    let smallest = options.speck_mm2 / (options.ds_mm * options.dz_mm);
+    let dropped = if smallest > 0.0 {
+        drop_specks(scan, smallest)
+    } else {
+        0
+    };
+    if dropped > 0 {
+        warnings.push(format!(
+            "{dropped} damaged spots below {} mm^2 were dropped as noise",
+            options.speck_mm2
+        ));
+    }
+    if scan.depth_um.iter().all(|&d| d == 0.0) {
+        return Err(DamageError::NothingDamaged {
+            why: format!(
+                "no spot reaches both `threshold_um` = {} um and `speck_mm2` = {} mm^2",
+                options.threshold_um, options.speck_mm2
+            ),
+        });
+    }
+    Ok(())
+}

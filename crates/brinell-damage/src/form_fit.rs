@@ -1,0 +1,340 @@
+//! Fits a plane or a cylinder to the undamaged part of a scan.
+//!
+//! Heights in mm, up out of the material, at (s, z) in mm from the grid's centre:
+//!
+//! ```text
+//! H = c + b z + y(s - m z),   y(x) = x (k x + 2 p) / (sqrt(1 - p^2) + sqrt(1 - (k x + p)^2))
+//! ```
+//!
+//! y is the circle of curvature k through (0, 0) with slope angle asin(p) there; at k = 0 it is a straight line, and
+//! nothing is singular on the way. Gauss-Newton steps, first with weights 1/|residual| (so that damage pulls little),
+//! then on the better half of the points (Rousseeuw's concentration steps), then on the points within three robust standard deviations of the surface, or within the threshold, until that
+//! set stays.
+
+use crate::depth::Scan;
+use crate::error::DamageError;
+use crate::form::{Form, FormReport};
+
+/// More points than this add time, not accuracy.
+const MAX_SAMPLES: usize = 100_000;
+/// Fewer than this are no surface.
+const MIN_SAMPLES: usize = 16;
+const SOFT_PASSES: usize = 25;
+const HALF_PASSES: usize = 40;
+const HARD_PASSES: usize = 60;
+/// The standard deviation of a normal distribution over its median absolute deviation.
+const MAD_TO_SIGMA: f64 = 1.4826;
+/// Residuals below a picometre are round-off.
+const ROUND_OFF_MM: f64 = 1e-9;
+
+/// `[c, b, p, m, k]`.
+type Parameters = [f64; 5];
+const C: usize = 0;
+const B: usize = 1;
+const P: usize = 2;
+const M: usize = 3;
+const K: usize = 4;
+
+struct Sample {
+    s: f64,
+    z: f64,
+    height: f64,
+}
+
+/// The circle, and its slope; `None` past its end.
+fn circle(p: f64, k: f64, x: f64) -> Option<[f64; 2]> {
+    let u = k * x + p;
+    let (start, end) = (1.0 - p * p, 1.0 - u * u);
+    if !(start > 0.0 && end > 0.0) {
+        return None;
+    }
+    let w = end.sqrt();
+    Some([x * (k * x + 2.0 * p) / (start.sqrt() + w), u / w])
+}
+
+fn height(q: &Parameters, s: f64, z: f64) -> Option<f64> {
+    Some(q[C] + q[B] * z + circle(q[P], q[K], s - q[M] * z)?[0])
+}
+
+/// Takes `form` off the scan's depths. `threshold_um`: what lies closer to the surface always belongs to it.
+pub(crate) fn remove(
+    scan: &mut Scan,
+    form: Form,
+    threshold_um: f64,
+) -> Result<Option<FormReport>, DamageError> {
+    let samples = samples(scan);
+    let fit = |name, free: &[usize], k| {
+        Fit {
+            samples: &samples,
+            free,
+            weights: vec![1.0; samples.len()],
+            floor: (1e-3 * threshold_um).max(ROUND_OFF_MM),
+        }
+        .run(name, k)
+    };
+    let (best, found) = match form {
+        Form::None => return Ok(None),
+        Form::Plane => fit("plane", &[C, B, P], 0.0)?,
+        Form::Cylinder { radius_mm: None } => fit("cylinder", &[C, B, P, M, K], 0.0)?,
+        Form::Cylinder {
+            radius_mm: Some(radius),
+        } => {
+            let free = [C, B, P, M];
+            match (
+                fit("cylinder", &free, 1.0 / radius),
+                fit("cylinder", &free, -1.0 / radius),
+            ) {
+                (Ok(hollow), Ok(bulging)) if bulging.1.typical < hollow.1.typical => bulging,
+                (Ok(hollow), _) => hollow,
+                (Err(_), other) => other?,
+            }
+        }
+    };
+    for row in 0..scan.rows {
+        for column in 0..scan.columns {
+            let (s, z) = scan.place(column, row);
+            let surface = height(&best, s, z).ok_or_else(|| DamageError::NoFit {
+                form: "cylinder",
+                why: "it ends inside the scan".to_owned(),
+            })?;
+            scan.depth_um[row * scan.columns + column] += 1e3 * surface;
+        }
+    }
+    let slope = circle(best[P], best[K], 0.0).map_or(0.0, |y| y[1]);
+    Ok(Some(FormReport {
+        slope_s_um_per_mm: 1e3 * slope,
+        slope_z_um_per_mm: 1e3 * (best[B] - best[M] * slope),
+        radius_mm: (form != Form::Plane).then(|| 1.0 / best[K]),
+        axis_turn_deg: best[M].atan().to_degrees(),
+        residual_rms_um: 1e3 * found.rms,
+        used: found.used,
+        excluded: samples.len() - found.used,
+    }))
+}
+
+/// Points that have a value, thinned evenly.
+fn samples(scan: &Scan) -> Vec<Sample> {
+    let step = (scan.depth_um.len() as f64 / MAX_SAMPLES as f64)
+        .sqrt()
+        .ceil()
+        .max(1.0) as usize;
+    let mut samples = Vec::new();
+    for row in (0..scan.rows).step_by(step) {
+        for column in (0..scan.columns).step_by(step) {
+            let depth = scan.depth_um[row * scan.columns + column];
+            if depth.is_finite() {
+                let (s, z) = scan.place(column, row);
+                let height = -1e-3 * depth;
+                samples.push(Sample { s, z, height });
+            }
+        }
+    }
+    samples
+}
+
+struct Found {
+    used: usize,
+    rms: f64,
+    /// The median absolute residual over all samples.
+    typical: f64,
+}
+
+struct Fit<'a> {
+    samples: &'a [Sample],
+    free: &'a [usize],
+    weights: Vec<f64>,
+    /// Closer than this to the surface belongs to it, mm.
+    floor: f64,
+}
+
+impl Fit<'_> {
+    fn run(
+        mut self,
+        form: &'static str,
+        curvature: f64,
+    ) -> Result<(Parameters, Found), DamageError> {
+        let no_fit = |why: String| DamageError::NoFit { form, why };
+        if self.samples.len() < MIN_SAMPLES {
+            return Err(no_fit(format!(
+                "it has {} points with a value; at least {MIN_SAMPLES} are needed",
+                self.samples.len()
+            )));
+        }
+        let middle = median(self.samples.iter().map(|p| p.height));
+        let mut q = [middle, 0.0, 0.0, 0.0, curvature];
+        let past_end = || {
+            no_fit(
+                "the scan is longer than the cylinder is wide; check the radius and `ds_mm`"
+                    .to_owned(),
+            )
+        };
+        for _ in 0..SOFT_PASSES {
+            q = self.step(&q).ok_or_else(past_end)?;
+            let residuals = self.residuals(&q).ok_or_else(past_end)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let least = (0.1 * typical).max(ROUND_OFF_MM);
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                *weight = least / r.abs().max(least);
+            }
+        }
+        for _ in 0..HALF_PASSES {
+            let residuals = self.residuals(&q).ok_or_else(past_end)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let mut changed = false;
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                let kept = if r.abs() <= typical { 1.0 } else { 0.0 };
+                changed |= *weight != kept;
+                *weight = kept;
+            }
+            if !changed {
+                break;
+            }
+            q = self.step(&q).ok_or_else(past_end)?;
+        }
+        let mut steady = 0;
+        for _ in 0..HARD_PASSES {
+            let residuals = self.residuals(&q).ok_or_else(past_end)?;
+            let typical = median(residuals.iter().map(|r| r.abs()));
+            let limit = (3.0 * MAD_TO_SIGMA * typical).max(self.floor);
+            let mut changed = false;
+            for (weight, r) in self.weights.iter_mut().zip(&residuals) {
+                let kept = if r.abs() <= limit { 1.0 } else { 0.0 };
+                changed |= *weight != kept;
+                *weight = kept;
+            }
+            q = self.step(&q).ok_or_else(past_end)?;
+            // A few steps more on the set that stays, to converge on it.
+            steady = if changed { 0 } else { steady + 1 };
+            if steady > 6 {
+                break;
+            }
+        }
+        let residuals = self.residuals(&q).ok_or_else(past_end)?;
+        let used = self.weights.iter().filter(|&&w| w > 0.0).count();
+        let squares: f64 = residuals
+            .iter()
+            .zip(&self.weights)
+            .map(|(r, w)| w * r * r)
+            .sum();
+        let found = Found {
+            used,
+            rms: (squares / used.max(1) as f64).sqrt(),
+            typical: median(residuals.iter().map(|r| r.abs())),
+        };
+        Ok((q, found))
+    }
+
+    fn residuals(&self, q: &Parameters) -> Option<Vec<f64>> {
+        self.samples
+            .iter()
+            .map(|p| Some(p.height - height(q, p.s, p.z)?))
+            .collect()
+    }
+
+    fn cost(&self, q: &Parameters) -> Option<f64> {
+        let residuals = self.residuals(q)?;
+        Some(
+            residuals
+                .iter()
+                .zip(&self.weights)
+                .map(|(r, w)| w * r * r)
+                .sum(),
+        )
+    }
+
+    /// One Gauss-Newton step with the present weights, shortened until it does not make things worse.
+    fn step(&self, q: &Parameters) -> Option<Parameters> {
+        let n = self.free.len();
+        let mut normal = [[0.0; 6]; 5];
+        let reach = self
+            .samples
+            .iter()
+            .fold(1e-6_f64, |most, p| most.max(p.s.abs()));
+        // Differences for the slope and the curvature: their closed forms are singular where either vanishes.
+        let nudge = [1e-6, 1e-6 / reach];
+        for (p, &weight) in self.samples.iter().zip(&self.weights) {
+            if weight == 0.0 {
+                continue;
+            }
+            let x = p.s - q[M] * p.z;
+            let [y, slope] = circle(q[P], q[K], x)?;
+            let by = |dp: f64, dk: f64| -> Option<f64> {
+                Some(circle(q[P] + dp, q[K] + dk, x)?[0] - circle(q[P] - dp, q[K] - dk, x)?[0])
+            };
+            let residual = p.height - q[C] - q[B] * p.z - y;
+            let mut gradient = [0.0; 5];
+            for (slot, &parameter) in gradient.iter_mut().zip(self.free) {
+                *slot = match parameter {
+                    C => 1.0,
+                    B => p.z,
+                    P => by(nudge[0], 0.0)? / (2.0 * nudge[0]),
+                    M => -p.z * slope,
+                    _ => by(0.0, nudge[1])? / (2.0 * nudge[1]),
+                };
+            }
+            for i in 0..n {
+                for j in 0..n {
+                    normal[i][j] += weight * gradient[i] * gradient[j];
+                }
+                normal[i][5] += weight * gradient[i] * residual;
+            }
+        }
+        // On a plane the axis's turn cannot be told from a slope: the damping leaves it where it is.
+        let trace: f64 = (0..n).map(|i| normal[i][i]).sum();
+        for i in 0..n {
+            normal[i][i] += 1e-9 * normal[i][i] + 1e-12 * trace;
+        }
+        let change = solve(&mut normal, n)?;
+        let before = self.cost(q)?;
+        let mut share = 1.0;
+        for _ in 0..20 {
+            let mut next = *q;
+            for (i, &parameter) in self.free.iter().enumerate() {
+                next[parameter] += share * change[i];
+            }
+            if self.cost(&next).is_some_and(|cost| cost <= before) {
+                return Some(next);
+            }
+            share *= 0.5;
+        }
+        Some(*q)
+    }
+}
+
+/// Gaussian elimination with the right side in column 5; `None` if singular.
+fn solve(a: &mut [[f64; 6]; 5], n: usize) -> Option<[f64; 5]> {
+    for i in 0..n {
+        let pivot = (i..n).max_by(|&r, &s| a[r][i].abs().total_cmp(&a[s][i].abs()))?;
+        a.swap(i, pivot);
+        if a[i][i] == 0.0 || !a[i][i].is_finite() {
+            return None;
+        }
+        for r in i + 1..n {
+            let factor = a[r][i] / a[i][i];
+            for j in i..6 {
+                a[r][j] -= factor * a[i][j];
+            }
+        }
+    }
+    let mut x = [0.0; 5];
+    for i in (0..n).rev() {
+        let known: f64 = (i + 1..n).map(|j| a[i][j] * x[j]).sum();
+        x[i] = (a[i][5] - known) / a[i][i];
+    }
+    x.iter().all(|v| v.is_finite()).then_some(x)
+}
+
+/// The middle value; 0 of none. NaN must not be among them.
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// The value below which `share` (0 to 1) of the others lie.
+pub(crate) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    if values.is_empty() {
+        return 0.0;
+    }
+    let at = (share * (values.len() - 1) as f64).round() as usize;
+    *values.select_nth_unstable_by(at, f64::total_cmp).1
+}

@@ -1,0 +1,120 @@
+//! Which format a file has, by its content; names only confirm.
+
+use std::fmt;
+
+use crate::error::DamageError;
+
+/// A format that a reader here knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// A vector drawing.
+    Svg,
+    /// A PNG image: a photo, a mask, or heights in 16-bit grey.
+    Png,
+    /// A JPEG photo.
+    Jpeg,
+    /// Numbers in text.
+    Csv,
+    /// A NumPy array.
+    Npy,
+}
+
+impl FileKind {
+    /// The format that the content shows.
+    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+            return Some(Self::Png);
+        }
+        if bytes.starts_with(b"\xff\xd8\xff") {
+            return Some(Self::Jpeg);
+        }
+        if bytes.starts_with(b"\x93NUMPY") {
+            return Some(Self::Npy);
+        }
+        let head = &bytes[..bytes.len().min(4096)];
+        let text = match std::str::from_utf8(head) {
+            Ok(text) => text,
+            // The cut may fall within a character.
+            Err(error) if error.error_len().is_none() => {
+                std::str::from_utf8(&head[..error.valid_up_to()]).unwrap_or_default()
+            }
+            Err(_) => return None,
+        };
+        let text = text.trim_start_matches('\u{feff}').trim_start();
+        if text.starts_with('<') {
+            return (text.contains("<svg") || text.contains(":svg")).then_some(Self::Svg);
+        }
+        let plain = |c: char| !c.is_control() || matches!(c, '\n' | '\r' | '\t');
+        (!text.is_empty() && text.chars().all(plain)).then_some(Self::Csv)
+    }
+
+    /// The format that a file's name claims.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let (_, extension) = name.rsplit_once('.')?;
+        match extension.to_ascii_lowercase().as_str() {
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            "jpg" | "jpeg" => Some(Self::Jpeg),
+            "csv" | "txt" | "tsv" | "asc" | "xyz" | "dat" => Some(Self::Csv),
+            "npy" => Some(Self::Npy),
+            _ => None,
+        }
+    }
+
+    /// The format of `bytes`, which must not contradict `name`. A name without a known extension claims nothing.
+    pub fn check(name: &str, bytes: &[u8]) -> Result<Self, DamageError> {
+        let found = Self::of_content(bytes);
+        match (Self::of_name(name), found) {
+            (Some(expected), found) => expected.confirm(found),
+            (None, Some(found)) => Ok(found),
+            (None, None) => Err(DamageError::WrongKind {
+                what: describe(bytes),
+                wanted: "damage",
+                way_out: "give an SVG, PNG, JPEG, CSV or NPY file",
+            }),
+        }
+    }
+
+    pub(crate) fn confirm(self, found: Option<Self>) -> Result<Self, DamageError> {
+        if found == Some(self) {
+            return Ok(self);
+        }
+        Err(DamageError::NotWhatItsNameSays {
+            expected: self,
+            found,
+        })
+    }
+}
+
+/// What unknown content looks like, in words.
+pub(crate) fn describe(bytes: &[u8]) -> String {
+    match FileKind::of_content(bytes) {
+        Some(kind) => kind.to_string(),
+        None if bytes.is_empty() => "an empty file".to_owned(),
+        None if bytes.starts_with(b"PK") => "a zip archive (such as npz or xlsx)".to_owned(),
+        None if bytes.starts_with(b"GIF8") => "a GIF image".to_owned(),
+        None if bytes.starts_with(b"II*\0") || bytes.starts_with(b"MM\0*") => {
+            "a TIFF image".to_owned()
+        }
+        None if bytes.starts_with(b"BM") => "a BMP image".to_owned(),
+        None if bytes.starts_with(b"%PDF") => "a PDF document".to_owned(),
+        None if bytes.get(4..8) == Some(b"ftyp") => "a HEIC or AVIF photo".to_owned(),
+        None if bytes.get(8..12) == Some(b"WEBP") => "a WebP image".to_owned(),
+        None if bytes.starts_with(&[0x1f, 0x8b]) => {
+            "a gzip file (such as svgz; unpack it first)".to_owned()
+        }
+        None => "content of an unknown format".to_owned(),
+    }
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Svg => "SVG",
+            Self::Png => "PNG",
+            Self::Jpeg => "JPEG",
+            Self::Csv => "CSV",
+            Self::Npy => "NPY",
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! Damage as people have it (drawn, photographed, scanned), read into plain geometry. No solver in here.
+//!
+//! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
+//! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
+//! - [`read_depth_map`]: a profilometer's grid, CSV, NPY or PNG -> [`DepthGrid`]
+//!
+//! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
+//! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
+//! Files whose rows run downwards are turned, never mirrored ([`Direction`]). The origin is the centre of the
+//! damage's bounding box with `center`, else the centre of the page, image or grid.
+//!
+//! Every reader takes bytes and gives a [`DamageError`] for what it cannot use; no bytes make it panic, and none make
+//! it take more than about 1 GB. What it decided by itself is said in `warnings`.
+//!
+//! ```
+//! # #[cfg(feature = "svg")] {
+//! use brinell_damage::{SvgOptions, read_svg};
+//!
+//! let drawing = br#"<svg xmlns="http://www.w3.org/2000/svg" width="6mm" height="6mm" viewBox="0 0 6 6">
+//!     <rect x="1" y="2" width="3" height="2"/></svg>"#;
+//! let damage = read_svg(drawing, &SvgOptions::default())?;
+//! assert!((damage.area_mm2() - 6.0).abs() < 1e-6);
+//! # }
+//! # Ok::<(), brinell_damage::DamageError>(())
+//! ```
+
+mod depth;
+mod depth_csv;
+mod depth_npy;
+mod depth_options;
+mod direction;
+mod error;
+mod form;
+mod form_fit;
+mod geometry;
+mod holes;
+mod kind;
+
+#[cfg(feature = "image")]
+mod blur;
+#[cfg(feature = "image")]
+mod contour;
+#[cfg(feature = "image")]
+mod image;
+#[cfg(feature = "image")]
+mod pixels;
+#[cfg(feature = "image")]
+mod threshold;
+
+#[cfg(feature = "svg")]
+mod svg;
+#[cfg(feature = "svg")]
+mod svg_page;
+#[cfg(feature = "svg")]
+mod svg_shape;
+#[cfg(feature = "svg")]
+mod svg_style;
+#[cfg(feature = "svg")]
+mod svg_union;
+
+pub use depth::read_depth_map;
+pub use depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero};
+pub use direction::Direction;
+pub use error::DamageError;
+pub use form::{Form, FormReport};
+pub use geometry::{DepthGrid, Polygons};
+pub use kind::FileKind;
+
+#[cfg(feature = "image")]
+pub use image::{ImageOptions, Smooth, read_image};
+#[cfg(feature = "svg")]
+pub use svg::{SvgOptions, read_svg};

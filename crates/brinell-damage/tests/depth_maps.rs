@@ -1,0 +1,610 @@
+//! Depth maps against closed forms.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use brinell_damage::{
+    DamageError, DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
+    read_depth_map,
+};
+use common::{Noise, npy, npy_f8, peak_mb};
+
+fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
+    read_depth_map(bytes, None, options).unwrap()
+}
+
+fn refuse(bytes: &[u8], options: &DepthMapOptions) -> String {
+    read_depth_map(bytes, None, options)
+        .unwrap_err()
+        .to_string()
+}
+
+fn csv(rows: usize, columns: usize, cell: impl Fn(usize, usize) -> String) -> Vec<u8> {
+    let line = |row| {
+        (0..columns)
+            .map(|column| cell(row, column))
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    (0..rows)
+        .map(line)
+        .collect::<Vec<_>>()
+        .join("\n")
+        .into_bytes()
+}
+
+/// `(s, z)` of a point of a map with `rows` x `columns`, `step` mm apart, first row on top.
+fn place(rows: usize, columns: usize, step: f64, row: usize, column: usize) -> (f64, f64) {
+    (
+        (column as f64 - 0.5 * (columns - 1) as f64) * step,
+        (0.5 * (rows - 1) as f64 - row as f64) * step,
+    )
+}
+
+#[test]
+fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing() {
+    let step = 0.02;
+    let map = |inside: &dyn Fn(f64, f64) -> bool| {
+        npy_f8(260, 240, |row, column| {
+            let (s, z) = place(260, 240, step, row, column);
+            if inside(s, z) { -20.0 } else { 0.0 }
+        })
+    };
+    let options = DepthMapOptions {
+        ds_mm: step,
+        dz_mm: step,
+        ..Default::default()
+    };
+    let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
+    assert!((rectangle.area_mm2() - 12.0).abs() < 1e-9);
+    let disc = read(&map(&|s, z| s.hypot(z) < 2.0), &options);
+    assert!(
+        (disc.area_mm2() / (4.0 * PI) - 1.0).abs() < 2e-3,
+        "{}",
+        disc.area_mm2()
+    );
+    for column in 0..disc.columns {
+        let s = disc.s0_mm + column as f64 * step;
+        let count = (0..disc.rows)
+            .filter(|&row| disc.at(column, row) != 0.0)
+            .count();
+        let chord = 2.0 * (4.0 - s * s).max(0.0).sqrt();
+        assert!(
+            (count as f64 * step - chord).abs() <= step + 1e-9,
+            "s = {s}"
+        );
+    }
+    assert!(disc.depth_um.iter().all(|&d| d == 0.0 || d == 20.0));
+    assert!(disc.form.is_none() && disc.warnings.is_empty());
+}
+
+/// An L: the long stroke on the left, the short one at the bottom to the right; deepest at the foot's end.
+fn letter(row: usize, column: usize) -> f64 {
+    let long = (2..4).contains(&column) && (1..9).contains(&row);
+    let short = (2..7).contains(&column) && (7..9).contains(&row);
+    if long || short {
+        10.0 + column as f64
+    } else {
+        0.0
+    }
+}
+
+#[test]
+fn analytic_an_l_is_turned_and_never_mirrored() {
+    for first_row in [FirstRow::Top, FirstRow::Bottom] {
+        let map = npy_f8(12, 10, |row, column| match first_row {
+            FirstRow::Top => -letter(row, column),
+            FirstRow::Bottom => -letter(11 - row, column),
+        });
+        for (direction, top, foot, empty) in [
+            (Direction::Right, [-1.5, 3.0], [2.0, -3.0], [2.0, 3.0]),
+            (Direction::Up, [3.0, 1.5], [-3.0, -2.0], [3.0, -2.0]),
+            (Direction::Left, [1.5, -3.0], [-2.0, 3.0], [-2.0, -3.0]),
+            (Direction::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
+        ] {
+            let options = DepthMapOptions {
+                ds_mm: 1.0,
+                dz_mm: 1.0,
+                rolling_direction: direction,
+                first_row,
+                zero: Zero::AsIs,
+                ..Default::default()
+            };
+            let grid = read(&map, &options);
+            let depth = |[s, z]: [f64; 2]| {
+                grid.at(
+                    (s - grid.s0_mm).round() as usize,
+                    (z - grid.z0_mm).round() as usize,
+                )
+            };
+            assert!(
+                depth(top) >= 12.0 && depth(top) <= 13.0,
+                "{direction:?} {first_row:?}"
+            );
+            assert_eq!(depth(foot), 16.0, "{direction:?} {first_row:?}");
+            assert_eq!(depth(empty), 0.0, "{direction:?} {first_row:?}");
+            let there = read(
+                &map,
+                &DepthMapOptions {
+                    center: false,
+                    ..options
+                },
+            );
+            assert_eq!(there.s0_mm, -0.5 * (there.columns - 1) as f64);
+            assert_eq!(there.depth_um, grid.depth_um);
+        }
+    }
+}
+
+/// A raceway of radius `radius` (positive: hollow), its axis turned by `turn`, and tilted; heights in um.
+fn raceway(radius: f64, turn: f64, s: f64, z: f64) -> f64 {
+    // Across the axis, from the lowest (or highest) line, which lies beside the middle.
+    let x = s - turn * z + 0.4;
+    let sag = radius - radius.signum() * (radius * radius - x * x).sqrt();
+    1e3 * (sag + 0.004 * z) + 123.0
+}
+
+fn spall(s: f64, z: f64) -> f64 {
+    if (s - 0.3).abs() < 1.0 && z.abs() < 0.8 {
+        25.0
+    } else {
+        0.0
+    }
+}
+
+#[test]
+fn analytic_tilt_and_curvature_are_removed_exactly() {
+    let (rows, columns, step) = (60, 90, 0.06);
+    for (form, radius, turn) in [
+        (Form::Plane, 1e12, 0.0),
+        (Form::Cylinder { radius_mm: None }, 27.5, 0.0),
+        (Form::Cylinder { radius_mm: None }, 27.5, 0.05),
+        (Form::Cylinder { radius_mm: None }, -21.5, -0.03),
+        (Form::Cylinder { radius_mm: None }, -3.5, 0.02),
+        (
+            Form::Cylinder {
+                radius_mm: Some(27.5),
+            },
+            27.5,
+            0.05,
+        ),
+        (
+            Form::Cylinder {
+                radius_mm: Some(21.5),
+            },
+            -21.5,
+            0.02,
+        ),
+    ] {
+        let map = npy_f8(rows, columns, |row, column| {
+            let (s, z) = place(rows, columns, step, row, column);
+            let tilt = if form == Form::Plane { 7.0 * s } else { 0.0 };
+            let form = if form == Form::Plane {
+                4.0 * z
+            } else {
+                raceway(radius, turn, s, z)
+            };
+            form + tilt - spall(s, z)
+        });
+        let options = DepthMapOptions {
+            ds_mm: step,
+            dz_mm: step,
+            remove_form: form,
+            center: false,
+            ..Default::default()
+        };
+        let grid = read(&map, &options);
+        let found = grid.form.unwrap();
+        println!("{form:?} {radius}: {found:?}");
+        for row in 0..rows {
+            for column in 0..columns {
+                let (s, z) = (
+                    grid.s0_mm + column as f64 * step,
+                    grid.z0_mm + row as f64 * step,
+                );
+                let error = (grid.at(column, row) - spall(s, z)).abs();
+                assert!(error < 1e-5, "{form:?} {radius}: {error} um at {s} {z}");
+            }
+        }
+        assert!(found.residual_rms_um < 1e-6);
+        if form == Form::Plane {
+            assert!(
+                (found.slope_s_um_per_mm - 7.0).abs() < 1e-6
+                    && (found.slope_z_um_per_mm - 4.0).abs() < 1e-6
+            );
+        } else {
+            assert!((found.radius_mm.unwrap() / radius - 1.0).abs() < 1e-6);
+            assert!((found.axis_turn_deg - turn.atan().to_degrees()).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
+    let (rows, columns, step) = (80, 100, 0.06);
+    for (share, bound) in [(0.2, 0.1), (0.35, 0.1)] {
+        let side = (share * (rows * columns) as f64).sqrt() * step / 2.0;
+        let mut noise = Noise(5);
+        let grain: Vec<f64> = (0..rows * columns).map(|_| 0.2 * noise.normal()).collect();
+        let inside = |s: f64, z: f64| (s - 0.4).abs() < side && z.abs() < side;
+        let map = npy_f8(rows, columns, |row, column| {
+            let (s, z) = place(rows, columns, step, row, column);
+            raceway(27.5, 0.02, s, z) + grain[row * columns + column]
+                - if inside(s, z) { 25.0 } else { 0.0 }
+        });
+        let options = DepthMapOptions {
+            ds_mm: step,
+            dz_mm: step,
+            remove_form: Form::Cylinder { radius_mm: None },
+            zero: Zero::AsIs,
+            threshold_um: 2.0,
+            ..Default::default()
+        };
+        let grid = read(&map, &options);
+        let found = grid.form.unwrap();
+        let damaged: Vec<f64> = grid
+            .depth_um
+            .iter()
+            .copied()
+            .filter(|&d| d != 0.0)
+            .collect();
+        let mean = damaged.iter().sum::<f64>() / damaged.len() as f64;
+        println!("{share}: {found:?}, mean depth {mean}");
+        assert!((mean - 25.0).abs() < bound, "{share}: {mean}");
+        assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
+        assert!((found.residual_rms_um - 0.2).abs() < 0.02);
+    }
+}
+
+#[test]
+fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
+    let scan = include_bytes!("../../../examples/scan.csv");
+    let options = DepthMapOptions {
+        ds_mm: 0.06,
+        dz_mm: 0.06,
+        remove_form: Form::Cylinder { radius_mm: None },
+        fill: Fill::Neighbours,
+        threshold_um: 1.0,
+        speck_mm2: 0.05,
+        ..Default::default()
+    };
+    let grid = read_depth_map(scan, Some(FileKind::Csv), &options).unwrap();
+    let found = grid.form.unwrap();
+    println!("{found:?} {} mm^2 {:?}", grid.area_mm2(), grid.warnings);
+    // See examples/draw_examples.rs.
+    assert!((found.radius_mm.unwrap() / 27.5 - 1.0).abs() < 0.01);
+    assert!(
+        (found.slope_s_um_per_mm - 3.0).abs() < 0.05
+            && (found.slope_z_um_per_mm + 2.0).abs() < 0.05
+    );
+    assert!((found.residual_rms_um - 0.15).abs() < 0.03);
+    let mut deep: Vec<f64> = grid
+        .depth_um
+        .iter()
+        .copied()
+        .filter(|&d| d > 20.0)
+        .collect();
+    deep.sort_by(f64::total_cmp);
+    assert!((deep[deep.len() / 2] - 25.0).abs() < 0.5);
+    assert!(
+        grid.warnings
+            .iter()
+            .any(|w| w.contains("points were missing and are filled"))
+    );
+    assert!(
+        read_depth_map(
+            scan,
+            None,
+            &DepthMapOptions {
+                fill: Fill::None,
+                ..options
+            }
+        )
+        .is_err()
+    );
+}
+
+#[test]
+fn analytic_missing_points_of_a_slope_are_filled_on_it() {
+    let map = csv(20, 20, |row, column| match (row, column) {
+        (5..8, 5..8) | (0, 0) | (19, 3) => String::new(),
+        (12, 12) => "-9999".to_owned(),
+        (12, 14) => "NaN".to_owned(),
+        _ => format!("{}", 2.0 * row as f64 + column as f64),
+    });
+    let options = DepthMapOptions {
+        missing: Some(-9999.0),
+        fill: Fill::Neighbours,
+        zero: Zero::AsIs,
+        height_positive_up: false,
+        first_row: FirstRow::Bottom,
+        threshold_um: 2.5,
+        ..Default::default()
+    };
+    let grid = read(&map, &options);
+    for (row, column) in [(6, 6), (5, 7), (12, 12), (12, 14)] {
+        assert!(
+            (grid.at(column, row) - (2 * row + column) as f64).abs() < 1e-3,
+            "{}",
+            grid.at(column, row)
+        );
+    }
+    assert_eq!(
+        grid.warnings,
+        ["13 of 400 points were missing and are filled from their neighbours, up to 2 points deep"]
+    );
+    assert_eq!(
+        refuse(
+            &map,
+            &DepthMapOptions {
+                fill: Fill::None,
+                ..options
+            }
+        ),
+        "13 of 400 points are missing (the first in row 1, column 1); fill them from their neighbours with `fill`"
+    );
+}
+
+#[test]
+fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
+    let depth = |row: usize, column: usize| -> i32 {
+        if (2..5).contains(&row) && (3..7).contains(&column) {
+            20 + (row * 9 + column) as i32 % 7
+        } else {
+            0
+        }
+    };
+    let (rows, columns) = (8, 9);
+    let items = |size: usize, big: bool, fortran: bool, bits: &dyn Fn(i32) -> u64| -> Vec<u8> {
+        let order = (0..rows * columns).map(|i| {
+            if fortran {
+                (i % rows, i / rows)
+            } else {
+                (i / columns, i % columns)
+            }
+        });
+        order
+            .flat_map(|(row, column)| {
+                let mut bytes = bits(depth(row, column)).to_le_bytes()[..size].to_vec();
+                if big {
+                    bytes.reverse();
+                }
+                bytes
+            })
+            .collect()
+    };
+    let whole = |v: i32| v as u64;
+    let f4 = |v: i32| u64::from((v as f32).to_bits());
+    let f8 = |v: i32| f64::from(v).to_bits();
+    let shape = [rows, columns];
+    let text = |separator: &str, decimal: char, end: &str| -> Vec<u8> {
+        let cell = |row, column| format!("{}{decimal}0", depth(row, column));
+        let line = |row| {
+            (0..columns)
+                .map(|c| cell(row, c))
+                .collect::<Vec<_>>()
+                .join(separator)
+                + end
+        };
+        (0..rows).map(line).collect::<String>().into_bytes()
+    };
+    let mut with_names = b"\xef\xbb\xbf# a comment, with commas\na,b,c,d,e,f,g,h,i\n".to_vec();
+    with_names.extend(text(",", '.', "\r\n"));
+    let files = [
+        npy("<f8", false, shape, &items(8, false, false, &f8)),
+        npy(">f8", true, shape, &items(8, true, true, &f8)),
+        npy("<f4", true, shape, &items(4, false, true, &f4)),
+        npy(">f4", false, shape, &items(4, true, false, &f4)),
+        npy("|u1", false, shape, &items(1, false, false, &whole)),
+        npy("<i2", false, shape, &items(2, false, false, &whole)),
+        npy(">u2", true, shape, &items(2, true, true, &whole)),
+        npy("<i4", false, shape, &items(4, false, false, &whole)),
+        npy("<i8", false, shape, &items(8, false, false, &whole)),
+        text(",", '.', "\n"),
+        text(", ", '.', "\n"),
+        text(",", '.', ",\n"),
+        text(";", ',', "\n"),
+        text(";", ',', ";\r\n"),
+        text("\t", ',', "\n"),
+        text(" ", '.', "\n"),
+        text("  ", ',', "\n"),
+        with_names,
+    ];
+    let options = DepthMapOptions {
+        height_positive_up: false,
+        ..Default::default()
+    };
+    let expected = read(&files[0], &options);
+    assert_eq!(expected.at(3, 5), f64::from(depth(2, 3)));
+    for (i, file) in files.iter().enumerate() {
+        assert_eq!(read(file, &options).depth_um, expected.depth_um, "file {i}");
+    }
+    // Negative integers, and units.
+    let negative = npy(
+        "<i2",
+        false,
+        shape,
+        &items(2, false, false, &|v| (-v) as u64),
+    );
+    let heights = DepthMapOptions {
+        unit: Unit::NmPerCount(1000.0),
+        ..Default::default()
+    };
+    assert_eq!(read(&negative, &heights).depth_um, expected.depth_um);
+    let mm = DepthMapOptions {
+        unit: Unit::Mm,
+        threshold_um: 0.0,
+        ..options.clone()
+    };
+    assert!(
+        refuse(&files[0], &mm)
+            .starts_with("the depth of a point is 2.400e4 um, more than the 5e3 um")
+    );
+    #[cfg(feature = "image")]
+    {
+        let wide = items(2, true, false, &|v| (30_000 - 10 * v) as u64);
+        let png = common::png(
+            columns,
+            rows,
+            png::ColorType::Grayscale,
+            png::BitDepth::Sixteen,
+            &wide,
+        );
+        let counts = DepthMapOptions {
+            unit: Unit::NmPerCount(100.0),
+            ..Default::default()
+        };
+        let grid = read(&png, &counts);
+        for (a, b) in grid.depth_um.iter().zip(&expected.depth_um) {
+            assert!((a - b).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn prop_unusable_maps_are_refused_in_words() {
+    let default = DepthMapOptions::default();
+    let pit = |row: usize, column: usize| if row == 2 && column == 2 { -9.0 } else { 0.0 };
+    let map = npy_f8(5, 5, pit);
+    for (bytes, words) in [
+        (
+            b"1,2\n3,x4\n".to_vec(),
+            "line 2, column 2: `x4` is not a number",
+        ),
+        (
+            b"1,2\n\n3,4,5\n".to_vec(),
+            "line 3 has 3 values where the first row has 2",
+        ),
+        (
+            b"5\n6\n".to_vec(),
+            "the map: a grid of 1 x 2 points is not understood; at least 2 x 2",
+        ),
+        (
+            b"1,2\n3,4\n".to_vec(),
+            "there is no damage in it: no spot reaches",
+        ),
+        (
+            b"\x89PNG\r\n\x1a\n".to_vec(),
+            "this PNG file is broken at its header",
+        ),
+        (
+            b"PK\x03\x04".to_vec(),
+            "a zip archive (such as npz or xlsx) cannot be read as a depth map; save it as",
+        ),
+        (
+            b"\x93NUMPY\x01\0\xff\xff{}".to_vec(),
+            "this NPY file is broken at its header: it ends here",
+        ),
+        (
+            map[..map.len() - 1].to_vec(),
+            "this NPY file is broken at its data: 199 bytes where 5 x 5 values need 200",
+        ),
+        (
+            npy("<c8", false, [2, 2], &[0; 32]),
+            "descr: `<c8` is not understood; save the array as float64",
+        ),
+        (
+            npy("<f8", false, [90_000, 90_000], &[]),
+            "the number of points is 90000 x 90000",
+        ),
+        (
+            csv(
+                4,
+                4,
+                |r, c| if r > 0 { String::new() } else { format!("{c}") },
+            ),
+            "12 of 16 points are missing",
+        ),
+    ] {
+        let said = refuse(
+            &bytes,
+            &DepthMapOptions {
+                threshold_um: 50.0,
+                ..default.clone()
+            },
+        );
+        assert!(said.starts_with(words), "{said}");
+    }
+    let rough = npy_f8(5, 5, |r, c| (r * 7 + c * 3) as f64 + 0.5);
+    let as_is = DepthMapOptions {
+        zero: Zero::AsIs,
+        threshold_um: 0.1,
+        ..default.clone()
+    };
+    assert!(refuse(&rough, &as_is).starts_with("all of it would be damage"));
+    let tiny = DepthMapOptions {
+        remove_form: Form::Plane,
+        ..default.clone()
+    };
+    assert!(refuse(&npy_f8(3, 3, pit), &tiny).contains("at least 16 are needed"));
+    let short = DepthMapOptions {
+        remove_form: Form::Cylinder {
+            radius_mm: Some(0.5),
+        },
+        ds_mm: 1.0,
+        ..default.clone()
+    };
+    assert!(refuse(&map, &short).starts_with("the cylinder cannot be fitted: the scan is longer"));
+    for (options, words) in [
+        (
+            DepthMapOptions {
+                ds_mm: f64::NAN,
+                ..default.clone()
+            },
+            "`ds_mm` is NaN",
+        ),
+        (
+            DepthMapOptions {
+                zero: Zero::Percentile(101.0),
+                ..default.clone()
+            },
+            "`zero` is 101",
+        ),
+        (
+            DepthMapOptions {
+                unit: Unit::NmPerCount(0.0),
+                ..default.clone()
+            },
+            "`unit` is 0",
+        ),
+    ] {
+        assert!(refuse(&map, &options).starts_with(words));
+    }
+    let error = read_depth_map(&map, Some(FileKind::Csv), &default).unwrap_err();
+    assert_eq!(
+        error,
+        DamageError::NotWhatItsNameSays {
+            expected: FileKind::Csv,
+            found: Some(FileKind::Npy)
+        }
+    );
+}
+
+#[test]
+#[ignore = "half a gigabyte and some seconds; `-- --ignored --nocapture --test-threads 1` by hand"]
+fn prop_the_largest_map_stays_within_a_gigabyte() {
+    let step = 0.001;
+    let map = npy_f8(4096, 4096, |row, column| {
+        let (s, z) = place(4096, 4096, step, row, column);
+        raceway(27.5, 0.02, s, z) - spall(s, z)
+    });
+    let options = DepthMapOptions {
+        ds_mm: step,
+        dz_mm: step,
+        remove_form: Form::Cylinder { radius_mm: None },
+        speck_mm2: 0.01,
+        ..Default::default()
+    };
+    println!("before reading: {:.0} MB", peak_mb());
+    let begin = std::time::Instant::now();
+    let grid = read(&map, &options);
+    println!(
+        "{:?}, peak {:.0} MB, {:?}",
+        begin.elapsed(),
+        peak_mb(),
+        grid.form
+    );
+    assert!((grid.area_mm2() - 3.2).abs() < 0.01);
+    assert!(peak_mb() < 1000.0);
+}
