@@ -45,7 +45,17 @@ pub const SIDES: [Side; 2] = [Side::Inner, Side::Outer];
 /// An angle mapped to [-pi, pi).
 #[inline]
 pub fn wrap(angle: f64) -> f64 {
-    angle - TAU * ((angle + PI) / TAU).floor()
+    // Adding 1.5 * 2^52 leaves the nearest whole number of turns: `floor` is a function call on processors of old.
+    const ROUNDER: f64 = 6_755_399_441_055_744.0;
+    let turns = (angle * (1.0 / TAU) + ROUNDER) - ROUNDER;
+    let wrapped = angle - TAU * turns;
+    if wrapped >= PI {
+        wrapped - TAU
+    } else if wrapped < -PI {
+        wrapped + TAU
+    } else {
+        wrapped
+    }
 }
 
 /// Angles that decide where a roller stands over damage, rad.
@@ -80,6 +90,8 @@ pub struct Defect {
     pub rules: Rules,
     /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
     grounds: [Option<Ground>; 2],
+    /// Local angles (rad) beyond which neither arc nor ground reaches, by side.
+    windows: [(f64, f64); 2],
 }
 
 impl Defect {
@@ -110,13 +122,24 @@ impl Defect {
             let radius = relative_radius(bearing, side);
             met.then(|| Ground::new(&shape, depth, roller_length, radius, &rules))
         });
+        let radius = 0.5e-3 * diameter;
+        let arc = shape.arc();
+        let windows = [0, 1].map(|side| {
+            let (first, last) = grounds[side].as_ref().map_or(arc, |g| g.arc);
+            // A little wider, so that round-off decides in `floor` alone.
+            (
+                arc.0.min(first) / radius - 1e-9,
+                arc.1.max(last) / radius + 1e-9,
+            )
+        });
         Some(Self {
+            windows,
             surface,
             row: defect.row.checked_sub(1)?,
             center: defect.center_deg.to_radians(),
             depth,
             shape,
-            radius: 0.5e-3 * diameter,
+            radius,
             roller_length,
             rules,
             grounds,
@@ -149,6 +172,14 @@ impl Defect {
             (Surface::Roller(_), Side::Outer) => orbit - spin - self.center,
             (Surface::Roller(_), Side::Inner) => orbit + PI - spin - self.center,
         })
+    }
+
+    /// Whether a roller at `angles` may stand on the damage: false only where it does not.
+    #[inline]
+    pub fn may_cover(&self, angles: &Angles, side: Side) -> bool {
+        let (first, last) = self.windows[side as usize];
+        let u = self.local_angle(angles, side);
+        u >= first && u <= last
     }
 
     /// L_s at the arc coordinate s (m), clamped to the roller; 0 off the damage.

@@ -132,6 +132,7 @@ fn normal_contacts<L: Lanes>(
 }
 
 /// Elastic forces of the contacts that stand on damage, section 3.
+#[inline(always)]
 fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
     let l = &model.layout;
     for side in SIDES {
@@ -143,6 +144,14 @@ fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspac
                 spin: q[l.phi() + slot],
                 ring: ring_angle,
             };
+            contacts.on_damage[slot] = false;
+            contacts.damaged_length[slot] = 0.0;
+            if !model
+                .defects_of(slot, side)
+                .any(|d| d.may_cover(&angles, side))
+            {
+                continue;
+            }
             let delta = contacts.approach[slot];
             let found = acting_given(
                 model.defects_of(slot, side),
@@ -152,9 +161,8 @@ fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspac
                 delta,
                 contacts.power[slot],
             );
-            contacts.on_damage[slot] = found.is_some();
-            contacts.damaged_length[slot] = 0.0;
             if let Some(acting) = found {
+                contacts.on_damage[slot] = true;
                 contacts.elastic[slot] = acting.elastic;
                 contacts.damaged_length[slot] = acting.floor.damaged_length;
             }
