@@ -90,6 +90,31 @@ fn prop_full_width_damage_runs_the_same_in_both_laws() {
     }
 }
 
+#[test]
+fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healthy_one() {
+    for seed in [1, 2, 3] {
+        let spall = Shape::Random {
+            seed,
+            length_mm: 6.0,
+            width_mm: 5.0,
+            roughness: 0.5,
+        };
+        let mut s = run_of(spall, Law::Sliced, RollerPath::Envelope, 1e-3);
+        s.simulation.start = scenario::Start::Equilibrium;
+        s.defects[0].depth_um = 8.0;
+        let rows = simulate(&s).0;
+        // The orbit's dampers and friction are no part of a static balance: the healthy bearing has their push too.
+        s.defects.clear();
+        let healthy = simulate(&s).0;
+        let push = |rows: &Rows| {
+            ["outer_ax", "outer_ay", "inner_ax", "inner_ay"].map(|name| rows.column(name)[0])
+        };
+        for (a, b) in push(&rows).into_iter().zip(push(&healthy)) {
+            assert!((a - b).abs() < 1.0, "seed {seed}: {a} and {b} m/s^2");
+        }
+    }
+}
+
 fn on(surface: Surface, shape: Shape) -> Defect {
     Defect {
         on: surface,
