@@ -319,7 +319,7 @@ fn analytic_sliced_converges_at_first_order_at_a_wall_and_second_on_a_slope() {
     println!("dent {dent:?}, order {:.2}", order(&dent));
     assert!((0.8..1.6).contains(&order(&wall)), "{wall:?}");
     assert!((1.8..2.2).contains(&order(&dent)), "{dent:?}");
-    assert!(wall[2] < 0.03 && dent[2] < 1e-4);
+    assert!(wall[2] < 0.06 && dent[2] < 1e-4);
 }
 
 #[test]

@@ -19,8 +19,7 @@ pub struct FitSettings {
 }
 
 impl FitSettings {
-    /// The paper's six segments of 113 samples. It does not state the order: 5 is assumed, beyond which the error at the last arc's vertical tangent
-    /// hardly falls.
+    /// The paper's six segments of 113 samples. It does not state the order: 5 is assumed.
     pub const PAPER: Self = Self {
         segments: 6,
         order: 5,
@@ -223,6 +222,7 @@ mod tests {
                 );
             }
         }
+        println!("L_s: {:?}", fit.width_error);
         assert!(fit.width_error.rms < 12e-6, "{:?}", fit.width_error);
         assert!(fit.width_error.max < 0.25e-3, "{:?}", fit.width_error);
         assert!(fit.depth_error.max < 1e-18);

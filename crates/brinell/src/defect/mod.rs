@@ -208,7 +208,7 @@ impl Defect {
         Some(Floor {
             share: remaining_share(self.roller_length, damaged_length),
             depth: match along_envelope {
-                Some(floor) => floor.value(s),
+                Some(floor) => floor.value(s).max(0.0),
                 None => self.shape.own_depth(s).unwrap_or(self.depth),
             },
             damaged_length,

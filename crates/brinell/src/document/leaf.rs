@@ -16,7 +16,7 @@ pub(crate) struct Misfit {
 }
 
 impl Misfit {
-    fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
+    pub(super) fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
         Misfit {
             message: message.into(),
             allowed: allowed.into(),
@@ -24,7 +24,7 @@ impl Misfit {
         }
     }
 
-    fn in_element(mut self, node: &Node) -> Misfit {
+    pub(super) fn in_element(mut self, node: &Node) -> Misfit {
         self.element.get_or_insert_with(|| node.clone());
         self
     }
@@ -54,12 +54,12 @@ pub(crate) trait Leaf: Sized + Clone {
     }
 }
 
-fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
+pub(super) fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
     let message = format!("expected {}, found {}", T::expected(spec), node.kind());
     Misfit::new(message, T::range(spec))
 }
 
-fn in_unit(what: &str, spec: &Spec) -> String {
+pub(super) fn in_unit(what: &str, spec: &Spec) -> String {
     match spec.unit {
         "" => what.to_string(),
         unit => format!("{what} in {unit}"),
@@ -185,33 +185,6 @@ impl Leaf for usize {
     }
 }
 
-impl Leaf for u64 {
-    fn blank() -> u64 {
-        0
-    }
-
-    fn expected(spec: &Spec) -> String {
-        in_unit("a whole number, 0 or more", spec)
-    }
-
-    fn read(node: &Node, spec: &Spec) -> Result<u64, Misfit> {
-        let number = match &node.value {
-            Value::Integer(n) => u64::try_from(*n).ok(),
-            Value::HugeInteger(text) => text.parse().ok(),
-            _ => return Err(wrong_type::<u64>(node, spec)),
-        };
-        number.ok_or_else(|| Misfit::new("out of range", "0 to 2^64 - 1"))
-    }
-
-    fn write(&self) -> String {
-        self.to_string()
-    }
-
-    fn schema(_: &Spec) -> Json {
-        json!({ "type": "integer", "minimum": 0 })
-    }
-}
-
 impl Leaf for String {
     fn blank() -> String {
         String::new()
@@ -237,21 +210,21 @@ impl Leaf for String {
     }
 }
 
-fn elements<'a, T: Leaf>(node: &'a Node, spec: &Spec) -> Result<&'a [Node], Misfit> {
+pub(super) fn elements<'a, T: Leaf>(node: &'a Node, spec: &Spec) -> Result<&'a [Node], Misfit> {
     match &node.value {
         Value::Array(items) => Ok(items),
         _ => Err(wrong_type::<T>(node, spec)),
     }
 }
 
-fn read_each<T: Leaf>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
+pub(super) fn read_each<T: Leaf>(items: &[Node], spec: &Spec) -> Result<Vec<T>, Misfit> {
     items
         .iter()
         .map(|item| T::read(item, spec).map_err(|misfit| misfit.in_element(item)))
         .collect()
 }
 
-fn write_each<T: Leaf>(items: &[T]) -> String {
+pub(super) fn write_each<T: Leaf>(items: &[T]) -> String {
     let texts: Vec<String> = items.iter().map(Leaf::write).collect();
     format!("[{}]", texts.join(", "))
 }
@@ -313,44 +286,6 @@ impl Leaf for [f64; 2] {
         spec.range.to_string()
     }
 }
-
-/// A list of points, and a list of such lists: polygons.
-macro_rules! list_of {
-    ($item:ty, $what:literal, $least:literal) => {
-        impl Leaf for Vec<$item> {
-            fn blank() -> Vec<$item> {
-                Vec::new()
-            }
-
-            fn expected(spec: &Spec) -> String {
-                in_unit($what, spec)
-            }
-
-            fn read(node: &Node, spec: &Spec) -> Result<Vec<$item>, Misfit> {
-                let items = elements::<Vec<$item>>(node, spec)?;
-                if let Some(item) = items.iter().find(|i| !matches!(i.value, Value::Array(_))) {
-                    return Err(wrong_type::<$item>(item, spec).in_element(item));
-                }
-                read_each(items, spec)
-            }
-
-            fn write(&self) -> String {
-                write_each(self)
-            }
-
-            fn schema(spec: &Spec) -> Json {
-                json!({ "type": "array", "items": <$item>::schema(spec), "minItems": $least })
-            }
-
-            fn range(spec: &Spec) -> String {
-                spec.range.to_string()
-            }
-        }
-    };
-}
-
-list_of!([f64; 2], "a list of points [s, z]", 3);
-list_of!(Vec<[f64; 2]>, "a list of polygons [[s, z], ...]", 1);
 
 impl Leaf for Vec<String> {
     fn blank() -> Vec<String> {

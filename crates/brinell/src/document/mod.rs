@@ -16,6 +16,7 @@ mod provenance;
 mod reader;
 mod schema;
 mod sections;
+mod shape_leaf;
 mod source;
 mod words;
 mod writer;

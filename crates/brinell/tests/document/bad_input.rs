@@ -82,6 +82,30 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("shape", "shape = { profile = { arc_mm = [0.0, -1.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "must not go back", ""),
         ("shape", "shape = { profile = { arc_mm = [0.0, 90.0], width_mm = [1.0, 1.0] } }", "defects.0.shape.profile.arc_mm", "past a full circle", "-86.39 to 86.39 mm"),
         ("shape", "shape = { profile = { arc_mm = [], width_mm = [] } }", "defects.0.shape.profile.arc_mm", "at least two points", ""),
+        ("shape", "shape = { outline = {} }", "defects.0.shape.outline.points_mm", "missing: the corners", "points [s, z]"),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 1]], polygons_mm = [] } }", "defects.0.shape.outline.points_mm", "not both", ""),
+        ("shape", "shape = { outline = { points_mm = [] } }", "defects.0.shape.outline.points_mm", "encloses nothing", "three corners"),
+        ("shape", "shape = { outline = { points_mm = [0, 1, 2] } }", "defects.0.shape.outline.points_mm", "found a whole number", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, nan], [0, 1]] } }", "defects.0.shape.outline.points_mm", "not a finite number", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 0]] } }", "defects.0.shape.outline.points_mm", "fewer than three different corners", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 1], [2, 2]] } }", "defects.0.shape.outline.points_mm", "on one line", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 1], [1, 0], [0, 1]] } }", "defects.0.shape.outline.points_mm", "crosses itself at s = 0.5 mm, z = 0.5 mm", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 4]] } }", "defects.0.shape.outline.points_mm", "off the raceway's edge", "-3 to 3 mm"),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [1000, 0], [0, 4000]] } }", "defects.0.shape.outline.points_mm", "um instead of mm", ""),
+        ("shape", "shape = { outline = { points_mm = [[0, 0], [90, 0], [0, 1]] } }", "defects.0.shape.outline", "past a full circle", "-86.39 to 86.39 mm"),
+        ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]] } }", "defects.0.shape.grown.max_width_mm", "missing: the width", ""),
+        ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]], max_width_mm = 1, area_mm2 = 1 } }", "defects.0.shape.grown.max_width_mm", "not both", ""),
+        ("shape", "shape = { grown = { points_mm = [[0, 0], [1, 0], [0, 1]], area_mm2 = 40 } }", "defects.0.shape.grown.area_mm2", "off the raceway's edge", ""),
+        ("shape", "shape = { random = { length_mm = 3, width_mm = 7 } }", "defects.0.shape.random.width_mm", "wider than the roller", "<= 6 mm"),
+        ("shape", "shape = { random = { length_mm = 3, width_mm = 2, roughness = 2 } }", "defects.0.shape.random.roughness", "out of range", "0 to 1"),
+        ("shape", "shape = { random = { length_mm = 3, width_mm = 2, seed = -1 } }", "defects.0.shape.random.seed", "out of range", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3] } }", "defects.0.shape.depth_map.depth_um", "3 depths for 2 columns and 2 rows", "4 numbers"),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, nan] } }", "defects.0.shape.depth_map.depth_um", "not a finite number", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [0, 0, 0, 0] } }", "defects.0.shape.depth_map.depth_um", "there is no damage", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, -4] } }", "defects.0.shape.depth_map.depth_um", "raised edges (the highest 4 um)", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, z0_mm = 5, columns = 2, rows = 2, depth_um = [1, 2, 3, 4] } }", "defects.0.shape.depth_map.depth_um", "off the raceway's edge", ""),
+        ("shape", "shape = { depth_map = { ds_mm = 1, dz_mm = 1, columns = 2, rows = 2, depth_um = [1, 2, 3, 40000] } }", "defects.0.shape.depth_map.depth_um", "nm instead of um", "<= 6000 um"),
+        ("roller_path", "edge_reaction = \"conservative\"", "contact.edge_reaction", "an energy without jumps", "roller_path"),
         ("duration_s", "duration_s = 0", "simulation.duration_s", "out of range", "> 0"),
         ("duration_s", "duration_s = 1e-6", "simulation.duration_s", "shorter than one sample", ">= 3.906e-5 s"),
         ("duration_s", "duration_s = 1e6", "simulation.duration_s", "more than any machine keeps", "<= 390625 s"),
@@ -279,4 +303,42 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
             assert_eq!(low, warned, "{on} at {rate} Hz");
         }
     }
+}
+
+#[test]
+fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
+    let outline = |points: &str| format!("{{ outline = {{ polygons_mm = {points} }} }}");
+    let crossing = outline("[[[-1,-1],[1,-1],[1,1],[-1,1]],[[0,0],[2,0],[2,2],[0,2]]]");
+    let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, columns = 3, rows = 12, depth_um = [REST] } }"
+        .replace("REST", &["5"; 36].join(", "));
+    let second = "{ on = \"outer-raceway\", depth_um = 5, center_deg = 1, shape = { circle = { diameter_mm = 2 } } }";
+    for (key, value, at, words) in [
+        (
+            "defects.0.shape",
+            crossing.as_str(),
+            "defects.0.shape.outline.polygons_mm",
+            "counts as undamaged",
+        ),
+        (
+            "defects.0.shape",
+            map.as_str(),
+            "defects.0.shape.depth_map.depth_um",
+            "what lies beyond is left out",
+        ),
+        ("defects.1", second, "defects.1", "overlaps defects.0"),
+    ] {
+        let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));
+        let warning = problem_of(&loaded.warnings, at);
+        assert!(warning.to_string().contains(words), "{warning}");
+        brinell::model::Model::new(&loaded.scenario).unwrap();
+    }
+    // Side by side they do not overlap.
+    let apart = second.replace("center_deg = 1", "center_deg = 9");
+    let loaded = with(OUTER, &[("defects.1", &apart)]).unwrap_or_else(|p| panic!("{}", report(&p)));
+    assert!(
+        loaded
+            .warnings
+            .iter()
+            .all(|w| !w.message.contains("overlaps"))
+    );
 }

@@ -164,6 +164,44 @@ fn shapes() -> impl Strategy<Value = Shape> {
         }),
         (1e-3..5.0f64).prop_map(|diameter_mm| Shape::Circle { diameter_mm }),
         (0.0..5.0f64).prop_map(|max_width_mm| Shape::Li2023Irregular { max_width_mm }),
+        (any::<u64>(), 0.1..5.0f64, 0.1..5.0f64, 0.0..1.0f64).prop_map(
+            |(seed, length_mm, width_mm, roughness)| Shape::Random {
+                seed,
+                length_mm,
+                width_mm,
+                roughness
+            }
+        ),
+        (0.1..2.0f64, 0.1..2.0f64, any::<bool>()).prop_map(|(a, b, several)| {
+            let first = vec![[-a, -b], [a, -b], [0.5 * a, b]];
+            let second = vec![[-3.0 * a, 0.0], [-2.0 * a, 0.0], [-2.0 * a, b]];
+            let mut polygons_mm = vec![first];
+            polygons_mm.extend(several.then_some(second));
+            Shape::Outline { polygons_mm }
+        }),
+        (0.1..2.0f64, 0.1..2.0f64, any::<bool>()).prop_map(|(a, b, wide)| Shape::Grown {
+            outline: vec![vec![[-a, -b], [a, -b], [0.5 * a, b]]],
+            max_width_mm: wide.then_some(b),
+            area_mm2: (!wide).then_some(a * b),
+        }),
+        (
+            0.01..0.5f64,
+            0.01..0.5f64,
+            prop::collection::vec(0.0..30.0f64, 6)
+        )
+            .prop_map(|(ds_mm, dz_mm, mut depth_um)| {
+                depth_um[0] = 1.0;
+                let grid = DepthGrid {
+                    s0_mm: -ds_mm,
+                    z0_mm: -0.3 * dz_mm,
+                    ds_mm,
+                    dz_mm,
+                    columns: 3,
+                    rows: 2,
+                    depth_um,
+                };
+                Shape::DepthMap { grid }
+            }),
         (profile, any::<bool>()).prop_map(|(points, deep)| {
             let arc = points.iter().scan(-4.0, |s, point| {
                 *s += point.0;

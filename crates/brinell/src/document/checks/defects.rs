@@ -19,6 +19,7 @@ impl Checker<'_> {
                 Shape::Grown { .. } => self.grown(i, defect),
                 _ => {}
             }
+            self.depth_scale(i, defect);
             self.arc(i, defect);
         }
         self.edge_reaction();
@@ -166,12 +167,19 @@ impl Checker<'_> {
             Shape::Grown { .. } => ("grown", half_circle),
             Shape::Random { .. } => ("random.length_mm", 2.0 * half_circle),
         };
+        // A shape without a key of its own for its length is found by its table.
+        let table = format!("defects.{i}.shape");
+        let also: &[&str] = if key.contains('.') {
+            &[diameter_key]
+        } else {
+            &[&table, diameter_key]
+        };
         if reach > half_circle {
             let allowed = match &defect.shape {
-                Shape::Profile { .. }
-                | Shape::Outline { .. }
-                | Shape::DepthMap { .. }
-                | Shape::Grown { .. } => format!("-{0} to {0}", short(limit)),
+                Shape::Profile { .. } => format!("-{0} to {0}", short(limit)),
+                Shape::Outline { .. } | Shape::DepthMap { .. } | Shape::Grown { .. } => {
+                    format!("s from -{0} to {0} mm", short(limit))
+                }
                 Shape::Li2023Irregular { .. } => {
                     format!("a surface of diameter >= {} mm", short(2.0 * reach / PI))
                 }
@@ -184,7 +192,7 @@ impl Checker<'_> {
                     short(2.0 * half_circle)
                 ),
                 allowed,
-                &[diameter_key],
+                also,
             );
         }
     }

@@ -44,7 +44,7 @@ impl Checker<'_> {
                     &keys[0],
                     "missing: the corners of one polygon, or polygons_mm for several".into(),
                     "points [s, z] in mm".into(),
-                    &[],
+                    &[&format!("defects.{i}.shape")],
                 );
                 None
             }
@@ -166,7 +166,7 @@ impl Checker<'_> {
                 &width,
                 "missing: the width to grow to, or area_mm2".into(),
                 "one of them".into(),
-                &[],
+                &[&format!("defects.{i}.shape")],
             ),
             _ => {
                 let key = if max_width_mm.is_some() { width } else { area };
@@ -270,6 +270,37 @@ impl Checker<'_> {
                 ),
                 format!("columns times contact.slices <= {MOST_PIECES:e}"),
                 &["contact.slices"],
+            );
+        }
+    }
+
+    /// Depths that no raceway has: more than the roller's diameter, down or up.
+    pub(super) fn depth_scale(&mut self, i: usize, defect: &Defect) {
+        let most = 1e3 * self.s.bearing.roller_diameter_mm;
+        let (key, depths) = match &defect.shape {
+            Shape::DepthMap { grid } => (
+                self.shape_key(i, "depth_map", "depth_um"),
+                &grid.depth_um[..],
+            ),
+            Shape::Profile {
+                depth_um: Some(depths),
+                ..
+            } => (self.shape_key(i, "profile", "depth_um"), &depths[..]),
+            _ => (
+                format!("defects.{i}.depth_um"),
+                std::slice::from_ref(&defect.depth_um),
+            ),
+        };
+        let deepest = depths.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
+        if deepest > most {
+            self.error(
+                &key,
+                format!(
+                    "{} um is more than the roller's diameter; lengths in nm instead of um?",
+                    short(deepest)
+                ),
+                format!("<= {} um", short(most)),
+                &["bearing.roller_diameter_mm"],
             );
         }
     }

@@ -1,0 +1,232 @@
+//! Whole runs over damage: laws and paths against each other, the energy audit, and what a run costs.
+
+mod common;
+
+use brinell::defect::spall;
+use brinell::scenario::{
+    self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface,
+};
+use common::{Rows, simulate};
+
+fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
+    let mut s = Scenario::example();
+    s.contact.law = law;
+    s.contact.roller_path = path;
+    s.simulation.duration_s = duration_s;
+    s.simulation.record = vec!["outer_*".into(), "inner_*".into()];
+    s.defects[0].shape = shape;
+    s
+}
+
+fn rectangle(width_mm: f64) -> Shape {
+    Shape::Rectangle {
+        length_mm: 3.0,
+        width_mm,
+    }
+}
+
+/// Largest difference of any channel over the channel's largest value.
+fn difference(a: &Rows, b: &Rows) -> f64 {
+    let pairs = a.data.iter().zip(&b.data).skip(1);
+    pairs
+        .map(|(x, y)| {
+            let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let off = x
+                .iter()
+                .zip(y)
+                .fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
+            off / size.max(f64::MIN_POSITIVE)
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn prop_no_width_is_the_healthy_bearing_to_the_bit() {
+    let mut healthy = run_of(rectangle(4.0), Law::Ecl, RollerPath::Point, 6e-3);
+    healthy.defects.clear();
+    let healthy = simulate(&healthy).0;
+    for law in [Law::Ecl, Law::Sliced] {
+        for path in [RollerPath::Point, RollerPath::Envelope] {
+            let mut none = run_of(rectangle(0.0), law, path, 6e-3);
+            // An odd number has a slice in the very middle.
+            none.contact.slices = 31;
+            assert_eq!(simulate(&none).0.data, healthy.data, "{law:?} {path:?}");
+        }
+    }
+}
+
+#[test]
+fn prop_a_rectangle_drawn_as_an_outline_runs_the_same() {
+    let corners = vec![[-1.5, -2.0], [1.5, -2.0], [1.5, 2.0], [-1.5, 2.0]];
+    let drawn = Shape::Outline {
+        polygons_mm: vec![corners],
+    };
+    for law in [Law::Ecl, Law::Sliced] {
+        for path in [RollerPath::Point, RollerPath::Envelope] {
+            let [mut a, mut b] =
+                [drawn.clone(), rectangle(4.0)].map(|x| run_of(x, law, path, 0.012));
+            for s in [&mut a, &mut b] {
+                s.simulation.accuracy = Accuracy::Reference;
+                s.operation.load_ramp_s = 0.002;
+            }
+            let off = difference(&simulate(&a).0, &simulate(&b).0);
+            assert!(off < 1e-6, "{law:?} {path:?}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn prop_full_width_damage_runs_the_same_in_both_laws() {
+    for path in [RollerPath::Point, RollerPath::Envelope] {
+        let [a, b] = [Law::Ecl, Law::Sliced].map(|law| {
+            let mut s = run_of(rectangle(6.0), law, path, 0.012);
+            s.simulation.accuracy = Accuracy::Reference;
+            s.operation.load_ramp_s = 0.002;
+            simulate(&s).0
+        });
+        let off = difference(&a, &b);
+        // Impacts amplify the round-off of the slices' sum.
+        assert!(off < 1e-4, "{path:?}: {off:e}");
+    }
+}
+
+#[test]
+fn analytic_a_run_from_equilibrium_on_sliced_damage_starts_as_quietly_as_a_healthy_one() {
+    for seed in [1, 2, 3] {
+        let spall = Shape::Random {
+            seed,
+            length_mm: 6.0,
+            width_mm: 5.0,
+            roughness: 0.5,
+        };
+        let mut s = run_of(spall, Law::Sliced, RollerPath::Envelope, 1e-3);
+        s.simulation.start = scenario::Start::Equilibrium;
+        s.defects[0].depth_um = 8.0;
+        let rows = simulate(&s).0;
+        // The orbit's dampers and friction are no part of a static balance: the healthy bearing has their push too.
+        s.defects.clear();
+        let healthy = simulate(&s).0;
+        let push = |rows: &Rows| {
+            ["outer_ax", "outer_ay", "inner_ax", "inner_ay"].map(|name| rows.column(name)[0])
+        };
+        for (a, b) in push(&rows).into_iter().zip(push(&healthy)) {
+            assert!((a - b).abs() < 1.0, "seed {seed}: {a} and {b} m/s^2");
+        }
+    }
+}
+
+fn on(surface: Surface, shape: Shape) -> Defect {
+    Defect {
+        on: surface,
+        row: 1,
+        center_deg: 0.0,
+        depth_um: 12.0,
+        shape,
+    }
+}
+
+/// Energy that no entry explains, the parametric work and the turnover, J.
+fn audit(defects: Vec<Defect>, edge_reaction: EdgeReaction) -> [f64; 4] {
+    let mut s = run_of(rectangle(4.0), Law::Sliced, RollerPath::Envelope, 0.06);
+    s.contact.edge_reaction = edge_reaction;
+    s.operation.load_ramp_s = 0.005;
+    s.simulation.accuracy = Accuracy::Reference;
+    s.defects = defects;
+    let outcome = simulate(&s).1;
+    let e = outcome.energy;
+    [
+        e.residual(),
+        e.parametric,
+        e.turnover(),
+        outcome.momentum_imbalance.unwrap(),
+    ]
+}
+
+#[test]
+fn analytic_conservative_edges_close_the_energy_audit_on_every_surface() {
+    let mut burr = spall(3, 3.0, 3.5, 0.7, 12.0);
+    // A ring of raised nodes where the floor begins.
+    for k in 0..burr.depth_um.len() {
+        let (row, column) = (k / burr.columns, k % burr.columns);
+        let border = row == 1 || column == 1 || row + 2 == burr.rows || column + 2 == burr.columns;
+        if border && burr.depth_um[k] == 0.0 {
+            burr.depth_um[k] = -2.0;
+        }
+    }
+    let cases = [
+        ("outer", vec![on(Surface::OuterRaceway, rectangle(4.0))]),
+        ("inner", vec![on(Surface::InnerRaceway, rectangle(4.0))]),
+        ("roller", vec![on(Surface::Roller(1), rectangle(4.0))]),
+        (
+            "burr and overlap",
+            vec![
+                on(Surface::OuterRaceway, Shape::DepthMap { grid: burr }),
+                on(Surface::OuterRaceway, Shape::Circle { diameter_mm: 2.0 }),
+                on(Surface::InnerRaceway, rectangle(2.0)),
+            ],
+        ),
+    ];
+    for (name, defects) in cases {
+        let [paper, parametric, _, _] = audit(defects.clone(), EdgeReaction::None);
+        let [closed, none, turnover, momentum] = audit(defects, EdgeReaction::Conservative);
+        println!(
+            "{name}: residual {closed:.2e} J, parametric before {parametric:.2e} J (residual {paper:.2e}), turnover {turnover:.2e} J, momentum {momentum:.1e}"
+        );
+        assert_eq!(none, 0.0);
+        assert!(parametric.abs() > 1e-6, "{name}: nothing to close");
+        assert!(closed.abs() < 2e-2 * parametric.abs(), "{name}");
+        assert!(momentum < 1e-12, "{name}: momentum {momentum:e}");
+    }
+}
+
+/// A map of the given nodes over 3 x 4 mm.
+fn map(columns: usize, rows: usize, depth: impl Fn(usize, usize) -> f64) -> Shape {
+    let grid = scenario::DepthGrid {
+        s0_mm: -1.5,
+        z0_mm: -2.0,
+        ds_mm: 3.0 / (columns - 1) as f64,
+        dz_mm: 4.0 / (rows - 1) as f64,
+        columns,
+        rows,
+        depth_um: (0..columns * rows)
+            .map(|k| depth(k % columns, k / columns))
+            .collect(),
+    };
+    Shape::DepthMap { grid }
+}
+
+/// Right-hand sides counted, which noise cannot touch; times are printed beside them.
+///
+/// The same damage as the rectangle's, scanned with relief at every node, costs what the rectangle costs. A spall of another outline is another
+/// excitation: along the envelope it stays within the same bound, at a point its ragged border makes the force jump more often.
+#[test]
+fn prop_a_detailed_depth_map_costs_little_more_than_a_rectangle() {
+    let relief = |c: usize, r: usize| 1.0 + 0.1 * (0.9 * c as f64).sin() * (0.7 * r as f64).cos();
+    let scan = map(301, 201, |c, r| 20.0 * relief(c, r));
+    let spall = Shape::DepthMap {
+        grid: spall(11, 3.0, 4.0, 0.6, 20.0),
+    };
+    for (law, path, spall_bound) in [
+        (Law::Ecl, RollerPath::Point, 1.25),
+        (Law::Ecl, RollerPath::Envelope, 1.25),
+        (Law::Sliced, RollerPath::Point, 1.5),
+        (Law::Sliced, RollerPath::Envelope, 1.25),
+    ] {
+        let work = |shape: &Shape| {
+            let s = run_of(shape.clone(), law, path, 0.15);
+            let clock = std::time::Instant::now();
+            let work = simulate(&s).1.work.solver;
+            (work.evaluations as f64, clock.elapsed().as_secs_f64())
+        };
+        let (plain, plain_s) = work(&rectangle(4.0));
+        for (name, shape, bound) in [("scan", &scan, 1.25), ("spall", &spall, spall_bound)] {
+            let (evaluations, seconds) = work(shape);
+            println!(
+                "{law:?} {path:?} {name}: right-hand sides {plain} and {evaluations} ({:+.1} %), seconds {plain_s:.3} and {seconds:.3} ({:+.1} %)",
+                100.0 * (evaluations / plain - 1.0),
+                100.0 * (seconds / plain_s - 1.0)
+            );
+            assert!(evaluations <= bound * plain, "{law:?} {path:?} {name}");
+        }
+    }
+}
