@@ -20,15 +20,24 @@ pub(crate) struct Domain {
     pub(crate) log: bool,
 }
 
-/// Beyond this a double's square overflows; nothing physical comes near it.
+/// Beyond this a double's square overflows, and below its inverse one vanishes; nothing physical comes near either.
 const HUGE: f64 = 1e150;
+
+/// The value that a plot computes with.
+fn tame(value: f64) -> f64 {
+    if value.abs() < 1.0 / HUGE {
+        0.0
+    } else {
+        value.clamp(-HUGE, HUGE)
+    }
+}
 
 /// Smallest and largest finite value.
 pub(crate) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values
         .into_iter()
         .filter(|v| v.is_finite())
-        .map(|v| v.clamp(-HUGE, HUGE))
+        .map(tame)
         .fold(None, |range, v| {
             Some(range.map_or((v, v), |(lo, hi): (f64, f64)| (lo.min(v), hi.max(v))))
         })
@@ -139,7 +148,7 @@ impl Scale {
         let part = if log {
             (value.max(lo * 1e-3).log10() - lo.log10()) / (hi.log10() - lo.log10())
         } else {
-            (value.clamp(-HUGE, HUGE) - lo) / (hi - lo)
+            (tame(value) - lo) / (hi - lo)
         };
         // A curve may leave the frame, but not by more than the clipping can take.
         self.from + part.clamp(-20.0, 20.0) * (self.to - self.from)

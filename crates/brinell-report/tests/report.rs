@@ -184,10 +184,22 @@ fn check(page: &str) {
             "{part}"
         );
     }
+    // Samples travel in base64, which may spell anything.
+    let plain: String = page
+        .split("\"values\":\"")
+        .enumerate()
+        .map(|(k, part)| {
+            if k == 0 {
+                part
+            } else {
+                part.split_once('"').map_or("", |p| p.1)
+            }
+        })
+        .collect();
     for never in [
         "http:", "https:", "@import", "<link", "<iframe", " src=\"", "NaN", ":inf", ",inf",
     ] {
-        assert!(!page.contains(never), "{never} in the page");
+        assert!(!plain.contains(never), "{never} in the page");
     }
 }
 
