@@ -464,6 +464,20 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
             }
         }
     }
+    for (slot, force) in ws.pocket_force[..layout.rollers()].iter().enumerate() {
+        let size = if force.is_finite() {
+            force.abs()
+        } else {
+            f64::INFINITY
+        };
+        if size > worst.0.max(0.0) {
+            let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
+            worst = (
+                size,
+                format!("the pocket of roller {roller} in row {row} carries {size:.4e} N"),
+            );
+        }
+    }
     worst.1
 }
 
