@@ -29,6 +29,7 @@ impl Progress {
         let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
+        bar.set_message("starting");
         Self {
             bar,
             duration,
