@@ -139,20 +139,34 @@ pub(crate) enum BearingCommand {
     brinell frequencies scenario.toml\n  \
     brinell frequencies --pitch 39 --roller 7.5 --rollers 13 --speed 1500")]
 pub(crate) struct FrequenciesArgs {
-    /// A catalogue name or a scenario file
-    #[arg(required_unless_present_all = ["pitch", "roller", "rollers"])]
+    /// A catalogue name or a scenario file (`-` reads standard input)
     pub(crate) bearing: Option<String>,
     /// Shaft speed, r/min [default: the scenario's, or 60 so that Hz are orders]
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
     /// Pitch diameter, mm
-    #[arg(long, value_name = "MM", conflicts_with = "bearing")]
+    #[arg(
+        long,
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) pitch: Option<f64>,
     /// Roller diameter, mm
-    #[arg(long, value_name = "MM", conflicts_with = "bearing")]
+    #[arg(
+        long,
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) roller: Option<f64>,
     /// Rollers in a row
-    #[arg(long, value_name = "Z", conflicts_with = "bearing")]
+    #[arg(
+        long,
+        value_name = "Z",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
     pub(crate) rollers: Option<usize>,
     /// Print JSON
     #[arg(long)]

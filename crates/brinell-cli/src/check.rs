@@ -3,7 +3,7 @@
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::files;
-use crate::say::{say, short};
+use crate::say::{say, short, significant};
 use brinell::channel;
 use brinell::derived::Derived;
 use brinell::model::Model;
@@ -64,6 +64,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     say!("");
     match &d.statics {
         Ok(zone) => {
+            let size = zone.shift[0].hypot(zone.shift[1]);
             say!("Static balance under the full load (mean over a pitch of the cage)");
             say!("  heaviest contact        {} N", short(zone.largest, 4));
             say!(
@@ -72,14 +73,14 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             );
             say!(
                 "  inner ring from outer   ({}, {}) um",
-                short(1e6 * zone.shift[0], 4),
-                short(1e6 * zone.shift[1], 4)
+                significant(1e6 * zone.shift[0], 1e6 * size, 4),
+                significant(1e6 * zone.shift[1], 1e6 * size, 4)
             );
             say!(
                 "  bearing stiffness       xx {}, yy {}, xy {} N/m",
                 short(zone.stiffness[0][0], 4),
                 short(zone.stiffness[1][1], 4),
-                short(zone.stiffness[0][1], 2)
+                significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
             );
         }
         Err(error) => say!("Static balance: {error}"),
@@ -145,9 +146,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         (s.simulation.duration_s * s.simulation.sample_rate_hz).floor() + 1.0,
         s.simulation.sample_rate_hz
     );
-    for pattern in idle {
-        eprintln!("warning: simulation.record: \"{pattern}\" matches no channel of this bearing");
-    }
+    files::warn_idle(&idle);
     let assumed: Vec<_> = loaded.provenance.iter().filter(|p| p.assumed).collect();
     say!("");
     if args.assumptions {

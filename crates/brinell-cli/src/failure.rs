@@ -1,5 +1,6 @@
 //! What can go wrong, and how it is told.
 
+use crate::say::complain;
 use brinell::document::Problem;
 use brinell::simulate::RunError;
 use brinell_io::IoError;
@@ -36,6 +37,13 @@ impl Failure {
         ExitCode::from(match self {
             Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => 2,
             Self::Run(RunError::Model(_) | RunError::NoBalance(_)) => 2,
+            // The place is wrong, not the writing.
+            Self::Write(
+                IoError::NotPermitted { .. }
+                | IoError::NoFolder { .. }
+                | IoError::NotAFileName { .. }
+                | IoError::Busy { .. },
+            ) => 2,
             Self::Write(_) | Self::Picture(_) | Self::Run(_) => 1,
         })
     }
@@ -48,11 +56,11 @@ impl Failure {
                 text,
                 problems,
             } => print_problems(name, text, problems),
-            Self::Usage(message) => eprintln!("error: {message}"),
-            Self::Read(path, error) => eprintln!("error: cannot read {}: {error}", path.display()),
-            Self::Write(error) => eprintln!("error: {error}"),
-            Self::Picture(error) => eprintln!("error: {error}"),
-            Self::Run(error) => eprintln!("error: {error}"),
+            Self::Usage(message) => complain!("error: {message}"),
+            Self::Read(path, error) => complain!("error: cannot read {}: {error}", path.display()),
+            Self::Write(error) => complain!("error: {error}"),
+            Self::Picture(error) => complain!("error: {error}"),
+            Self::Run(error) => complain!("error: {error}"),
         }
     }
 }
@@ -66,7 +74,7 @@ impl From<IoError> for Failure {
 /// Each problem with the line that it is about.
 pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
     for problem in problems {
-        eprintln!("{problem}");
+        complain!("{problem}");
         let (Some(line), Some(column)) = (problem.line, problem.column) else {
             continue;
         };
@@ -83,16 +91,16 @@ pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
         let shown: String = source.chars().skip(from).take(100).collect();
         let number = line.to_string();
         let gutter = " ".repeat(number.len());
-        eprintln!("  {gutter}--> {name}:{line}:{column}");
-        eprintln!("  {number} | {shown}");
+        complain!("  {gutter}--> {name}:{line}:{column}");
+        complain!("  {number} | {shown}");
         let marks = "^".repeat(length.min(100usize.saturating_sub(column - 1 - from).max(1)));
-        eprintln!("  {gutter} | {}{marks}", " ".repeat(column - 1 - from));
+        complain!("  {gutter} | {}{marks}", " ".repeat(column - 1 - from));
     }
     let errors = problems
         .iter()
         .filter(|p| p.severity == brinell::document::Severity::Error)
         .count();
     if errors > 1 {
-        eprintln!("{errors} errors in {name}");
+        complain!("{errors} errors in {name}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
+use crate::say::complain;
 use brinell::document::{Loaded, read_bytes};
 use std::io::Read;
 use std::path::Path;
@@ -24,7 +25,11 @@ pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failu
         })
         .collect::<Result<Vec<_>, _>>()?;
     let bytes = bytes(&args.scenario)?;
-    let name = args.scenario.display().to_string();
+    let name = if is_stdin(&args.scenario) {
+        "standard input".to_owned()
+    } else {
+        args.scenario.display().to_string()
+    };
     match read_bytes(&bytes, &overrides) {
         Ok(loaded) => {
             if !quiet && !loaded.warnings.is_empty() {
@@ -40,11 +45,23 @@ pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failu
     }
 }
 
+/// Patterns of `record` that match no channel.
+pub(crate) fn warn_idle(patterns: &[String]) {
+    for pattern in patterns {
+        complain!("warning: simulation.record: \"{pattern}\" matches no channel of this bearing");
+    }
+}
+
+/// `-` is standard input.
+pub(crate) fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let failed = |error| Failure::Read(path.to_owned(), error);
     let mut bytes = Vec::new();
     let mut take = |source: &mut dyn Read| source.take(LARGEST + 1).read_to_end(&mut bytes);
-    if path == Path::new("-") {
+    if is_stdin(path) {
         take(&mut std::io::stdin().lock()).map_err(failed)?;
     } else {
         take(&mut std::fs::File::open(path).map_err(failed)?).map_err(failed)?;

@@ -67,7 +67,7 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
 fn datum(value: &Datum) -> String {
     match value {
         Datum::Number(x) if x.abs() >= 1e6 => format!("{x:e}"),
-        Datum::Number(x) => x.to_string(),
+        Datum::Number(x) => format!("{}", (x * 1e6).round() / 1e6),
         Datum::Integer(n) => n.to_string(),
         Datum::Text(text) => text.clone(),
     }
@@ -141,7 +141,9 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
         return from_numbers(args).map(|g| (g, None));
     };
     let path = PathBuf::from(bearing);
-    if catalogue::find(bearing).is_none() && path.exists() {
+    let written_as_a_file =
+        files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
+    if catalogue::find(bearing).is_none() && (path.exists() || written_as_a_file) {
         let loaded = files::scenario(
             &ScenarioArgs {
                 scenario: path,
@@ -187,7 +189,7 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
 fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
     let (Some(pitch), Some(roller), Some(rollers)) = (args.pitch, args.roller, args.rollers) else {
         return Err(Failure::Usage(
-            "--pitch, --roller and --rollers are needed together".into(),
+            "which bearing? Give a catalogue name, a scenario file, or --pitch, --roller and --rollers together".into(),
         ));
     };
     let fits = pitch.is_finite() && roller.is_finite() && roller > 0.0 && pitch > roller;

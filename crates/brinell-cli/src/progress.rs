@@ -1,15 +1,17 @@
 //! The progress bar: simulated time, speed relative to real time, time to go. Silent where no terminal listens.
 
+use crate::say::short;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::Instant;
 
-/// Samples between looks at the clock.
-const STRIDE: u32 = 64;
+/// Steps between looks at the clock.
+const STRIDE: u32 = 256;
 
 /// Progress of one run.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    duration: f64,
     begin: Instant,
     skipped: u32,
 }
@@ -23,12 +25,14 @@ impl Progress {
             ProgressDrawTarget::stderr_with_hz(10)
         };
         let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
-        // The template is constant; indicatif's default stands in should it ever not parse.
-        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {eta} to go")
+        // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default stands in should it ever not parse.
+        let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
+        bar.set_message("starting");
         Self {
             bar,
+            duration,
             begin: Instant::now(),
             skipped: 0,
         }
@@ -43,8 +47,10 @@ impl Progress {
         self.skipped = 0;
         self.bar.set_position(micros(t));
         let speed = t / self.begin.elapsed().as_secs_f64();
-        self.bar
-            .set_message(format!("{t:.3} s simulated, {speed:.2} x real time"));
+        self.bar.set_message(format!(
+            "{t:.3} of {} s, {speed:.2} x real time",
+            short(self.duration, 3)
+        ));
     }
 
     /// Wall time since the start, s.

@@ -22,6 +22,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let loaded = files::scenario(&args.scenario, args.quiet)?;
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    if !args.quiet {
+        files::warn_idle(simulation.idle_patterns());
+    }
     let folder = folder(args, &loaded);
     make_folder(&folder)?;
     // What a reader needs to make sense of a partial run comes first.
@@ -241,13 +244,12 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
     match &outcome.end {
         End::Complete => {}
         End::Stopped => say!("Interrupted: the results are partial, up to t = {reached:.4} s."),
-        End::Failed(error) => {
-            say!("Failed: the results are partial, up to t = {reached:.4} s. {error}")
-        }
+        End::Failed(_) => say!("Failed: the results are partial, up to t = {reached:.4} s."),
     }
     say!(
-        "{}: {reached} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
+        "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
         loaded.scenario.name,
+        short(reached, 4),
         reached / elapsed,
         outcome.work.solver.steps,
         outcome.work.solver.evaluations + outcome.work.sample_evaluations,

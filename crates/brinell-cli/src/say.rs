@@ -1,11 +1,17 @@
-//! Text to standard output, quiet where nobody reads on (a closed pipe is no failure).
+//! Text to the terminal, quiet where nobody reads on (a closed pipe is no failure).
 
 use std::fmt::Arguments;
 use std::io::Write;
 
-/// Writes one line.
+/// Writes one line to standard output.
 pub(crate) fn line(text: Arguments) {
     let mut out = std::io::stdout().lock();
+    let _ = writeln!(out, "{text}");
+}
+
+/// Writes one line to standard error.
+pub(crate) fn complaint(text: Arguments) {
+    let mut out = std::io::stderr().lock();
     let _ = writeln!(out, "{text}");
 }
 
@@ -14,6 +20,12 @@ macro_rules! say {
     ($($arg:tt)*) => { crate::say::line(format_args!($($arg)*)) };
 }
 pub(crate) use say;
+
+/// `eprintln!` that survives a closed pipe.
+macro_rules! complain {
+    ($($arg:tt)*) => { crate::say::complaint(format_args!($($arg)*)) };
+}
+pub(crate) use complain;
 
 /// A number with `digits` significant digits, plain where that is short.
 pub(crate) fn short(x: f64, digits: usize) -> String {
@@ -30,6 +42,19 @@ pub(crate) fn short(x: f64, digits: usize) -> String {
     } else {
         format!("{x:.*e}", digits - 1)
     }
+}
+
+/// [`short`], with 0 for what is round-off beside `scale`.
+pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
+    const ROUND_OFF: f64 = 1e-12;
+    short(
+        if x.abs() < ROUND_OFF * scale.abs() {
+            0.0
+        } else {
+            x
+        },
+        digits,
+    )
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub enum IoError {
         source: io::Error,
     },
     /// The name is that of a folder, or ends in `..`.
-    #[error("{}: this is not the name of a file; give a file name", path.display())]
+    #[error("{}: this is a folder, or no name at all; give the name of a file", path.display())]
     NotAFileName {
         /// The path as given.
         path: PathBuf,

@@ -66,7 +66,7 @@ pub trait Observer {
     /// [`Simulation::filtered`] at that sample. Breaking ends the run.
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()>;
 
-    /// At each sample: the simulated time reached. Breaking ends the run.
+    /// After each step: the simulated time reached. Breaking ends the run.
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
         let _ = (t, work);
         ControlFlow::Continue(())
@@ -346,7 +346,15 @@ impl<'a> Run<'a> {
                 self.next += 1;
             }
             match self.stepper.step(&mut self.motion) {
-                Ok(flows) => self.book(flows),
+                Ok(flows) => {
+                    self.book(flows);
+                    // Steps rather than samples: a stiff run may take minutes from one sample to the next.
+                    self.work.solver = self.stepper.work();
+                    let t = self.stepper.t();
+                    if self.observer.progress(t, &self.work).is_break() {
+                        return End::Stopped;
+                    }
+                }
                 Err(error) => return End::Failed(self.explain(error)),
             }
         }
@@ -399,8 +407,6 @@ impl<'a> Run<'a> {
             if index < self.simulation.samples {
                 self.observer.sample(index, &frame);
             }
-            self.work.solver = self.stepper.work();
-            self.observer.progress(t, &self.work)?;
         }
         for (value, channel) in self.fast.iter_mut().zip(&self.simulation.filtered) {
             *value = channel.value(&frame);
@@ -453,9 +459,23 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
                 let side = format!("{side:?}").to_lowercase();
                 worst = (
                     size,
-                    format!("{side} contact of roller {roller} in row {row} carries {force:e} N"),
+                    format!("{side} contact of roller {roller} in row {row} carries {force:.4e} N"),
                 );
             }
+        }
+    }
+    for (slot, force) in ws.pocket_force[..layout.rollers()].iter().enumerate() {
+        let size = if force.is_finite() {
+            force.abs()
+        } else {
+            f64::INFINITY
+        };
+        if size > worst.0.max(0.0) {
+            let (roller, row) = (layout.roller(slot) + 1, layout.row(slot) + 1);
+            worst = (
+                size,
+                format!("the pocket of roller {roller} in row {row} carries {size:.4e} N"),
+            );
         }
     }
     worst.1

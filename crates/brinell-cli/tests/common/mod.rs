@@ -1,0 +1,150 @@
+//! What the tests of the command share: calling it, and scenarios that run in a moment.
+#![allow(dead_code)]
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A scenario on every line of which a test may rely; 20 ms, so that a run takes a tenth of a second.
+pub(crate) const SHORT: &str = r#"name = "short"
+
+[bearing]
+preset = "NU206"
+
+[operation]
+speed_rpm = 1500.0
+load_n = [300.0, 0.0]
+
+[[defects]]
+on = "outer-raceway"
+center_deg = 0.0
+depth_um = 20.0
+shape = { rectangle = { length_mm = 2.0, width_mm = 4.0 } }
+
+[simulation]
+duration_s = 0.02
+sample_rate_hz = 25600.0
+"#;
+
+/// What one call did.
+#[derive(Debug)]
+pub(crate) struct Call {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
+}
+
+impl Call {
+    #[track_caller]
+    pub(crate) fn exits(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "{self:#?}");
+        // A panic would leave by code 101, but a thread's panic need not.
+        assert!(!self.err.contains("panicked"), "{self:#?}");
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn complains(self, parts: &[&str]) -> Self {
+        for part in parts {
+            assert!(self.err.contains(part), "no {part:?} in {self:#?}");
+        }
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn says(self, parts: &[&str]) -> Self {
+        for part in parts {
+            assert!(self.out.contains(part), "no {part:?} in {self:#?}");
+        }
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn keeps_quiet(self) -> Self {
+        assert_eq!(self.err, "");
+        self
+    }
+}
+
+impl From<Output> for Call {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            out: String::from_utf8(output.stdout).expect("standard output is UTF-8"),
+            err: String::from_utf8(output.stderr).expect("standard error is UTF-8"),
+        }
+    }
+}
+
+/// The command, to be run in `folder`.
+pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.current_dir(folder).args(args).stdin(Stdio::null());
+    command
+}
+
+pub(crate) fn brinell(folder: &Path, args: &[&str]) -> Call {
+    command(folder, args)
+        .output()
+        .expect("brinell starts")
+        .into()
+}
+
+/// With `input` on standard input.
+pub(crate) fn brinell_reading(folder: &Path, args: &[&str], input: &[u8]) -> Call {
+    let mut child = command(folder, args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("brinell starts");
+    // Bad arguments end the command before it reads.
+    let _ = child
+        .stdin
+        .take()
+        .expect("standard input is piped")
+        .write_all(input);
+    child.wait_with_output().expect("brinell ends").into()
+}
+
+/// Names of the files in a folder and its subfolders, in order.
+pub(crate) fn files(folder: &Path) -> Vec<String> {
+    fn walk(root: &Path, folder: &Path, names: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).expect("the folder is there") {
+            let path: PathBuf = entry.expect("the entry is readable").path();
+            if path.is_dir() {
+                walk(root, &path, names);
+            } else {
+                let name = path.strip_prefix(root).expect("it is inside");
+                names.push(name.display().to_string());
+            }
+        }
+    }
+    let mut names = Vec::new();
+    walk(folder, folder, &mut names);
+    names.sort();
+    names
+}
+
+/// A CSV file of numbers: names and rows.
+pub(crate) fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = std::fs::read_to_string(path).expect("the file is there");
+    assert!(text.ends_with('\n'), "the last line is whole");
+    let mut lines = text.lines();
+    let header = lines.next().expect("a header");
+    let names: Vec<String> = header.split(',').map(str::to_owned).collect();
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| {
+            line.split(',')
+                .map(|v| v.parse().expect("a number"))
+                .collect()
+        })
+        .collect();
+    assert!(rows.iter().all(|row| row.len() == names.len()));
+    (names, rows)
+}
+
+pub(crate) fn json(path: &Path) -> serde_json::Value {
+    let text = std::fs::read_to_string(path).expect("the file is there");
+    serde_json::from_str(&text).expect("it is JSON")
+}

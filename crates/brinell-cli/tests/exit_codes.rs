@@ -1,0 +1,411 @@
+//! Exit codes and what is said with them: 0 done, 1 the run failed, 2 bad input, 130 interrupted.
+
+mod common;
+
+use common::{Call, SHORT, brinell, brinell_reading, csv, files, json};
+use std::fs;
+use tempfile::tempdir;
+
+/// `check` of SHORT with `from` replaced by `to`.
+#[track_caller]
+fn check_with(from: &str, to: &str) -> Call {
+    assert!(SHORT.contains(from), "{from}");
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), SHORT.replacen(from, to, 1)).unwrap();
+    brinell(folder.path(), &["check", "s.toml"])
+}
+
+#[test]
+fn regress_a_sound_scenario_exits_0_without_complaint() {
+    check_with("short", "sound")
+        .exits(0)
+        .says(&["sound: the scenario is sound"])
+        .keeps_quiet();
+}
+
+#[test]
+fn regress_a_misspelt_key_is_answered_with_the_nearest() {
+    check_with("speed_rpm", "sped_rpm").exits(2).complains(&[
+        "error, line 7: operation.sped_rpm = 1500.0: unknown key; did you mean `speed_rpm`?",
+        "--> s.toml:7:1\n",
+        "7 | sped_rpm = 1500.0\n",
+        "| ^^^^^^^^\n",
+    ]);
+    check_with("center_deg = 0.0", "load_n = 3")
+        .exits(2)
+        .complains(&["line 12", "it belongs in [operation]"]);
+    check_with("[operation]", "[operatoin]")
+        .exits(2)
+        .complains(&["did you mean `operation`?"]);
+}
+
+#[test]
+fn regress_a_wrong_value_is_named_with_range_unit_and_line() {
+    for (from, to, parts) in [
+        (
+            "1500.0",
+            "\"fast\"",
+            &["line 7", "speed_rpm = \"fast\"", "a number in r/min"][..],
+        ),
+        (
+            "1500.0",
+            "0",
+            &["line 7", "speed_rpm = 0:", "must turn", "not 0, in r/min"],
+        ),
+        (
+            "1500.0",
+            "nan",
+            &["line 7", "speed_rpm = nan", "not a finite number", "r/min"],
+        ),
+        (
+            "1500.0",
+            "inf",
+            &["line 7", "speed_rpm = inf", "not a finite number", "r/min"],
+        ),
+        (
+            "[300.0, 0.0]",
+            "[300.0]",
+            &["line 8", "load_n = [300.0]", "two numbers in N"],
+        ),
+        (
+            "depth_um = 20.0",
+            "depth_um = -1",
+            &["line 13", "defects.0.depth_um = -1", ">= 0 um"],
+        ),
+        (
+            "duration_s = 0.02",
+            "duration_s = 0",
+            &["line 17", "duration_s = 0:", "> 0 and <= 1e6 s"],
+        ),
+        (
+            "\"outer-raceway\"",
+            "\"outer-racewy\"",
+            &[
+                "line 11",
+                "did you mean \"outer-raceway\"?",
+                "\"inner-raceway\"",
+            ],
+        ),
+        (
+            "NU206",
+            "NU207",
+            &[
+                "line 4",
+                "bearing.preset = \"NU207\": not in the catalogue",
+                "did you mean \"NU204\"?",
+                "NN3007",
+            ],
+        ),
+    ] {
+        check_with(from, to).exits(2).complains(parts);
+    }
+}
+
+#[test]
+fn regress_impossible_geometry_is_refused_with_what_would_be_possible() {
+    let preset = "preset = \"NU206\"";
+    for (key, parts) in [
+        (
+            "rollers_per_row = 40",
+            &[
+                "line 5",
+                "rollers_per_row = 40",
+                "rollers overlap",
+                "allowed: 3 to ",
+            ][..],
+        ),
+        (
+            "pitch_diameter_mm = 40.0",
+            &[
+                "line 5",
+                "pitch_diameter_mm = 40.0",
+                "the gap is in the wrong place",
+                "mm",
+            ],
+        ),
+        (
+            "roller_diameter_mm = 20.0",
+            &["line 5", "roller_diameter_mm = 20.0", "mm"],
+        ),
+    ] {
+        check_with(preset, &format!("{preset}\n{key}"))
+            .exits(2)
+            .complains(parts);
+    }
+    check_with(
+        "[[defects]]",
+        "[cage]\nouter_diameter_mm = 90.0\n[[defects]]",
+    )
+    .exits(2)
+    .complains(&["line 11", "cage.outer_diameter_mm = 90.0", "mm"]);
+    check_with("width_mm = 4.0", "width_mm = 40.0")
+        .exits(2)
+        .complains(&[
+            "line 14",
+            "wider than the roller, whose length is 8.8 mm",
+            "allowed: <= 8.8 mm",
+        ]);
+    check_with("length_mm = 2.0", "length_mm = 400.0")
+        .exits(2)
+        .complains(&["line 14", "past a full circle", "mm"]);
+}
+
+#[test]
+fn regress_all_errors_come_at_once_in_the_order_of_the_file() {
+    let folder = tempdir().unwrap();
+    let text = SHORT
+        .replace("load_n", "laod_n")
+        .replace("20.0", "-20.0")
+        .replace("25600.0", "\"often\"");
+    let call = brinell_reading(folder.path(), &["check", "-"], text.as_bytes())
+        .exits(2)
+        .complains(&[
+            "operation.load_n: missing",
+            "4 errors in standard input",
+            "--> standard input:8:1",
+        ]);
+    let at = |part: &str| {
+        call.err
+            .find(part)
+            .unwrap_or_else(|| panic!("no {part} in {}", call.err))
+    };
+    assert!(
+        at("line 8: operation.laod_n = [300.0, 0.0]") < at("line 13: defects.0.depth_um = -20.0")
+    );
+    assert!(
+        at("line 13: defects.0.depth_um") < at("line 18: simulation.sample_rate_hz = \"often\"")
+    );
+    assert_eq!(call.out, "");
+}
+
+#[test]
+fn regress_what_is_no_scenario_is_refused() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    brinell(here, &["check", "missing.toml"])
+        .exits(2)
+        .complains(&["cannot read missing.toml"]);
+    brinell(here, &["check", "."])
+        .exits(2)
+        .complains(&["cannot read ."]);
+    brinell_reading(here, &["check", "-"], b"name = \"\xff\xfe\"\n")
+        .exits(2)
+        .complains(&["line 1", "UTF-8"]);
+    brinell_reading(here, &["check", "-"], b"name = \n[bearing")
+        .exits(2)
+        .complains(&["line 1: not valid TOML", "line 2: not valid TOML"]);
+    brinell_reading(here, &["check", "-"], b"")
+        .exits(2)
+        .complains(&["operation.speed_rpm: missing", "operation.load_n: missing"]);
+    // A few thousand bytes of a linear congruential generator.
+    let mut x = 1u32;
+    let mut noise = || {
+        x = x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (x >> 24) as u8
+    };
+    for _ in 0..20 {
+        let bytes: Vec<u8> = (0..3000).map(|_| noise()).collect();
+        brinell_reading(here, &["check", "-"], &bytes).exits(2);
+        let ascii: Vec<u8> = bytes.iter().map(|b| b & 0x7f).collect();
+        brinell_reading(here, &["check", "-"], &ascii).exits(2);
+    }
+}
+
+#[test]
+fn regress_overrides_are_checked_like_the_file() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), SHORT).unwrap();
+    let set = |value: &str| brinell(folder.path(), &["check", "s.toml", "--set", value]);
+    set("operation.speed_rpm=3000")
+        .exits(0)
+        .says(&["at 3000 r/min"]);
+    set("defects.0.on=inner-raceway").exits(0);
+    set("nonsense").exits(2).complains(&[
+        "--set nonsense: expected KEY=VALUE",
+        "--set operation.speed_rpm=3000",
+    ]);
+    set("=3").exits(2).complains(&["expected KEY=VALUE"]);
+    set("operation.sped_rpm=3")
+        .exits(2)
+        .complains(&["did you mean `speed_rpm`?"]);
+    set("operation.speed_rpm=fast")
+        .exits(2)
+        .complains(&["a number in r/min", "override"]);
+    set("operation.load_n=[1, 2")
+        .exits(2)
+        .complains(&["operation.load_n", "not a TOML value"]);
+    set("defects.7.depth_um=3")
+        .exits(2)
+        .complains(&["defects has 1 elements"]);
+    set("name.first=3")
+        .exits(2)
+        .complains(&["name is a string"]);
+}
+
+#[test]
+fn regress_an_unwritable_place_is_bad_input() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("s.toml"), SHORT).unwrap();
+    fs::write(here.join("file"), "").unwrap();
+    fs::create_dir_all(here.join("o/signals.csv")).unwrap();
+    brinell(here, &["run", "s.toml", "-o", "file"])
+        .exits(2)
+        .complains(&["cannot make the folder file"]);
+    brinell(here, &["run", "s.toml", "-o", "o", "--signals", "csv"])
+        .exits(2)
+        .complains(&["signals.csv: this is a folder"]);
+    brinell(here, &["init", "nowhere/s.toml"])
+        .exits(2)
+        .complains(&["no such folder as nowhere"]);
+    assert_eq!(fs::read(here.join("file")).unwrap(), b"");
+}
+
+#[test]
+fn regress_bad_arguments_exit_2() {
+    let folder = tempdir().unwrap();
+    for args in [
+        &[][..],
+        &["rnu", "s.toml"],
+        &["run"],
+        &["run", "s.toml", "--signals", "wav"],
+        &["run", "s.toml", "--plots", "gif"],
+        &["bearing", "show", "6205"],
+        &["frequencies"],
+    ] {
+        let call = brinell(folder.path(), args).exits(2);
+        assert!(!call.err.is_empty() && call.out.is_empty(), "{call:#?}");
+    }
+}
+
+/// Pockets of 1e28 N/m pass every check; no step is short enough for the first roller that touches one.
+#[test]
+fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("s.toml"), SHORT.replace("NU206", "NN3007")).unwrap();
+    let stiff = "cage.contact_stiffness_n_per_m=1e28";
+    let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet"];
+    let call = brinell(here, &[&args[..], &["--set", stiff]].concat())
+        .exits(1)
+        .complains(&[
+            "error: ",
+            " at t = 0.0",
+            " s: ",
+            "the pocket of roller ",
+            " in row 1",
+            " carries ",
+        ])
+        .says(&["Failed: the results are partial, up to t = 0.0"]);
+    assert_eq!(call.err.lines().count(), 1, "{call:#?}");
+    let (_, rows) = csv(&here.join("o/signals.csv"));
+    let summary = json(&here.join("o/summary.json"));
+    assert!(rows.len() > 10 && rows.len() < 513, "{} rows", rows.len());
+    assert!(rows.iter().flatten().all(|x| x.is_finite()));
+    assert_eq!(summary["status"]["complete"], false);
+    assert_eq!(summary["simulated"]["samples"], rows.len());
+    let reason = summary["status"]["reason"].as_str().unwrap();
+    assert_eq!(call.err, format!("error: {reason}\n"));
+    // The footer's metadata stands there as plain text.
+    let parquet = fs::read(here.join("o/signals.parquet")).unwrap();
+    let footer =
+        String::from_utf8_lossy(&parquet[parquet.len().saturating_sub(20_000)..]).into_owned();
+    assert!(footer.contains(&format!("partial: {reason}")));
+    assert_eq!(
+        files(&here.join("o")),
+        [
+            "report.html",
+            "scenario.toml",
+            "signals.csv",
+            "signals.parquet",
+            "summary.json"
+        ]
+    );
+}
+
+#[cfg(unix)]
+mod interrupted {
+    use super::*;
+    use common::command;
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    /// Starts a run of many minutes, interrupts it once `signals.csv.partial` holds `bytes`, and waits for its end.
+    fn interrupt(extra: &[&str], bytes: u64) -> (tempfile::TempDir, Call) {
+        let folder = tempdir().unwrap();
+        let here = folder.path();
+        fs::write(here.join("s.toml"), SHORT).unwrap();
+        let args = [
+            "run",
+            "s.toml",
+            "-o",
+            "o",
+            "--signals",
+            "csv,parquet",
+            "--set",
+            "simulation.duration_s=300",
+        ];
+        let child = command(here, &[&args[..], extra].concat())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let begin = Instant::now();
+        let partial = here.join("o/signals.csv.partial");
+        while fs::metadata(&partial).map_or(true, |m| m.len() < bytes) {
+            assert!(
+                begin.elapsed() < Duration::from_secs(30),
+                "nothing is written"
+            );
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        // The handler stands before the first step, not before the file's creation.
+        std::thread::sleep(Duration::from_millis(200));
+        let signal = std::process::Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status()
+            .unwrap();
+        assert!(signal.success());
+        (folder, child.wait_with_output().unwrap().into())
+    }
+
+    #[test]
+    fn regress_an_interrupted_run_exits_130_and_keeps_what_it_has() {
+        let (folder, call) = interrupt(&[], 1);
+        let call = call
+            .exits(130)
+            .says(&["Interrupted: the results are partial, up to t = "])
+            .keeps_quiet();
+        assert!(call.out.contains("wrote o/signals.csv"));
+        let output = folder.path().join("o");
+        let (_, rows) = csv(&output.join("signals.csv"));
+        let summary = json(&output.join("summary.json"));
+        assert!(!rows.is_empty());
+        assert_eq!(summary["simulated"]["samples"], rows.len());
+        assert_eq!(summary["simulated"]["duration_s"], 300.0);
+        assert_eq!(summary["status"]["complete"], false);
+        let parquet = fs::read(output.join("signals.parquet")).unwrap();
+        assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+        assert!(String::from_utf8_lossy(&parquet).contains("partial: interrupted"));
+        assert_eq!(
+            files(&output),
+            [
+                "report.html",
+                "scenario.toml",
+                "signals.csv",
+                "signals.parquet",
+                "summary.json"
+            ]
+        );
+    }
+
+    /// At 1e12 r/min a step is so short that minutes go by from one sample to the next.
+    #[test]
+    fn regress_ctrl_c_is_heard_between_samples() {
+        let begin = Instant::now();
+        let (_folder, call) = interrupt(&["--set", "operation.speed_rpm=1e12"], 0);
+        call.exits(130)
+            .says(&["Interrupted: the results are partial, up to t = 0.0000 s."]);
+        assert!(begin.elapsed() < Duration::from_secs(20));
+    }
+}
