@@ -17,6 +17,7 @@ impl Checker<'_> {
                 Shape::Outline { polygons_mm } => self.outline(i, "outline", polygons_mm),
                 Shape::DepthMap { grid } => self.depth_map(i, grid),
                 Shape::Grown { .. } => self.grown(i, defect),
+                Shape::Scan(scan) => self.scan(i, scan),
                 _ => {}
             }
             self.arc(i, defect);
@@ -61,6 +62,8 @@ impl Checker<'_> {
             }
             Shape::Random { width_mm, .. } => ("random.width_mm", *width_mm),
             Shape::Outline { .. } | Shape::DepthMap { .. } | Shape::Grown { .. } => return,
+            // Their extent is known once their file is read.
+            Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
         let length = self.s.bearing.roller_length_mm;
         if width > length {
@@ -165,6 +168,7 @@ impl Checker<'_> {
             Shape::DepthMap { .. } => ("depth_map", half_circle),
             Shape::Grown { .. } => ("grown", half_circle),
             Shape::Random { .. } => ("random.length_mm", 2.0 * half_circle),
+            Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
         if reach > half_circle {
             let allowed = match &defect.shape {
