@@ -16,6 +16,10 @@ use crate::{
 const LARGEST: u64 = 256 << 20;
 /// Nodes of the damaged part of a scan: they all stand in the resolved scenario, 10 bytes each.
 const MOST_NODES: usize = 1 << 20;
+/// Share of a scan's points above which it shows nothing sound.
+const MOST_DAMAGED: f64 = 0.95;
+/// Share of a scan's rim above which it is worth a word that the rim is damage.
+const DOUBTFUL_RIM: f64 = 0.05;
 /// Depths are kept to this many parts of a um: 0.1 nm, below any instrument's noise.
 const PARTS_OF_UM: f64 = 1e4;
 
@@ -148,8 +152,9 @@ pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), 
             return read_depth_map(&bytes, Some(kind), &scan_options(scan))
                 .map_err(|e| e.to_string())
                 .and_then(|grid| {
+                    let doubt = doubt(&grid)?;
                     let shape = cut_out(&grid)?;
-                    Ok((shape, grid.warnings))
+                    Ok((shape, grid.warnings.into_iter().chain(doubt).collect()))
                 });
         }
         _ => return Ok((shape.clone(), Vec::new())),
@@ -275,6 +280,38 @@ fn scan_options(scan: &ScanFile) -> DepthMapOptions {
         speck_mm2: scan.speck_mm2,
         center: scan.center,
     }
+}
+
+/// A word on a scan whose rim is damage: its form is still in it, or it shows only a part.
+///
+/// # Errors
+/// Where nearly all of it is damage.
+fn doubt(grid: &DepthGrid) -> Result<Option<String>, String> {
+    let damaged = |d: &&f64| **d != 0.0;
+    let share = grid.depth_um.iter().filter(damaged).count() as f64 / grid.depth_um.len() as f64;
+    if share > MOST_DAMAGED {
+        return Err(format!(
+            "all of it would be damage ({:.0} % of its points): the raceway's own form may be in it (`remove_form`), \
+             or `zero` and `threshold_um` do not fit",
+            100.0 * share
+        ));
+    }
+    let rim = (0..grid.rows)
+        .flat_map(|row| (0..grid.columns).map(move |column| (column, row)))
+        .filter(|&(c, r)| c == 0 || r == 0 || c + 1 == grid.columns || r + 1 == grid.rows);
+    let (mut points, mut off) = (0_usize, 0_usize);
+    for (column, row) in rim {
+        points += 1;
+        off += usize::from(grid.at(column, row) != 0.0);
+    }
+    let share = off as f64 / points as f64;
+    Ok((share > DOUBTFUL_RIM).then(|| {
+        format!(
+            "{:.0} % of the scan's rim is damage: either the raceway's own form is still in it (`remove_form`), \
+             or the damage goes on beyond the scan, where it counts as sound",
+            100.0 * share
+        )
+    }))
 }
 
 /// The damaged nodes of a grid and one undamaged around them, where there is one.

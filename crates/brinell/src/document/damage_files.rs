@@ -20,7 +20,7 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
         "threshold",
         "darker is damage, 0 black, 1 white; left out: the level that divides the picture best",
     );
-    k.optional(threshold.from(0.0).to(1.0), &mut i.threshold);
+    k.optional(threshold.above(0.0).to(1.0), &mut i.threshold);
     k.key(
         key("use_alpha", "the mask is the alpha channel"),
         stated(false, "the picture's brightness"),
