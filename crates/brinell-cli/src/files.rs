@@ -3,7 +3,7 @@
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::say::complain;
-use brinell::document::{Loaded, read_bytes};
+use brinell::document::{Loaded, Problem, Severity, read_bytes};
 use std::io::Read;
 use std::path::Path;
 
@@ -31,10 +31,17 @@ pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failu
         args.scenario.display().to_string()
     };
     match read_bytes(&bytes, &overrides) {
-        Ok(loaded) => {
+        Ok(mut loaded) => {
             if !quiet && !loaded.warnings.is_empty() {
                 print_problems(&name, &String::from_utf8_lossy(&bytes), &loaded.warnings);
             }
+            read_damage(&mut loaded, &args.scenario, quiet).map_err(|problems| {
+                Failure::Scenario {
+                    name,
+                    text: String::new(),
+                    problems,
+                }
+            })?;
             Ok(loaded)
         }
         Err(problems) => Err(Failure::Scenario {
@@ -55,6 +62,48 @@ pub(crate) fn warn_idle(patterns: &[String]) {
 /// `-` is standard input.
 pub(crate) fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
+}
+
+/// Reads the files of damage that the scenario names, from its own folder.
+fn read_damage(loaded: &mut Loaded, path: &Path, quiet: bool) -> Result<(), Vec<Problem>> {
+    let folder = match path.parent() {
+        Some(folder) if !is_stdin(path) => folder,
+        _ => Path::new(""),
+    };
+    let files: Vec<Option<String>> = loaded
+        .scenario
+        .defects
+        .iter()
+        .map(|d| d.shape.file().map(str::to_owned))
+        .collect();
+    let warnings = brinell_damage::resolve(&mut loaded.scenario, folder)
+        .map_err(|errors| errors.into_iter().map(problem).collect::<Vec<_>>())?;
+    for (defect, file) in files.iter().enumerate() {
+        if let Some(file) = file {
+            loaded.read_from(defect, file);
+        }
+    }
+    if !quiet {
+        for warning in warnings {
+            complain!("warning: {warning}");
+        }
+    }
+    Ok(())
+}
+
+fn problem(error: brinell_damage::Unresolved) -> Problem {
+    Problem {
+        severity: Severity::Error,
+        key: error.key,
+        message: error.message,
+        value: Some(format!("\"{}\"", error.file)),
+        allowed: None,
+        unit: None,
+        line: None,
+        column: None,
+        span: None,
+        also: Vec::new(),
+    }
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {

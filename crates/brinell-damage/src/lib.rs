@@ -1,8 +1,10 @@
-//! Damage as people have it (drawn, photographed, scanned), read into plain geometry. No solver in here.
+//! Damage as people have it (drawn, photographed, scanned), read into plain geometry.
 //!
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
 //! - [`read_depth_map`]: a profilometer's grid, CSV, NPY or PNG -> [`DepthGrid`]
+//! - [`resolve`]: every file that a scenario names -> the scenario with geometry in its place. For this alone the crate
+//!   uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers know no bearing.
 //!
 //! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
 //! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
@@ -35,6 +37,7 @@ mod form_fit;
 mod geometry;
 mod holes;
 mod kind;
+mod resolve;
 
 #[cfg(feature = "image")]
 mod blur;
@@ -65,6 +68,7 @@ pub use error::DamageError;
 pub use form::{Form, FormReport};
 pub use geometry::{DepthGrid, Polygons};
 pub use kind::FileKind;
+pub use resolve::{Unresolved, read_shape, resolve};
 
 #[cfg(feature = "image")]
 pub use image::{ImageOptions, Smooth, read_image};

@@ -280,6 +280,178 @@ pub enum Shape {
         /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets.
         roughness: f64,
     },
+    /// A photo or a mask, not read yet: the core opens no files. `brinell-damage` puts an outline in its place.
+    Image(ImageFile),
+    /// A drawing, not read yet; becomes an outline.
+    Svg(SvgFile),
+    /// A profilometer's file, not read yet; becomes a depth map.
+    Scan(ScanFile),
+}
+
+impl Shape {
+    /// The file that this shape is still to be read from.
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Image(image) => Some(&image.file),
+            Self::Svg(drawing) => Some(&drawing.file),
+            Self::Scan(scan) => Some(&scan.file),
+            _ => None,
+        }
+    }
+}
+
+/// Where the roller passes to, in a picture as it is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RollingDirection {
+    /// To the right.
+    Right,
+    /// Upwards.
+    Up,
+    /// To the left.
+    Left,
+    /// Downwards.
+    Down,
+}
+
+/// How an outline runs between the pixels of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImageEdges {
+    /// Where the brightness crosses the threshold: photos.
+    SubPixel,
+    /// Along pixel edges: masks drawn pixel by pixel.
+    PixelEdges,
+}
+
+/// `image`: damage in a PNG or JPEG.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// The side of a pixel, mm.
+    pub mm_per_pixel: f64,
+    /// Brightness (0 to 1) below which is damage; `None`: the level that divides the picture best.
+    pub threshold: Option<f64>,
+    /// The alpha channel is the mask.
+    pub use_alpha: bool,
+    /// Lighter, or more transparent, is damage.
+    pub invert: bool,
+    /// Where the roller passes to.
+    pub rolling_direction: RollingDirection,
+    /// Puts the damage's bounding box at the defect's centre; else the image's middle.
+    pub center: bool,
+    /// How outlines run.
+    pub edges: ImageEdges,
+    /// Standard deviation of the blur before, pixels; without meaning along pixel edges.
+    pub blur_px: f64,
+    /// Spots and holes smaller than this are dropped, mm^2.
+    pub speck_mm2: f64,
+}
+
+/// `svg`: damage drawn in a vector editor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SvgFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// One path, shape or group of the drawing; `None`: all of it.
+    pub path_id: Option<String>,
+    /// Scale; `None`: the drawing's own.
+    pub mm_per_unit: Option<f64>,
+    /// How far polygons may stray from curves, mm.
+    pub tolerance_mm: f64,
+    /// Puts the damage's bounding box at the defect's centre; else the page's middle.
+    pub center: bool,
+}
+
+/// What the numbers of a scan count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanUnit {
+    /// Micrometres.
+    Um,
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
+    /// Whole numbers of a PNG or an array, `nm_per_count` each.
+    Counts,
+}
+
+/// What to do about points that a scan lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanFill {
+    /// Refuse them.
+    None,
+    /// Join their neighbours.
+    Neighbours,
+}
+
+/// The raceway's own form under a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanForm {
+    /// Stays.
+    None,
+    /// A tilted plane, taken off.
+    Plane,
+    /// A tilted cylinder, taken off.
+    Cylinder,
+}
+
+/// What counts as depth 0 of a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanZero {
+    /// The median of the rim.
+    RimMedian,
+    /// The scan's own zero.
+    AsIs,
+    /// The depth that `zero_percentile` of the points do not exceed.
+    Percentile,
+}
+
+/// Where a scan's first row lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FirstRow {
+    /// On top, as in print.
+    Top,
+    /// At the bottom, rows counting upwards.
+    Bottom,
+}
+
+/// `depth_map` with `file`: heights in CSV, NPY or 16-bit PNG.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScanFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// From point to point along the rolling direction, mm.
+    pub ds_mm: f64,
+    /// From point to point along the axis, mm.
+    pub dz_mm: f64,
+    /// What the numbers count.
+    pub unit: ScanUnit,
+    /// nm, where `unit` is `Counts`.
+    pub nm_per_count: f64,
+    /// Heights out of the material; else depths into it.
+    pub height_positive_up: bool,
+    /// A number that marks missing points, beside empty cells and NaN.
+    pub missing: Option<f64>,
+    /// What to do about them.
+    pub fill: ScanFill,
+    /// The form to take off.
+    pub remove_form: ScanForm,
+    /// The cylinder's radius where known, mm.
+    pub radius_mm: Option<f64>,
+    /// Depth 0.
+    pub zero: ScanZero,
+    /// Percent, where `zero` is `Percentile`.
+    pub zero_percentile: f64,
+    /// First row of the file.
+    pub first_row: FirstRow,
+    /// Where the roller passes to.
+    pub rolling_direction: RollingDirection,
+    /// Shallower than this is undamaged, um.
+    pub threshold_um: f64,
+    /// Spots smaller than this are noise, mm^2.
+    pub speck_mm2: f64,
+    /// Puts the damage's bounding box at the defect's centre; else the scan's middle.
+    pub center: bool,
 }
 
 /// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.

@@ -1,12 +1,18 @@
 //! The scenarios in `examples/` at the top of the repository: each reads without a word and runs as it is.
+//!
+//! Two of them name a file of damage, which the core does not open: `crates/brinell-damage/tests/resolve.rs` runs those.
 
 mod common;
 
 use brinell::document::{Loaded, read};
+use brinell::model::Model;
 use std::path::Path;
 
 /// The first 5 ms hold the whole start-up drop and, in the rectangle case, the first impact.
 const SHORT: f64 = 5e-3;
+
+/// Examples whose damage is a file's, by the file.
+const FROM_FILES: [(&str, &str); 2] = [("photo", "photo-spall.png"), ("scan", "scan.csv")];
 
 /// File stem and scenario of every example.
 fn examples() -> Vec<(String, Loaded)> {
@@ -45,9 +51,11 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
             "healthy",
             "inner-race",
             "irregular",
+            "photo",
             "rectangle",
             "roller",
             "run-up",
+            "scan",
             "single-row",
         ]
     );
@@ -60,6 +68,13 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
 #[test]
 fn prop_examples_run() {
     for (stem, mut loaded) in examples() {
+        if let Some((_, file)) = FROM_FILES.iter().find(|(name, _)| *name == stem) {
+            assert_eq!(loaded.scenario.defects[0].shape.file(), Some(*file));
+            let refused = Model::new(&loaded.scenario).err().map(|e| e.to_string());
+            let words = refused.unwrap_or_default();
+            assert!(words.contains("read it first"), "{stem}: {words}");
+            continue;
+        }
         loaded.scenario.simulation.duration_s = SHORT;
         let (rows, outcome) = common::simulate(&loaded.scenario);
         assert_eq!(outcome.rows, rows.data[0].len() as u64, "{stem}");

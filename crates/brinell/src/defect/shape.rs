@@ -59,7 +59,7 @@ pub enum Shape {
 
 impl Shape {
     /// From the scenario's units; `depth` (m) is the defect's. `None` where a shape makes no sense: a profile whose lists do not fit, polygons
-    /// without area, a grid with holes.
+    /// without area, a grid with holes; and where it still stands in a file.
     pub fn new(shape: &scenario::Shape, depth: f64) -> Option<Self> {
         let metres = |v: &[f64], unit: f64| v.iter().map(|x| x * unit).collect::<Vec<_>>();
         Some(match shape {
@@ -123,6 +123,9 @@ impl Shape {
                         width: 0.0,
                     },
                 }
+            }
+            scenario::Shape::Image(_) | scenario::Shape::Svg(_) | scenario::Shape::Scan(_) => {
+                return None;
             }
         })
     }

@@ -119,16 +119,18 @@ pub(crate) fn outline() -> Shape {
 }
 
 pub(crate) fn depth_map() -> Shape {
-    Shape::DepthMap {
-        grid: DepthGrid {
-            s0_mm: NONE,
-            z0_mm: NONE,
-            ds_mm: NONE,
-            dz_mm: NONE,
-            columns: 0,
-            rows: 0,
-            depth_um: Vec::new(),
-        },
+    Shape::DepthMap { grid: grid() }
+}
+
+pub(crate) fn grid() -> DepthGrid {
+    DepthGrid {
+        s0_mm: NONE,
+        z0_mm: NONE,
+        ds_mm: NONE,
+        dz_mm: NONE,
+        columns: 0,
+        rows: 0,
+        depth_um: Vec::new(),
     }
 }
 
@@ -146,5 +148,52 @@ pub(crate) fn random() -> Shape {
         length_mm: NONE,
         width_mm: NONE,
         roughness: NONE,
+    }
+}
+
+pub(crate) fn image() -> Shape {
+    Shape::Image(ImageFile {
+        file: String::new(),
+        mm_per_pixel: NONE,
+        threshold: None,
+        use_alpha: false,
+        invert: false,
+        rolling_direction: Leaf::blank(),
+        center: true,
+        edges: Leaf::blank(),
+        blur_px: NONE,
+        speck_mm2: NONE,
+    })
+}
+
+pub(crate) fn svg() -> Shape {
+    Shape::Svg(SvgFile {
+        file: String::new(),
+        path_id: None,
+        mm_per_unit: None,
+        tolerance_mm: NONE,
+        center: true,
+    })
+}
+
+pub(crate) fn scan() -> ScanFile {
+    ScanFile {
+        file: String::new(),
+        ds_mm: NONE,
+        dz_mm: NONE,
+        unit: Leaf::blank(),
+        nm_per_count: NONE,
+        height_positive_up: true,
+        missing: None,
+        fill: Leaf::blank(),
+        remove_form: Leaf::blank(),
+        radius_mm: None,
+        zero: Leaf::blank(),
+        zero_percentile: NONE,
+        first_row: Leaf::blank(),
+        rolling_direction: Leaf::blank(),
+        threshold_um: NONE,
+        speck_mm2: NONE,
+        center: true,
     }
 }

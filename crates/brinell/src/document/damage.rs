@@ -1,10 +1,10 @@
 //! Every key of a `[[defects]]` entry and of its shape.
 
-use super::blank;
 use super::keys::Fallback::{Needed, Required};
 use super::keys::{Keys, Spec, Variant, assumed, derived, key, stated};
 use super::sections::PAPER;
 use super::words::SurfaceWord;
+use super::{blank, damage_files};
 use crate::scenario::*;
 
 /// The shapes of a defect.
@@ -13,41 +13,61 @@ const SHAPES: &[Variant<Shape>] = &[
         name: "rectangle",
         doc: "as wide all along",
         blank: blank::rectangle,
+        is: |shape| matches!(shape, Shape::Rectangle { .. }),
     },
     Variant {
         name: "circle",
         doc: "a round pit",
         blank: blank::circle,
+        is: |shape| matches!(shape, Shape::Circle { .. }),
     },
     Variant {
         name: "profile",
         doc: "points joined by lines; where arc_mm repeats, it jumps",
         blank: blank::profile,
+        is: |shape| matches!(shape, Shape::Profile { .. }),
     },
     Variant {
         name: "li2023_irregular",
         doc: "the paper's irregular spall, 7 mm long",
         blank: blank::irregular,
+        is: |shape| matches!(shape, Shape::Li2023Irregular { .. }),
     },
     Variant {
         name: "outline",
         doc: "polygons seen from above; a polygon within another is a hole",
         blank: blank::outline,
+        is: |shape| matches!(shape, Shape::Outline { .. }),
     },
     Variant {
         name: "depth_map",
-        doc: "depths on a grid, bilinear between its nodes",
+        doc: "depths on a grid, bilinear between its nodes: in a file, or written out",
         blank: blank::depth_map,
+        is: |shape| matches!(shape, Shape::DepthMap { .. } | Shape::Scan(_)),
     },
     Variant {
         name: "grown",
         doc: "an outline scaled alike in both directions to a width or an area",
         blank: blank::grown,
+        is: |shape| matches!(shape, Shape::Grown { .. }),
     },
     Variant {
         name: "random",
         doc: "a ragged spall drawn from a seed, its mean depth the defect's",
         blank: blank::random,
+        is: |shape| matches!(shape, Shape::Random { .. }),
+    },
+    Variant {
+        name: "image",
+        doc: "a photo or a mask, PNG or JPEG",
+        blank: blank::image,
+        is: |shape| matches!(shape, Shape::Image(_)),
+    },
+    Variant {
+        name: "svg",
+        doc: "a drawing from a vector editor",
+        blank: blank::svg,
+        is: |shape| matches!(shape, Shape::Svg(_)),
     },
 ];
 
@@ -100,7 +120,9 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         Shape::Profile {
             depth_um: Some(_), ..
         } => stated(0.0, "the profile has depths of its own"),
-        Shape::DepthMap { .. } => stated(0.0, "the depth map has depths of its own"),
+        Shape::DepthMap { .. } | Shape::Scan(_) => {
+            stated(0.0, "the depth map has depths of its own")
+        }
         _ => Needed("a profile with depth_um of its own, or a depth map, does without"),
     };
     let spec = key(
@@ -148,7 +170,9 @@ fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {
             k.key(width.from(0.0), stated(4.0, PAPER), max_width_mm);
         }
         Shape::Outline { polygons_mm } => polygons(k, polygons_mm),
-        Shape::DepthMap { grid } => depth_map(k, grid),
+        Shape::DepthMap { .. } | Shape::Scan(_) => depth_map(k, shape),
+        Shape::Image(image) => damage_files::image(k, image),
+        Shape::Svg(drawing) => damage_files::svg(k, drawing),
         Shape::Grown {
             outline,
             max_width_mm,
@@ -207,7 +231,24 @@ fn polygons<K: Keys>(k: &mut K, polygons: &mut Vec<Vec<[f64; 2]>>) {
 /// Columns or rows of a grid at the most.
 const MOST_NODES: f64 = 20_000.0;
 
-fn depth_map<K: Keys>(k: &mut K, g: &mut DepthGrid) {
+fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
+    let (mut file, mut g, mut scan) = match shape {
+        Shape::DepthMap { grid } => (None, grid.clone(), blank::scan()),
+        Shape::Scan(scan) => {
+            let spacing = DepthGrid {
+                ds_mm: scan.ds_mm,
+                dz_mm: scan.dz_mm,
+                ..blank::grid()
+            };
+            (Some(scan.file.clone()), spacing, scan.clone())
+        }
+        _ => return,
+    };
+    k.optional(
+        damage_files::FILE.doc("CSV, NPY or 16-bit PNG, from the scenario's folder; instead of columns, rows, depth_um"),
+        &mut file,
+    );
+    let written = (file.is_none(), "there is no `file`");
     let spacing = |name, doc| key(name, doc).above(0.0);
     let count = |name, doc| key(name, doc).from(2.0).to(MOST_NODES);
     let centred = |n: usize, d: f64| {
@@ -224,24 +265,45 @@ fn depth_map<K: Keys>(k: &mut K, g: &mut DepthGrid) {
         Required,
         &mut g.dz_mm,
     );
-    k.key(count("columns", "nodes along s"), Required, &mut g.columns);
-    k.key(count("rows", "nodes along z"), Required, &mut g.rows);
-    k.key(
+    k.key_where(
+        count("columns", "nodes along s"),
+        written,
+        Required,
+        &mut g.columns,
+    );
+    k.key_where(
+        count("rows", "nodes along z"),
+        written,
+        Required,
+        &mut g.rows,
+    );
+    k.key_where(
         key("s0_mm", "s of the first column"),
+        written,
         centred(g.columns, g.ds_mm),
         &mut g.s0_mm,
     );
-    k.key(
+    k.key_where(
         key("z0_mm", "z of the first row"),
+        written,
         centred(g.rows, g.dz_mm),
         &mut g.z0_mm,
     );
-    k.key(
+    k.key_where(
         key(
             "depth_um",
             "depths row by row, columns of a row in order; 0 undamaged, negative raised",
         ),
+        written,
         Required,
         &mut g.depth_um,
     );
+    damage_files::scan(k, file.is_some(), &mut scan);
+    *shape = match file {
+        Some(file) => {
+            (scan.file, scan.ds_mm, scan.dz_mm) = (file, g.ds_mm, g.dz_mm);
+            Shape::Scan(scan)
+        }
+        None => Shape::DepthMap { grid: g },
+    };
 }

@@ -28,6 +28,12 @@ pub(crate) const fn key(name: &'static str, doc: &'static str) -> Spec {
 }
 
 impl Spec {
+    /// Another meaning.
+    pub(crate) const fn doc(mut self, doc: &'static str) -> Spec {
+        self.doc = doc;
+        self
+    }
+
     /// A unit that the name does not carry.
     pub(crate) const fn unit(mut self, unit: &'static str) -> Spec {
         self.unit = unit;
@@ -202,13 +208,15 @@ pub(crate) struct Variant<T> {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
     pub(crate) blank: fn() -> T,
+    /// Whether a value is this alternative.
+    pub(crate) is: fn(&T) -> bool,
 }
 
 /// The alternative that `value` is.
 pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'static Variant<T> {
     variants
         .iter()
-        .find(|variant| std::mem::discriminant(&(variant.blank)()) == std::mem::discriminant(value))
+        .find(|variant| (variant.is)(value))
         .unwrap_or(&variants[0])
 }
 
@@ -222,6 +230,15 @@ pub(crate) trait Keys: Sized {
 
     /// A key that is required where `wanted`, and has no meaning elsewhere; `case` says where.
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T);
+
+    /// A key with a default where `wanted`, and without a meaning elsewhere; the words say where.
+    fn key_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        wanted: (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    );
 
     /// The key that names the catalogue bearing, whose values stand in for keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {

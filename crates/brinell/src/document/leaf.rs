@@ -185,6 +185,35 @@ impl Leaf for usize {
     }
 }
 
+impl Leaf for bool {
+    fn blank() -> bool {
+        false
+    }
+
+    fn expected(_: &Spec) -> String {
+        "true or false".into()
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<bool, Misfit> {
+        match &node.value {
+            Value::Boolean(value) => Ok(*value),
+            _ => Err(wrong_type::<bool>(node, spec)),
+        }
+    }
+
+    fn write(&self) -> String {
+        self.to_string()
+    }
+
+    fn schema(_: &Spec) -> Json {
+        json!({ "type": "boolean" })
+    }
+
+    fn range(_: &Spec) -> String {
+        "true | false".into()
+    }
+}
+
 impl Leaf for String {
     fn blank() -> String {
         String::new()

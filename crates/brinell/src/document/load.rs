@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use super::checks::{self, Finder};
 use super::problem::{Place, Problem, Severity};
-use super::provenance::Provenance;
+use super::provenance::{Origin, Provenance};
 use super::reader::Reader;
 use super::writer::{Style, Writer};
 use super::{blank, sections, source};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Shape};
 
 /// A scenario that can run, and where its values come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +71,23 @@ pub fn read_bytes(bytes: &[u8], overrides: &[(String, String)]) -> Result<Loaded
 }
 
 impl Loaded {
+    /// Says of a defect whose shape was put in place of a file's name that it came from that file.
+    pub fn read_from(&mut self, defect: usize, file: &str) {
+        let name = match self.scenario.defects.get(defect).map(|d| &d.shape) {
+            Some(Shape::Outline { polygons_mm }) if polygons_mm.len() == 1 => "outline.points_mm",
+            Some(Shape::Outline { .. }) => "outline.polygons_mm",
+            Some(Shape::DepthMap { .. }) => "depth_map.depth_um",
+            _ => return,
+        };
+        self.provenance.push(Provenance {
+            key: format!("defects.{defect}.shape.{name}"),
+            value: String::new(),
+            unit: if name.ends_with("um") { "um" } else { "mm" },
+            origin: Origin::DamageFile(file.to_string()),
+            assumed: false,
+        });
+    }
+
     /// The scenario as TOML with every default filled in, each assumed value with its reason beside it.
     pub fn to_toml(&self) -> String {
         write(&self.scenario, Style::Resolved(by_key(&self.provenance)))

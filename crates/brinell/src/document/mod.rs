@@ -6,6 +6,7 @@
 mod blank;
 mod checks;
 mod damage;
+mod damage_files;
 mod example;
 mod keys;
 mod leaf;

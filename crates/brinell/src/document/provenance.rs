@@ -14,6 +14,8 @@ pub enum Origin {
         /// True where the catalogue itself estimates it.
         estimated: bool,
     },
+    /// A file that the scenario names, beside it.
+    DamageFile(String),
     /// Computed from other keys; says how.
     Derived(&'static str),
     /// Fixed default; says why.
@@ -49,6 +51,7 @@ impl Provenance {
                 source,
                 estimated: true,
             } => format!("catalogue estimate: {source}"),
+            Origin::DamageFile(file) => format!("read from {file}"),
             Origin::Derived(how) => format!("derived: {how}"),
             Origin::Default(why) => format!("default: {why}"),
         }

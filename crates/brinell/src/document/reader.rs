@@ -327,6 +327,20 @@ impl Keys for Reader<'_> {
         }
     }
 
+    fn key_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        (wanted, case): (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    ) {
+        if wanted {
+            self.key(spec, fallback, value);
+        } else {
+            self.only_where(spec, false, case, value);
+        }
+    }
+
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
         let before = self.problems.len();
         self.optional(spec, value);

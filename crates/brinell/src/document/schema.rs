@@ -109,6 +109,29 @@ impl Keys for Schema {
         self.put(&spec, T::schema(&spec), doc);
     }
 
+    fn key_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        (_, case): (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    ) {
+        let required = matches!(fallback, Fallback::Required);
+        self.key(spec, fallback, value);
+        let object = self.object();
+        if required {
+            object.required.pop();
+        }
+        let word = if required { "required where" } else { "where" };
+        if let Some(Json::String(doc)) = object
+            .properties
+            .get_mut(spec.name)
+            .and_then(|schema| schema.get_mut("description"))
+        {
+            doc.push_str(&format!("; {word} {case}, and only there"));
+        }
+    }
+
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
         self.object().preset = Some(spec.name);
         self.optional(spec, value);

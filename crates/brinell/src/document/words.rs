@@ -54,6 +54,47 @@ words! { Accuracy:
     Reference = "reference", "as tight as makes sense";
 }
 
+words! { RollingDirection:
+    Right = "right", "to the right of the picture";
+    Up = "up", "to its top";
+    Left = "left", "to its left";
+    Down = "down", "to its bottom";
+}
+
+words! { ImageEdges:
+    SubPixel = "sub-pixel", "where the brightness crosses the threshold: photos";
+    PixelEdges = "pixel-edges", "along pixels: masks drawn pixel by pixel";
+}
+
+words! { ScanUnit:
+    Um = "um", "micrometres";
+    Mm = "mm", "millimetres";
+    M = "m", "metres";
+    Counts = "counts", "whole numbers, nm_per_count each";
+}
+
+words! { ScanFill:
+    None = "none", "refuse missing points";
+    Neighbours = "neighbours", "join what is around them";
+}
+
+words! { ScanForm:
+    None = "none", "nothing is taken off";
+    Plane = "plane", "a tilted plane";
+    Cylinder = "cylinder", "a tilted cylinder along the axis: the raceway";
+}
+
+words! { ScanZero:
+    RimMedian = "rim-median", "the median of the scan's rim";
+    AsIs = "as-is", "the scan's own zero";
+    Percentile = "percentile", "the depth that zero_percentile of the points do not exceed";
+}
+
+words! { FirstRow:
+    Top = "top", "as in print";
+    Bottom = "bottom", "rows count upwards";
+}
+
 /// The word of `on`; the roller's number is a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SurfaceWord {

@@ -74,6 +74,9 @@ impl<'a> Writer<'a> {
                 Some(provenance) if provenance.assumed => {
                     format!("assumed, {}", provenance.reason())
                 }
+                Some(provenance) if matches!(provenance.origin, Origin::DamageFile(_)) => {
+                    provenance.reason()
+                }
                 _ => String::new(),
             },
             Style::Template(_) => {
@@ -184,6 +187,24 @@ impl Keys for Writer<'_> {
             if let Some(line) = self.lines.last_mut() {
                 line.comment.push_str(&format!("; only where {case}"));
             }
+        }
+    }
+
+    fn key_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        (wanted, case): (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    ) {
+        if wanted {
+            self.key(spec, fallback, value);
+        } else if self.is_template() {
+            self.asides.push(format!(
+                "{}: {}; only where {case}",
+                spec.name,
+                explain::<T>(&spec)
+            ));
         }
     }
 

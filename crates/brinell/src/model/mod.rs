@@ -182,6 +182,13 @@ impl Model {
             .collect();
         let mut defects = Vec::with_capacity(s.defects.len());
         for (k, defect) in s.defects.iter().enumerate() {
+            if let Some(file) = defect.shape.file() {
+                return Err(ModelError {
+                    key: format!("defects.{k}.shape"),
+                    value: file.to_string(),
+                    requirement: "a shape, not a file: read it first, with brinell_damage::resolve",
+                });
+            }
             defects.push(Defect::new(defect, b, &s.contact).ok_or_else(|| ModelError {
                 key: format!("defects.{k}"),
                 value: format!("{defect:?}"),

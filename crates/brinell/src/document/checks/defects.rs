@@ -17,6 +17,7 @@ impl Checker<'_> {
                 Shape::Outline { polygons_mm } => self.outline(i, "outline", polygons_mm),
                 Shape::DepthMap { grid } => self.depth_map(i, grid),
                 Shape::Grown { .. } => self.grown(i, defect),
+                Shape::Scan(scan) => self.scan(i, scan),
                 _ => {}
             }
             self.depth_scale(i, defect);
@@ -62,6 +63,8 @@ impl Checker<'_> {
             }
             Shape::Random { width_mm, .. } => ("random.width_mm", *width_mm),
             Shape::Outline { .. } | Shape::DepthMap { .. } | Shape::Grown { .. } => return,
+            // Their extent is known once their file is read.
+            Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
         let length = self.s.bearing.roller_length_mm;
         if width > length {
@@ -166,6 +169,7 @@ impl Checker<'_> {
             Shape::DepthMap { .. } => ("depth_map", half_circle),
             Shape::Grown { .. } => ("grown", half_circle),
             Shape::Random { .. } => ("random.length_mm", 2.0 * half_circle),
+            Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
         // A shape without a key of its own for its length is found by its table.
         let table = format!("defects.{i}.shape");

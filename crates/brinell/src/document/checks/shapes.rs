@@ -2,7 +2,9 @@
 
 use super::{Checker, short};
 use crate::defect::{self, Fault};
-use crate::scenario::{Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, Shape};
+use crate::scenario::{
+    Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, ScanFile, ScanForm, Shape,
+};
 
 const LENGTH: &str = "bearing.roller_length_mm";
 /// Numbers that the slices of one depth map may take: 160 MB.
@@ -181,6 +183,13 @@ impl Checker<'_> {
     }
 
     pub(super) fn depth_map(&mut self, i: usize, grid: &DepthGrid) {
+        for name in ["missing", "radius_mm"] {
+            let key = self.shape_key(i, "depth_map", name);
+            if self.finder.value(&key).is_some() {
+                let message = "has a meaning only where there is a `file`".into();
+                self.error(&key, message, String::new(), &[]);
+            }
+        }
         let key = self.shape_key(i, "depth_map", "depth_um");
         let text = self.finder.value(&key);
         if text.is_none() || (grid.depth_um.is_empty() && text.as_deref() != Some("[]")) {
@@ -305,6 +314,19 @@ impl Checker<'_> {
         }
     }
 
+    /// Keys that mean something only beside others.
+    pub(super) fn scan(&mut self, i: usize, scan: &ScanFile) {
+        if scan.radius_mm.is_some() && scan.remove_form != ScanForm::Cylinder {
+            let form = self.shape_key(i, "depth_map", "remove_form");
+            self.error(
+                &self.shape_key(i, "depth_map", "radius_mm"),
+                "has a meaning only where remove_form = \"cylinder\"".into(),
+                String::new(),
+                &[&form],
+            );
+        }
+    }
+
     pub(super) fn edge_reaction(&mut self) {
         const KEY: &str = "contact.edge_reaction";
         let c = &self.s.contact;
@@ -357,7 +379,8 @@ impl Checker<'_> {
                 // From the middle of one arc to the middle of the other, the short way round.
                 let apart = defect::wrap(ca + 0.5 * (a0 + a1) - cb - 0.5 * (b0 + b1)).abs();
                 let meet = apart < 0.5 * (a1 - a0 + b1 - b0);
-                if a.on != b.on || a.row != b.row || !meet {
+                let unread = a.shape.file().or(b.shape.file()).is_some();
+                if a.on != b.on || a.row != b.row || !meet || unread {
                     continue;
                 }
                 let rule = match s.contact.law {

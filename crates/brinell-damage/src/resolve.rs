@@ -1,0 +1,350 @@
+//! From a scenario that names files of damage to one that holds their geometry.
+
+use std::fmt;
+use std::io::Read;
+use std::path::Path;
+
+use brinell::document::{Problem, Severity};
+use brinell::scenario::{self, ImageFile, RollingDirection, ScanFile, Scenario, Shape, SvgFile};
+
+use crate::{
+    DamageError, DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
+    read_depth_map,
+};
+
+/// Bytes of a file of damage.
+const LARGEST: u64 = 256 << 20;
+/// Nodes of the damaged part of a scan: they all stand in the resolved scenario, 10 bytes each.
+const MOST_NODES: usize = 1 << 20;
+/// Share of a scan's points above which it shows nothing sound.
+const MOST_DAMAGED: f64 = 0.95;
+/// Share of a scan's rim above which it is worth a word that the rim is damage.
+const DOUBTFUL_RIM: f64 = 0.05;
+/// Depths are kept to this many parts of a um: 0.1 nm, below any instrument's noise.
+const PARTS_OF_UM: f64 = 1e4;
+
+/// A defect whose file cannot be its shape.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unresolved {
+    /// Which one, from 0.
+    pub defect: usize,
+    /// The scenario's key that names the file.
+    pub key: String,
+    /// The file, as the scenario names it.
+    pub file: String,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl fmt::Display for Unresolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = \"{}\": {}", self.key, self.file, self.message)
+    }
+}
+
+impl std::error::Error for Unresolved {}
+
+/// The key that names a shape's file, and the file.
+fn named(defect: usize, shape: &Shape) -> Option<(String, String)> {
+    let name = match shape {
+        Shape::Image(_) => "image",
+        Shape::Svg(_) => "svg",
+        Shape::Scan(_) => "depth_map",
+        _ => return None,
+    };
+    let key = format!("defects.{defect}.shape.{name}.file");
+    shape.file().map(|file| (key, file.to_owned()))
+}
+
+/// Reads every file of damage that a scenario names, from `folder` where its path is not absolute, and puts its
+/// outline or depth map in place. The checks of the scenario run again on what came out. Gives warnings.
+///
+/// # Errors
+/// Every file that could not be read or does not fit the bearing; the scenario is then as it was.
+pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Vec<Unresolved>> {
+    let files: Vec<(usize, String, String)> = scenario
+        .defects
+        .iter()
+        .enumerate()
+        .filter_map(|(i, d)| named(i, &d.shape).map(|(key, file)| (i, key, file)))
+        .collect();
+    if files.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut resolved = scenario.clone();
+    let (mut warnings, mut errors) = (Vec::new(), Vec::new());
+    for (i, key, file) in &files {
+        match read_shape(&scenario.defects[*i].shape, folder) {
+            Ok((shape, said)) => {
+                resolved.defects[*i].shape = shape;
+                warnings.extend(
+                    said.iter()
+                        .map(|text| format!("{key} = \"{file}\": {text}")),
+                );
+            }
+            Err(message) => errors.push(Unresolved {
+                defect: *i,
+                key: key.clone(),
+                file: file.clone(),
+                message,
+            }),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let before = scenario.problems();
+    for problem in resolved.problems() {
+        if before.contains(&problem) {
+            continue;
+        }
+        let of = |(i, ..): &&(usize, String, String)| {
+            problem.key.starts_with(&format!("defects.{i}."))
+                || problem.key == format!("defects.{i}")
+        };
+        // What no defect is named for (memory of slices, for one) has come with the files all the same.
+        let (defect, key, file) = files.iter().find(of).unwrap_or(&files[0]);
+        let message = words(&problem);
+        match problem.severity {
+            Severity::Warning => warnings.push(format!("{key} = \"{file}\": {message}")),
+            Severity::Error => errors.push(Unresolved {
+                defect: *defect,
+                key: key.clone(),
+                file: file.clone(),
+                message,
+            }),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    *scenario = resolved;
+    Ok(warnings)
+}
+
+/// A problem without its key and value, which stand in no file of the user's.
+fn words(problem: &Problem) -> String {
+    let mut text = problem.message.clone();
+    if let Some(allowed) = &problem.allowed {
+        text.push_str(&format!(" (allowed: {allowed})"));
+    }
+    if !problem.also.is_empty() {
+        let keys: Vec<&str> = problem.also.iter().map(|(key, _)| key.as_str()).collect();
+        text.push_str(&format!("; see also {}", keys.join(", ")));
+    }
+    text
+}
+
+/// Reads the file of one shape; a shape without a file comes back as it is. Gives the shape and warnings.
+///
+/// # Errors
+/// In words.
+pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), String> {
+    let Some(file) = shape.file() else {
+        return Ok((shape.clone(), Vec::new()));
+    };
+    let bytes = bytes(&folder.join(file))?;
+    let kind = FileKind::check(file, &bytes).map_err(|e| e.to_string())?;
+    let read = match shape {
+        Shape::Image(image) => read_outline(&bytes, image),
+        Shape::Svg(drawing) => read_drawing(&bytes, drawing),
+        Shape::Scan(scan) => {
+            return read_depth_map(&bytes, Some(kind), &scan_options(scan))
+                .map_err(|e| e.to_string())
+                .and_then(|grid| {
+                    let doubt = doubt(&grid)?;
+                    let shape = cut_out(&grid)?;
+                    Ok((shape, grid.warnings.into_iter().chain(doubt).collect()))
+                });
+        }
+        _ => return Ok((shape.clone(), Vec::new())),
+    };
+    let polygons = read.map_err(|e| e.to_string())?;
+    let shape = Shape::Outline {
+        polygons_mm: polygons.polygons_mm,
+    };
+    Ok((shape, polygons.warnings))
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+    let failed = |error| format!("cannot read {}: {error}", path.display());
+    let facts = std::fs::metadata(path).map_err(failed)?;
+    if !facts.is_file() {
+        return Err(format!("{} is not a plain file", path.display()));
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(LARGEST + 1)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(format!(
+            "{} is larger than {} MiB; cut out the damage",
+            path.display(),
+            LARGEST >> 20
+        ));
+    }
+    Ok(bytes)
+}
+
+fn direction(direction: RollingDirection) -> Direction {
+    match direction {
+        RollingDirection::Right => Direction::Right,
+        RollingDirection::Up => Direction::Up,
+        RollingDirection::Left => Direction::Left,
+        RollingDirection::Down => Direction::Down,
+    }
+}
+
+#[cfg(feature = "image")]
+fn read_outline(bytes: &[u8], image: &ImageFile) -> Result<crate::Polygons, DamageError> {
+    let options = crate::ImageOptions {
+        mm_per_pixel: image.mm_per_pixel,
+        threshold: image.threshold,
+        use_alpha: image.use_alpha,
+        invert: image.invert,
+        rolling_direction: direction(image.rolling_direction),
+        center: image.center,
+        smooth: match image.edges {
+            scenario::ImageEdges::SubPixel => crate::Smooth::SubPixel {
+                blur_px: image.blur_px,
+            },
+            scenario::ImageEdges::PixelEdges => crate::Smooth::PixelEdges,
+        },
+        speck_mm2: image.speck_mm2,
+    };
+    crate::read_image(bytes, &options)
+}
+
+#[cfg(not(feature = "image"))]
+fn read_outline(_: &[u8], _: &ImageFile) -> Result<crate::Polygons, DamageError> {
+    Err(DamageError::LeftOut {
+        kind: FileKind::Png,
+        feature: "image",
+    })
+}
+
+#[cfg(feature = "svg")]
+fn read_drawing(bytes: &[u8], drawing: &SvgFile) -> Result<crate::Polygons, DamageError> {
+    let options = crate::SvgOptions {
+        path_id: drawing.path_id.clone(),
+        mm_per_unit: drawing.mm_per_unit,
+        tolerance_mm: drawing.tolerance_mm,
+        center: drawing.center,
+    };
+    crate::read_svg(bytes, &options)
+}
+
+#[cfg(not(feature = "svg"))]
+fn read_drawing(_: &[u8], _: &SvgFile) -> Result<crate::Polygons, DamageError> {
+    Err(DamageError::LeftOut {
+        kind: FileKind::Svg,
+        feature: "svg",
+    })
+}
+
+fn scan_options(scan: &ScanFile) -> DepthMapOptions {
+    DepthMapOptions {
+        ds_mm: scan.ds_mm,
+        dz_mm: scan.dz_mm,
+        unit: match scan.unit {
+            scenario::ScanUnit::Um => Unit::Um,
+            scenario::ScanUnit::Mm => Unit::Mm,
+            scenario::ScanUnit::M => Unit::M,
+            scenario::ScanUnit::Counts => Unit::NmPerCount(scan.nm_per_count),
+        },
+        height_positive_up: scan.height_positive_up,
+        missing: scan.missing,
+        fill: match scan.fill {
+            scenario::ScanFill::None => Fill::None,
+            scenario::ScanFill::Neighbours => Fill::Neighbours,
+        },
+        remove_form: match scan.remove_form {
+            scenario::ScanForm::None => Form::None,
+            scenario::ScanForm::Plane => Form::Plane,
+            scenario::ScanForm::Cylinder => Form::Cylinder {
+                radius_mm: scan.radius_mm,
+            },
+        },
+        zero: match scan.zero {
+            scenario::ScanZero::AsIs => Zero::AsIs,
+            scenario::ScanZero::RimMedian => Zero::RimMedian,
+            scenario::ScanZero::Percentile => Zero::Percentile(scan.zero_percentile),
+        },
+        first_row: match scan.first_row {
+            scenario::FirstRow::Top => FirstRow::Top,
+            scenario::FirstRow::Bottom => FirstRow::Bottom,
+        },
+        rolling_direction: direction(scan.rolling_direction),
+        threshold_um: scan.threshold_um,
+        speck_mm2: scan.speck_mm2,
+        center: scan.center,
+    }
+}
+
+/// A word on a scan whose rim is damage: its form is still in it, or it shows only a part.
+///
+/// # Errors
+/// Where nearly all of it is damage.
+fn doubt(grid: &DepthGrid) -> Result<Option<String>, String> {
+    let damaged = |d: &&f64| **d != 0.0;
+    let share = grid.depth_um.iter().filter(damaged).count() as f64 / grid.depth_um.len() as f64;
+    if share > MOST_DAMAGED {
+        return Err(format!(
+            "all of it would be damage ({:.0} % of its points): the raceway's own form may be in it (`remove_form`), \
+             or `zero` and `threshold_um` do not fit",
+            100.0 * share
+        ));
+    }
+    let rim = (0..grid.rows)
+        .flat_map(|row| (0..grid.columns).map(move |column| (column, row)))
+        .filter(|&(c, r)| c == 0 || r == 0 || c + 1 == grid.columns || r + 1 == grid.rows);
+    let (mut points, mut off) = (0_usize, 0_usize);
+    for (column, row) in rim {
+        points += 1;
+        off += usize::from(grid.at(column, row) != 0.0);
+    }
+    let share = off as f64 / points as f64;
+    Ok((share > DOUBTFUL_RIM).then(|| {
+        format!(
+            "{:.0} % of the scan's rim is damage: either the raceway's own form is still in it (`remove_form`), \
+             or the damage goes on beyond the scan, where it counts as sound",
+            100.0 * share
+        )
+    }))
+}
+
+/// The damaged nodes of a grid and one undamaged around them, where there is one.
+fn cut_out(grid: &DepthGrid) -> Result<Shape, String> {
+    let Some([[c0, r0], [c1, r1]]) = grid.damaged_bounds() else {
+        return Err("there is no damage in it".to_owned());
+    };
+    let (c0, r0) = (c0.saturating_sub(1), r0.saturating_sub(1));
+    let (c1, r1) = ((c1 + 1).min(grid.columns - 1), (r1 + 1).min(grid.rows - 1));
+    let (columns, rows) = (c1 - c0 + 1, r1 - r0 + 1);
+    if columns.saturating_mul(rows) > MOST_NODES {
+        return Err(format!(
+            "its damage takes {columns} x {rows} points, more than the {MOST_NODES} that a run holds; \
+             thin the scan out and adapt ds_mm and dz_mm"
+        ));
+    }
+    let depth_um = (r0..=r1)
+        .flat_map(|row| (c0..=c1).map(move |column| (column, row)))
+        .map(|(column, row)| {
+            let depth = (grid.at(column, row) * PARTS_OF_UM).round() / PARTS_OF_UM;
+            // No negative zero.
+            depth + 0.0
+        })
+        .collect();
+    Ok(Shape::DepthMap {
+        grid: scenario::DepthGrid {
+            s0_mm: grid.s0_mm + c0 as f64 * grid.ds_mm,
+            z0_mm: grid.z0_mm + r0 as f64 * grid.dz_mm,
+            ds_mm: grid.ds_mm,
+            dz_mm: grid.dz_mm,
+            columns,
+            rows,
+            depth_um,
+        },
+    })
+}

@@ -1,0 +1,163 @@
+//! Every key of a shape that stands in a file of its own: an image, a drawing, a scan.
+
+use super::keys::Fallback::Required;
+use super::keys::{Keys, Spec, assumed, key, stated};
+use crate::scenario::*;
+
+pub(super) const FILE: Spec = key("file", "path, from the scenario's folder");
+const CENTER: Spec = key(
+    "center",
+    "the damage's bounding box at the defect's centre; false: the middle of the picture",
+);
+const DIRECTION: Spec = key("rolling_direction", "where the roller passes to");
+const SPECK: Spec = key("speck_mm2", "spots smaller than this are left out").from(0.0);
+
+pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
+    k.key(FILE, Required, &mut i.file);
+    let scale = key("mm_per_pixel", "the side of a pixel").above(0.0);
+    k.key(scale.to(10.0).unit("mm"), Required, &mut i.mm_per_pixel);
+    let threshold = key(
+        "threshold",
+        "darker is damage, 0 black, 1 white; left out: the level that divides the picture best",
+    );
+    k.optional(threshold.above(0.0).to(1.0), &mut i.threshold);
+    k.key(
+        key("use_alpha", "the mask is the alpha channel"),
+        stated(false, "the picture's brightness"),
+        &mut i.use_alpha,
+    );
+    k.key(
+        key("invert", "lighter, or more transparent, is damage"),
+        stated(false, "damage is darker"),
+        &mut i.invert,
+    );
+    direction(k, &mut i.rolling_direction);
+    k.key(CENTER, stated(true, "centred"), &mut i.center);
+    k.key(
+        key("edges", "how the outline runs between pixels"),
+        stated(ImageEdges::SubPixel, "a photo"),
+        &mut i.edges,
+    );
+    let blur = key("blur_px", "standard deviation of the blur before, pixels");
+    k.key_where(
+        blur.from(0.0).to(20.0).unit("px"),
+        (i.edges == ImageEdges::SubPixel, "edges = \"sub-pixel\""),
+        assumed(1.5, "calms a photo's noise"),
+        &mut i.blur_px,
+    );
+    k.key(
+        SPECK,
+        assumed(0.02, "dirt and grinding marks"),
+        &mut i.speck_mm2,
+    );
+}
+
+pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
+    k.key(FILE, Required, &mut d.file);
+    let id = "id of a path, shape or group; left out: the whole drawing";
+    k.optional(key("path_id", id), &mut d.path_id);
+    let scale = key("mm_per_unit", "scale; left out: the drawing's own").above(0.0);
+    k.optional(scale.to(1e4).unit("mm"), &mut d.mm_per_unit);
+    let tolerance = key("tolerance_mm", "how far polygons stray from curves");
+    k.key(
+        tolerance.from(1e-5).to(1.0),
+        stated(0.001, "far below what is felt"),
+        &mut d.tolerance_mm,
+    );
+    k.key(CENTER, stated(true, "centred"), &mut d.center);
+}
+
+/// The keys of a scan beside its file and spacing.
+pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
+    let filed = (wanted, "there is a `file`");
+    k.key_where(
+        key("unit", "what the numbers count"),
+        filed,
+        stated(ScanUnit::Um, "micrometres"),
+        &mut s.unit,
+    );
+    k.only_where(
+        key("nm_per_count", "height of one count")
+            .above(0.0)
+            .to(1e6)
+            .unit("nm"),
+        wanted && s.unit == ScanUnit::Counts,
+        "unit = \"counts\"",
+        &mut s.nm_per_count,
+    );
+    k.key_where(
+        key("height_positive_up", "heights; false: depths"),
+        filed,
+        stated(true, "a profilometer's heights"),
+        &mut s.height_positive_up,
+    );
+    k.optional(
+        key(
+            "missing",
+            "number that marks a missing point, beside empty cells and nan",
+        ),
+        &mut s.missing,
+    );
+    k.key_where(
+        key("fill", "what to do about missing points"),
+        filed,
+        stated(ScanFill::None, "refused"),
+        &mut s.fill,
+    );
+    k.key_where(
+        key(
+            "remove_form",
+            "the raceway's own form, fitted and taken off",
+        ),
+        filed,
+        stated(ScanForm::None, "nothing is taken off"),
+        &mut s.remove_form,
+    );
+    let radius = key("radius_mm", "the cylinder's radius; left out: fitted");
+    k.optional(radius.above(0.0).to(1e5), &mut s.radius_mm);
+    k.key_where(
+        key("zero", "what counts as depth 0"),
+        filed,
+        assumed(ScanZero::RimMedian, "the rim is undamaged"),
+        &mut s.zero,
+    );
+    k.only_where(
+        key("zero_percentile", "percent of the points")
+            .from(0.0)
+            .to(100.0)
+            .unit("%"),
+        wanted && s.zero == ScanZero::Percentile,
+        "zero = \"percentile\"",
+        &mut s.zero_percentile,
+    );
+    k.key_where(
+        key("first_row", "where the file's first row lies"),
+        filed,
+        stated(FirstRow::Top, "as in print"),
+        &mut s.first_row,
+    );
+    k.key_where(
+        DIRECTION,
+        filed,
+        assumed(RollingDirection::Right, "along the rows"),
+        &mut s.rolling_direction,
+    );
+    k.key_where(
+        key("threshold_um", "shallower is undamaged")
+            .from(0.0)
+            .to(5000.0),
+        filed,
+        assumed(1.0, "noise and roughness"),
+        &mut s.threshold_um,
+    );
+    k.key_where(SPECK, filed, stated(0.0, "all count"), &mut s.speck_mm2);
+    k.key_where(CENTER, filed, stated(true, "centred"), &mut s.center);
+}
+
+fn direction<K: Keys>(k: &mut K, value: &mut RollingDirection) {
+    k.key(
+        DIRECTION,
+        assumed(RollingDirection::Right, "along the rows"),
+        value,
+    );
+}
