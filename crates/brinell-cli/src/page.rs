@@ -46,6 +46,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         envelope_spectrum: envelope_spectrum(parts),
         markers: markers(parts),
+        damage: vec![],
         passes: parts
             .findings
             .passes
