@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Points of a curve.
-const POINTS: usize = 601;
+const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
 /// Corners of a drawn circle.
@@ -239,7 +239,7 @@ fn facts(m: &Measures, defect: &Defect) -> Vec<Fact> {
             m.pass_ms,
             4,
             "ms",
-            format!("of the line of contact, at {} r/min", short(m.speed_rpm, 5)),
+            format!("of the line of contact, at {} r/min", short(m.speed_rpm, 4)),
         ),
     ];
     if m.raised_um > 0.0 {

@@ -89,7 +89,9 @@ const TRACK: &str = "#eef2f6";
 /// Largest picture of a raceway, px.
 const TALLEST: f64 = 440.0;
 /// Side of a shaded cell, px.
-const CELL: f64 = 2.0;
+const CELL: f64 = 1.4;
+/// Less than this share of the largest depth is round-off.
+const LEAST: f64 = 1e-3;
 
 /// The raceway unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller as it comes onto the damage, and
 /// the load zone.
@@ -160,7 +162,7 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     if deepest.is_none() {
         let lines: Vec<Vec<(f64, f64)>> = wound(&view.polygons_mm)
             .iter()
-            .map(|p| p.iter().map(|q| (x.at(q[0]), y.at(q[1]))).collect())
+            .map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1])))))
             .collect();
         let paint = Paint::line(SHADES[6], 1.4).filled(SHADES[2], 1.0);
         if lines.is_empty() {
@@ -260,8 +262,20 @@ fn extent(view: &DamageView) -> Option<[f64; 4]> {
 }
 
 fn raised(view: &DamageView) -> bool {
-    let depths = view.depths.iter().flat_map(|p| &p.depth_um);
-    depths.into_iter().any(|h| *h < 0.0)
+    let depths = || view.depths.iter().flat_map(|p| p.depth_um.iter().copied());
+    range(depths()).is_some_and(|(highest, deepest)| highest < -LEAST * deepest.max(-highest))
+}
+
+/// Points closer together than a picture can show are left out.
+fn drawn(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = vec![];
+    for (x, y) in points {
+        let near = |p: &(f64, f64)| (p.0 - x).abs() < 0.25 && (p.1 - y).abs() < 0.25;
+        if !kept.last().is_some_and(near) {
+            kept.push((x, y));
+        }
+    }
+    kept
 }
 
 /// Polygons turned so that a hole winds against what it lies in: the inside is then the same by either fill rule.
@@ -363,7 +377,7 @@ fn shade(
             chart.picture.shapes.push(path);
         }
     };
-    let least = 1e-3 * deepest.max(finite.iter().map(|h| h.abs()).fold(0.0, f64::max));
+    let least = LEAST * deepest.max(finite.iter().map(|h| h.abs()).fold(0.0, f64::max));
     layer(RAISED, &|h| h < -least);
     for (k, color) in SHADES.iter().enumerate() {
         let from = deepest * k as f64 / SHADES.len() as f64;

@@ -232,6 +232,7 @@ fn ordinary() -> Report {
     report.waveform.series.t0_s = 0.0;
     report.waveform.series.unit = "m/s^2".into();
     let angle_deg: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i) - 5.0).collect();
+    report.damage = vec![square_with_a_hole()];
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
         length_mm: angle_deg
