@@ -160,7 +160,7 @@ fn ends(points: &[(usize, f64, f64, f64)], shift: [f64; 2], row: usize) -> Optio
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
             (a.min(x), b.max(x))
         });
-    (last > first).then(|| [middle + first, middle + last])
+    (last > first).then_some([middle + first, middle + last])
 }
 
 /// s over the arc at equal distances, a hair inside its ends.
@@ -593,8 +593,7 @@ fn traced(grid: &DepthGrid) -> Vec<Vec<[f64; 2]>> {
     while let Some((&start, _)) = next.first_key_value() {
         let mut corners: Vec<(i64, i64)> = Vec::new();
         let (mut at, mut heading) = (start, (0, 0));
-        loop {
-            let Some(ways) = next.get_mut(&at) else { break };
+        while let Some(ways) = next.get_mut(&at) {
             let turn = |to: &(i64, i64)| heading.0 * (to.1 - at.1) - heading.1 * (to.0 - at.0);
             // Where two cells touch at a corner, left stays with the same one.
             let best = (0..ways.len()).max_by_key(|k| turn(&ways[*k])).unwrap_or(0);
