@@ -38,6 +38,11 @@ pub(crate) enum Command {
     },
     /// Print the defect frequencies of a catalogue bearing, a geometry or a scenario
     Frequencies(FrequenciesArgs),
+    /// See damage before it is simulated; convert, simplify, fit or draw it at random
+    Defect {
+        #[command(subcommand)]
+        command: DefectCommand,
+    },
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }
@@ -171,4 +176,163 @@ pub(crate) struct FrequenciesArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum DefectCommand {
+    /// Draw the unrolled raceway with the damage, what a roller meets on its way over it, and the ring's section
+    Preview(PreviewArgs),
+    /// Print a defect with its shape written as a `profile` or an `outline`
+    Convert(ConvertArgs),
+    /// Print a defect with the simple shape that others would have assumed (section 4.2 of Li et al. 2023)
+    Simplify(SimplifyArgs),
+    /// Fit width and depth by piecewise polynomials, Eqs. (25)-(26) of Li et al. (2023), and state the fit's error
+    Fit(FitArgs),
+    /// Print a ragged spall drawn from a seed, the same on every machine
+    Random(RandomArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Files in the folder, N being the defect's number:\n  \
+    damage-N           the raceway unrolled, both axes to one scale: damage, the roller's track and footprint, load zone\n  \
+    damage-N-passage   L_s, L_e, h_s and K over the angle of a passing roller: paths point and envelope, laws ecl and sliced\n  \
+    damage-N-section   A, I, h_a, h_I, K_I, K_r of the ring's section along the damage (Eqs. 1-20)\n  \
+    damage-N-*.csv     the curves of both\n  \
+    preview.json       sizes and curves of all defects\n\n\
+    Section properties describe the damage; as in the paper they do not enter the equations of motion.\n\n\
+    Examples:\n  \
+    brinell defect preview spall.toml -o look\n  \
+    brinell defect preview spall.toml --set defects.0.depth_um=5 --formats png")]
+pub(crate) struct PreviewArgs {
+    #[command(flatten)]
+    pub(crate) scenario: ScenarioArgs,
+    /// Which defect, from 1 in the file's order [default: all]
+    #[arg(long, value_name = "N")]
+    pub(crate) defect: Option<usize>,
+    /// Folder for pictures and curves [default: out/NAME/damage, NAME being the scenario's]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Formats of the pictures, separated by commas
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "svg,png",
+        value_name = "FORMAT"
+    )]
+    pub(crate) formats: Vec<PlotFormat>,
+    /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) ring_thickness_mm: Option<f64>,
+}
+
+/// What a shape is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Written {
+    /// Width and depth along the arc: what the law ecl sees
+    Profile,
+    /// Polygons seen from above, one depth
+    Outline,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints a whole [[defects]] entry: paste it over the old one, or redirect it.\n\n\
+    A profile keeps L_s and h_s along the arc and forgets where across the roller the damage lies.\n\
+    An outline keeps the place and has one depth, the mean where the shape has several.\n\n\
+    Example: brinell defect convert spall.toml --to profile --points 200"
+)]
+pub(crate) struct ConvertArgs {
+    #[command(flatten)]
+    pub(crate) scenario: ScenarioArgs,
+    /// Which defect, from 1 in the file's order
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) defect: usize,
+    /// What to write it as
+    #[arg(long, value_name = "SHAPE")]
+    pub(crate) to: Written,
+    /// Points along a curved edge; straight edges need none
+    #[arg(long, value_name = "N", default_value_t = 113)]
+    pub(crate) points: usize,
+}
+
+/// Simple shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SimpleShape {
+    /// The rectangle around the damage
+    BoundingRectangle,
+    /// The rectangle of the damage's area and the bounding one's proportions
+    EqualAreaRectangle,
+    /// The circle of the damage's area
+    EqualAreaCircle,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints a whole [[defects]] entry. Its centre is the middle of the real arc, its depth the real mean.\n\
+    Run both scenarios to see what the simplification costs.\n\n\
+    Example: brinell defect simplify spall.toml --to bounding-rectangle"
+)]
+pub(crate) struct SimplifyArgs {
+    #[command(flatten)]
+    pub(crate) scenario: ScenarioArgs,
+    /// Which defect, from 1 in the file's order
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) defect: usize,
+    /// What to simplify it to
+    #[arg(long, value_name = "SHAPE")]
+    pub(crate) to: SimpleShape,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Polynomials are in x = (2 s - from - to)/(to - from), which runs from -1 to 1 over its segment.\n\
+    Six segments of 113 samples are the paper's; it does not state the order, 5 is assumed.\n\n\
+    Example: brinell defect fit spall.toml --order 7 --toml > fitted.toml"
+)]
+pub(crate) struct FitArgs {
+    #[command(flatten)]
+    pub(crate) scenario: ScenarioArgs,
+    /// Which defect, from 1 in the file's order
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) defect: usize,
+    /// Segments of the arc
+    #[arg(long, value_name = "N", default_value_t = 6)]
+    pub(crate) segments: usize,
+    /// Order of each polynomial, at most 20
+    #[arg(long, value_name = "K", default_value_t = 5)]
+    pub(crate) order: usize,
+    /// Samples of each segment, more than the order
+    #[arg(long, value_name = "N", default_value_t = 113)]
+    pub(crate) samples: usize,
+    /// Print the fit as damage: a [[defects]] entry with a dense profile
+    #[arg(long)]
+    pub(crate) toml: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints a whole [[defects]] entry on the outer raceway, row 1; append it to a scenario or paste it.\n\n\
+    Example: brinell defect random --seed 7 --length-mm 3 --width-mm 2.5 --roughness 0.6 >> scenario.toml"
+)]
+pub(crate) struct RandomArgs {
+    /// Which spall: every seed draws another
+    #[arg(long)]
+    pub(crate) seed: u64,
+    /// Extent along the rolling direction
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) length_mm: f64,
+    /// Extent along the roller's axis
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) width_mm: f64,
+    /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets
+    #[arg(long, default_value_t = 0.5, allow_negative_numbers = true)]
+    pub(crate) roughness: f64,
+    /// Mean depth
+    #[arg(
+        long,
+        value_name = "UM",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) depth_um: f64,
 }

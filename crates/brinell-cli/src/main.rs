@@ -4,6 +4,8 @@
 
 mod args;
 mod check;
+mod damage;
+mod defect;
 mod failure;
 mod files;
 mod look_up;
@@ -24,6 +26,7 @@ fn main() -> ExitCode {
         Command::Init(args) => look_up::init(&args),
         Command::Bearing { command } => look_up::bearing(&command),
         Command::Frequencies(args) => look_up::frequencies(&args),
+        Command::Defect { command } => defect::defect(&command),
         Command::Schema => look_up::schema(),
     };
     match result {

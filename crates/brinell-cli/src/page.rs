@@ -46,6 +46,11 @@ pub(crate) fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         envelope_spectrum: envelope_spectrum(parts),
         markers: markers(parts),
+        damage: crate::damage::all(scenario, None)
+            .unwrap_or_default()
+            .into_iter()
+            .map(|d| d.view)
+            .collect(),
         passes: parts
             .findings
             .passes

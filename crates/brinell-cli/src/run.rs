@@ -89,19 +89,24 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
 }
 
 fn folder(args: &RunArgs, loaded: &Loaded) -> PathBuf {
-    args.output.clone().unwrap_or_else(|| {
-        // A name is free text; a folder's is not.
-        let safe = |c: char| {
-            if c.is_alphanumeric() || "-_.".contains(c) {
-                c
-            } else {
-                '_'
-            }
-        };
-        let name: String = loaded.scenario.name.chars().map(safe).collect();
-        let name = name.trim_matches('.');
-        Path::new("out").join(if name.is_empty() { "run" } else { name })
-    })
+    let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
+    args.output.clone().unwrap_or_else(named)
+}
+
+/// A name is free text; a folder's is not.
+pub(crate) fn safe_name(name: &str) -> String {
+    let safe = |c: char| {
+        if c.is_alphanumeric() || "-_.".contains(c) {
+            c
+        } else {
+            '_'
+        }
+    };
+    let name: String = name.chars().map(safe).collect();
+    match name.trim_matches('.') {
+        "" => "run".into(),
+        name => name.into(),
+    }
 }
 
 fn writers(
@@ -169,7 +174,7 @@ fn plots(
     Ok(())
 }
 
-fn make_folder(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::Usage(format!(
             "cannot make the folder {}: {error}",

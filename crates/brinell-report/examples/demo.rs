@@ -121,6 +121,7 @@ fn demo(duration: f64) -> Report {
             present,
         })
         .to_vec(),
+        damage: vec![],
         passes: vec![rectangle_pass()],
         load_distribution: (1..=2).map(row_load).collect(),
         indicators: indicators(),

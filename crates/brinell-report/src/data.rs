@@ -4,6 +4,8 @@
 //! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
+use crate::damage::DamageView;
+
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -27,6 +29,8 @@ pub struct Report {
     pub envelope_spectrum: Spectrum,
     /// The bearing's defect frequencies.
     pub markers: Vec<Marker>,
+    /// The defects, seen from above.
+    pub damage: Vec<DamageView>,
     /// Rollers passing a defect.
     pub passes: Vec<Pass>,
     /// Contact force around the bearing, a row each.

@@ -13,6 +13,7 @@
 //! ```
 
 mod chart;
+mod damage;
 mod data;
 mod font;
 mod number;
@@ -20,6 +21,9 @@ mod page;
 mod picture;
 mod plots;
 
+pub use damage::{
+    DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
+};
 pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Domain, LANE_HEIGHT, Lane};
+use crate::damage::damage_plan;
 use crate::data::{Estimate, Fact, Report, Value};
 use crate::font;
 use crate::number::{linear_ticks, runs, significant, tick_labels, with_interval};
@@ -64,10 +65,11 @@ pub fn html(report: &Report) -> String {
         );
     }
     page.push_str("</header>\n");
-    let sections: [Section; 11] = [
+    let sections: [Section; 12] = [
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),
         ("envelope", "Envelope spectrum", envelope),
+        ("damage", "Damage", damage),
         ("passes", "Passing the defect", passes),
         ("load", "Load distribution", load),
         ("indicators", "Indicators", indicators),
@@ -342,6 +344,27 @@ fn envelope(page: &mut String, report: &Report) {
         );
     }
     page.push_str("</tbody></table></div>\n");
+}
+
+fn damage(page: &mut String, report: &Report) {
+    if report.damage.is_empty() {
+        return none(page, "The bearing is healthy.");
+    }
+    for (index, view) in report.damage.iter().take(PASSES).enumerate() {
+        let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
+        let id = format!("damage{index}");
+        figure(
+            page,
+            &id,
+            |layout| damage_plan(view, index, layout),
+            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s track, as wide as the roller is long.",
+        );
+        fact_table(page, &view.facts, "Nothing is known of its size.");
+    }
+    if report.damage.len() > PASSES {
+        let more = report.damage.len() - PASSES;
+        none(page, &format!("{more} more defects are not drawn."));
+    }
 }
 
 fn passes(page: &mut String, report: &Report) {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, left_margin, range, right_margin};
+use crate::damage::damage_plan;
 use crate::data::{EventKind, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum};
 use crate::font;
 use crate::number::{linear_ticks, significant, tick_labels};
@@ -389,7 +390,7 @@ fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum) {
 }
 
 /// Boxes of line and text, from `left` on, wrapped at `right`; returns the height used.
-fn legend(
+pub(crate) fn legend(
     picture: &mut Picture,
     entries: &[(&str, Paint)],
     left: f64,
@@ -670,6 +671,13 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
         spectrum(report, Layout::Wide),
         envelope_spectrum(report, Layout::Wide),
     ];
+    pictures.extend(
+        report
+            .damage
+            .iter()
+            .enumerate()
+            .map(|(i, d)| damage_plan(d, i, Layout::Wide)),
+    );
     pictures.extend(
         report
             .passes

@@ -1,13 +1,121 @@
 //! The page and its pictures: what must be in them, and that nothing odd breaks them.
 
 use brinell_report::{
-    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Layout, Marker,
-    MinMax, Pass, Report, RowLoad, Series, Spectrum, Waveform, bin_centres, detail_window,
+    Assumption, DamageCurve, DamagePanel, DamageView, DepthPatch, Estimate, Event, EventKind, Fact,
+    IndicatorRow, IndicatorTable, Layout, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum,
+    Waveform, bin_centres, damage_passage, damage_plan, damage_section, detail_window,
     headline_png, html, load_distribution, pictures,
 };
 use proptest::prelude::*;
 
 const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
+
+/// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
+fn damage_view(text: &str, values: &[f64]) -> DamageView {
+    let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
+    let panel = DamagePanel {
+        label: text.into(),
+        unit: text.into(),
+        from_zero: at(1) > 0.0,
+        curves: vec![
+            DamageCurve {
+                name: text.into(),
+                values: values.to_vec(),
+            };
+            2
+        ],
+    };
+    DamageView {
+        title: text.into(),
+        facts: vec![Fact::new(text, at(0), text, text)],
+        polygons_mm: vec![values.windows(2).map(|w| [w[0], w[1]]).collect()],
+        depths: (at(0) > 0.0).then(|| DepthPatch {
+            start_mm: [at(1), at(2)],
+            step_mm: [at(3), 0.5],
+            columns: 3,
+            depth_um: values.to_vec(),
+        }),
+        roller_length_mm: at(4),
+        roller_diameter_mm: at(5),
+        load_zone_mm: Some([at(6), at(7)]),
+        angle_deg: values.to_vec(),
+        passage: vec![panel.clone(); 2],
+        passage_note: text.into(),
+        section_s_mm: values.to_vec(),
+        section: vec![panel],
+        section_note: text.into(),
+    }
+}
+
+/// A square of side 4 with a square hole of side 2, both wound the same way.
+fn square_with_a_hole() -> DamageView {
+    let square = |h: f64| vec![[-h, -h], [h, -h], [h, h], [-h, h]];
+    DamageView {
+        polygons_mm: vec![square(2.0), square(1.0)],
+        roller_length_mm: 6.0,
+        roller_diameter_mm: 6.0,
+        load_zone_mm: Some([-30.0, 30.0]),
+        ..DamageView::default()
+    }
+}
+
+#[test]
+fn analytic_the_plan_is_to_one_scale_and_a_hole_winds_against_its_outline() {
+    for layout in [Layout::Wide, Layout::Narrow] {
+        let svg = damage_plan(&square_with_a_hole(), 0, layout).svg();
+        let path = svg
+            .split("<path d=\"")
+            .find(|p| p.contains("fill=\"#f2aa6b\""))
+            .expect("the damage is drawn");
+        let rings: Vec<Vec<[f64; 2]>> = path
+            .split('"')
+            .next()
+            .unwrap()
+            .split('Z')
+            .filter(|r| !r.is_empty())
+            .map(|r| {
+                let points = r.trim_start_matches('M').split('L');
+                points
+                    .map(|p| {
+                        let (x, y) = p.split_once(' ').unwrap();
+                        [x.parse().unwrap(), y.parse().unwrap()]
+                    })
+                    .collect()
+            })
+            .collect();
+        assert_eq!(rings.len(), 2);
+        let area = |r: &[[f64; 2]]| -> f64 {
+            let next = r.iter().skip(1).chain(r.first());
+            0.5 * r
+                .iter()
+                .zip(next)
+                .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
+                .sum::<f64>()
+        };
+        let (outer, hole) = (area(&rings[0]), area(&rings[1]));
+        assert!(outer * hole < 0.0, "{outer} {hole}");
+        assert!((outer / hole + 4.0).abs() < 0.02, "{outer} {hole}");
+        let side = |k: usize| {
+            (0..4).map(|i| rings[0][i][k]).fold(0.0, f64::max)
+                - (0..4).map(|i| rings[0][i][k]).fold(f64::INFINITY, f64::min)
+        };
+        assert!(
+            (side(0) / side(1) - 1.0).abs() < 0.005,
+            "{} {}",
+            side(0),
+            side(1)
+        );
+    }
+}
+
+#[test]
+fn regress_a_view_of_nothing_is_drawn_all_the_same() {
+    let empty = DamageView::default();
+    for draw in [damage_plan, damage_passage, damage_section] {
+        let picture = draw(&empty, 0, Layout::Narrow);
+        assert!(picture.png(1.0).is_ok());
+    }
+}
 
 /// A report in which every list is filled, strings from `text` and numbers from `values`.
 fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Report {
@@ -64,6 +172,7 @@ fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Report {
                 present,
             })
             .to_vec(),
+        damage: vec![damage_view(text, values)],
         passes: vec![Pass {
             title: text.into(),
             angle_deg: values.to_vec(),
@@ -123,6 +232,7 @@ fn ordinary() -> Report {
     report.waveform.series.t0_s = 0.0;
     report.waveform.series.unit = "m/s^2".into();
     let angle_deg: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i) - 5.0).collect();
+    report.damage = vec![square_with_a_hole()];
     report.passes[0] = Pass {
         title: "Row 1, roller 7".into(),
         length_mm: angle_deg

@@ -1,0 +1,440 @@
+//! `brinell defect`: damage before it is simulated.
+
+use crate::args::{
+    ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, SimpleShape,
+    SimplifyArgs, Written,
+};
+use crate::damage::{self, Damage};
+use crate::failure::Failure;
+use crate::files;
+use crate::run::{make_folder, safe_name};
+use crate::say::{say, short};
+use brinell::defect::Shape;
+use brinell::defect::fit::{Fit, FitSettings};
+use brinell::defect::simplify::{Extent, Simple, simplify};
+use brinell::scenario::{self, Scenario, Surface};
+use brinell::simulate::RunError;
+use brinell_io::atomic_write;
+use brinell_report::{DamagePanel, Picture};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Most points a shape is written with.
+const MOST_POINTS: usize = 100_000;
+
+pub(crate) fn defect(command: &DefectCommand) -> Result<ExitCode, Failure> {
+    match command {
+        DefectCommand::Preview(args) => preview(args)?,
+        DefectCommand::Convert(args) => convert(args)?,
+        DefectCommand::Simplify(args) => simple(args)?,
+        DefectCommand::Fit(args) => fit(args)?,
+        DefectCommand::Random(args) => random(args)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The defect numbered from 1.
+fn chosen(s: &Scenario, number: usize) -> Result<&scenario::Defect, Failure> {
+    let defect = number.checked_sub(1).and_then(|k| s.defects.get(k));
+    defect.ok_or_else(|| {
+        Failure::Usage(match s.defects.len() {
+            0 => format!("{}: the scenario has no [[defects]]", s.name),
+            n => format!("--defect {number}: {} has defects 1 to {n}", s.name),
+        })
+    })
+}
+
+/// Its shape in SI, as the simulation takes it.
+fn shape(defect: &scenario::Defect) -> Result<Shape, Failure> {
+    Shape::new(&defect.shape, 1e-6 * defect.depth_um)
+        .ok_or_else(|| Failure::Usage("the shape makes no sense".into()))
+}
+
+fn preview(args: &PreviewArgs) -> Result<(), Failure> {
+    let loaded = files::scenario(&args.scenario, false)?;
+    let s = &loaded.scenario;
+    chosen(s, args.defect.unwrap_or(1))?;
+    if let Some(x) = args
+        .ring_thickness_mm
+        .filter(|x| !(x.is_finite() && *x > 0.0))
+    {
+        return Err(Failure::Usage(format!(
+            "--ring-thickness-mm {x}: expected a thickness above 0, in mm"
+        )));
+    }
+    let all =
+        damage::all(s, args.ring_thickness_mm).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let folder = args
+        .output
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
+    make_folder(&folder)?;
+    let mut written = Vec::new();
+    let mut entries = Vec::new();
+    for (index, damage) in all.iter().enumerate() {
+        if args.defect.is_some_and(|n| n != index + 1) {
+            continue;
+        }
+        tell(damage);
+        let wide = brinell_report::Layout::Wide;
+        let view = &damage.view;
+        let mut pictures = vec![
+            brinell_report::damage_plan(view, index, wide),
+            brinell_report::damage_passage(view, index, wide),
+        ];
+        if !view.section.is_empty() {
+            pictures.push(brinell_report::damage_section(view, index, wide));
+        }
+        for picture in &pictures {
+            save(picture, &args.formats, &folder, &mut written)?;
+        }
+        for (name, axis, xs, panels) in [
+            ("passage", "angle_deg", &view.angle_deg, &view.passage),
+            ("section", "s_mm", &view.section_s_mm, &view.section),
+        ] {
+            if !panels.is_empty() {
+                let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
+                atomic_write(&path, csv(axis, xs, panels).as_bytes())?;
+                written.push(path);
+            }
+        }
+        entries.push(entry(index, damage));
+    }
+    let path = folder.join("preview.json");
+    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "defects": entries });
+    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
+    atomic_write(&path, text.as_bytes())?;
+    written.push(path);
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
+    Ok(())
+}
+
+fn tell(damage: &Damage) {
+    let view = &damage.view;
+    say!("{}", view.title);
+    for fact in &view.facts {
+        let brinell_report::Value::Text(value) = &fact.value else {
+            continue;
+        };
+        let unit = fact.unit.replace('μ', "u").replace('°', "deg");
+        say!(
+            "  {:<24} {value:>9} {unit:<5} {}",
+            fact.label,
+            fact.note.replace('μ', "u")
+        );
+    }
+    say!("  Passage: {}", view.passage_note);
+    say!("  Section: {}", view.section_note);
+    say!("");
+}
+
+fn save(
+    picture: &Picture,
+    formats: &[PlotFormat],
+    folder: &Path,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    for format in formats {
+        let (ending, bytes) = match format {
+            PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
+            PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
+        };
+        let path = folder.join(format!("{}.{ending}", picture.name));
+        atomic_write(&path, &bytes)?;
+        written.push(path);
+    }
+    Ok(())
+}
+
+/// "stiffness_k_ecl_point".
+fn slug(words: &[&str]) -> String {
+    let mut slug = String::new();
+    for c in words.join(" ").replace('μ', "u").chars() {
+        if c.is_ascii_alphanumeric() {
+            slug.push(c.to_ascii_lowercase());
+        } else if !slug.is_empty() && !slug.ends_with('_') {
+            slug.push('_');
+        }
+    }
+    slug.trim_end_matches('_').to_owned()
+}
+
+/// Name and values of each curve.
+fn columns(panels: &[DamagePanel]) -> Vec<(String, &[f64])> {
+    panels
+        .iter()
+        .flat_map(|p| {
+            p.curves
+                .iter()
+                .map(|c| (slug(&[&p.label, &c.name, &p.unit]), c.values.as_slice()))
+        })
+        .collect()
+}
+
+fn csv(axis: &str, xs: &[f64], panels: &[DamagePanel]) -> String {
+    let columns = columns(panels);
+    let mut text = axis.to_owned();
+    for (name, _) in &columns {
+        text += ",";
+        text += name;
+    }
+    for (k, x) in xs.iter().enumerate() {
+        text += &format!("\n{x}");
+        for (_, values) in &columns {
+            text += &format!(",{}", values[k]);
+        }
+    }
+    text + "\n"
+}
+
+fn entry(index: usize, damage: &Damage) -> serde_json::Value {
+    let (m, view) = (&damage.measures, &damage.view);
+    let curves = |axis: &str, xs: &[f64], panels: &[DamagePanel]| {
+        let mut all = serde_json::Map::new();
+        all.insert(axis.into(), json!(xs));
+        for (name, values) in columns(panels) {
+            all.insert(name, json!(values));
+        }
+        all
+    };
+    json!({
+        "defect": index + 1,
+        "title": view.title,
+        "length_mm": m.length_mm,
+        "arc_deg": m.arc_deg,
+        "widest_mm": m.widest_mm,
+        "area_mm2": m.area_mm2,
+        "mean_depth_um": m.mean_depth_um,
+        "deepest_um": m.deepest_um,
+        "raised_um": m.raised_um,
+        "time_to_pass_ms": m.pass_ms,
+        "speed_rpm": m.speed_rpm,
+        "load_zone_share": m.load_zone_share,
+        "load_zone_mm": view.load_zone_mm,
+        "approach_um": m.approach_um,
+        "heaviest_contact_n": m.force_n,
+        "polygons_mm": view.polygons_mm,
+        "passage_note": view.passage_note,
+        "passage": curves("angle_deg", &view.angle_deg, &view.passage),
+        "section_note": view.section_note,
+        "section": curves("s_mm", &view.section_s_mm, &view.section),
+    })
+}
+
+/// One `[[defects]]` entry as TOML; what the scenario's checks say of it goes to standard error.
+fn print(s: &Scenario, defect: scenario::Defect, remarks: &[String]) {
+    let alone = Scenario {
+        defects: vec![defect],
+        ..s.clone()
+    };
+    for problem in alone.problems() {
+        if problem.to_string().contains("defects") {
+            eprintln!("{problem}");
+        }
+    }
+    print_entry(&alone, remarks);
+}
+
+fn print_entry(alone: &Scenario, remarks: &[String]) {
+    for remark in remarks {
+        say!("# {remark}");
+    }
+    let text = alone.to_toml();
+    let entry = text
+        .lines()
+        .skip_while(|line| *line != "[[defects]]")
+        .enumerate()
+        .take_while(|(k, line)| *k == 0 || !line.starts_with('['))
+        .map(|(_, line)| line)
+        .collect::<Vec<_>>()
+        .join("\n");
+    say!("{}", entry.trim_end());
+}
+
+fn checked_points(points: usize, least: usize) -> Result<usize, Failure> {
+    if (least..=MOST_POINTS).contains(&points) {
+        return Ok(points);
+    }
+    Err(Failure::Usage(format!(
+        "--points {points}: expected {least} to {MOST_POINTS}"
+    )))
+}
+
+fn convert(args: &ConvertArgs) -> Result<(), Failure> {
+    let loaded = files::scenario(&args.scenario, false)?;
+    let s = &loaded.scenario;
+    let of = chosen(s, args.defect)?;
+    let real = shape(of)?;
+    let extent = Extent::of(&real, 1e-6 * of.depth_um);
+    let points = checked_points(args.points, 8)?;
+    let (shape, depth_um) = match args.to {
+        Written::Profile => {
+            let course = damage::course(&real, points);
+            let has_depths = real.own_depth(extent.middle).is_some();
+            let depth = |mm: &f64| 1e6 * real.own_depth(1e-3 * mm).unwrap_or(0.0).max(0.0);
+            let arc_mm: Vec<f64> = course.iter().map(|p| p.0).collect();
+            let depth_um = has_depths.then(|| arc_mm.iter().map(depth).collect());
+            let width_mm = course.iter().map(|p| p.1).collect();
+            (
+                scenario::Shape::Profile {
+                    arc_mm,
+                    width_mm,
+                    depth_um,
+                },
+                of.depth_um,
+            )
+        }
+        Written::Outline => (
+            scenario::Shape::Outline {
+                polygons_mm: damage::polygons_mm(of, &real, points),
+            },
+            1e6 * extent.depth,
+        ),
+    };
+    let defect = scenario::Defect {
+        shape,
+        depth_um,
+        ..of.clone()
+    };
+    let new = self::shape(&defect)?;
+    let remark = format!(
+        "area {} mm^2; the shape it was written from has {} mm^2",
+        short(1e6 * new.area(), 5),
+        short(1e6 * extent.area, 5)
+    );
+    print(s, defect, &[remark]);
+    Ok(())
+}
+
+fn simple(args: &SimplifyArgs) -> Result<(), Failure> {
+    let loaded = files::scenario(&args.scenario, false)?;
+    let s = &loaded.scenario;
+    let of = chosen(s, args.defect)?;
+    let (to, name) = match args.to {
+        SimpleShape::BoundingRectangle => (Simple::BoundingRectangle, "bounding rectangle"),
+        SimpleShape::EqualAreaRectangle => (Simple::EqualAreaRectangle, "rectangle of equal area"),
+        SimpleShape::EqualAreaCircle => (Simple::EqualAreaCircle, "circle of equal area"),
+    };
+    let defect = simplify(of, &s.bearing, to)
+        .ok_or_else(|| Failure::Usage("the shape makes no sense".into()))?;
+    let area = |d: &scenario::Defect| Ok::<_, Failure>(1e6 * shape(d)?.area());
+    let remark = format!(
+        "{name}: {} mm^2 in place of {} mm^2",
+        short(area(&defect)?, 5),
+        short(area(of)?, 5)
+    );
+    print(s, defect, &[remark]);
+    Ok(())
+}
+
+fn fit(args: &FitArgs) -> Result<(), Failure> {
+    let loaded = files::scenario(&args.scenario, false)?;
+    let s = &loaded.scenario;
+    let of = chosen(s, args.defect)?;
+    let settings = FitSettings {
+        segments: args.segments,
+        order: args.order,
+        samples: args.samples,
+    };
+    let bounded = args.segments <= 10_000 && args.samples <= MOST_POINTS;
+    let fit = bounded
+        .then(|| Fit::new(&shape(of).ok()?, 1e-6 * of.depth_um, &settings))
+        .flatten()
+        .ok_or_else(|| {
+            Failure::Usage(format!(
+                "--segments {} --order {} --samples {}: expected 1 to 10000 segments, an order of at most 20, and more samples \
+                 than the order, at most {MOST_POINTS}",
+                args.segments, args.order, args.samples
+            ))
+        })?;
+    let error = format!(
+        "fit error: width rms {} um, largest {} um; depth rms {} um, largest {} um",
+        short(1e6 * fit.width_error.rms, 3),
+        short(1e6 * fit.width_error.max, 3),
+        short(1e6 * fit.depth_error.rms, 3),
+        short(1e6 * fit.depth_error.max, 3)
+    );
+    let head = format!(
+        "{} segments, order {}, {} samples each",
+        args.segments, args.order, args.samples
+    );
+    if args.toml {
+        let defect = scenario::Defect {
+            shape: fit.shape(32),
+            ..of.clone()
+        };
+        print(s, defect, &[head, error]);
+        return Ok(());
+    }
+    say!("{head}");
+    say!("{error}");
+    say!(
+        "L_s(x) in mm and h_s(x) in um, x = (2 s - from - to)/(to - from), coefficients of x^0, x^1, ..."
+    );
+    let list = |values: &[f64], unit: f64| {
+        let all: Vec<String> = values.iter().map(|c| format!("{:.6e}", unit * c)).collect();
+        all.join(" ")
+    };
+    for (k, g) in fit.segments.iter().enumerate() {
+        say!(
+            "segment {}: s from {:.6} to {:.6} mm",
+            k + 1,
+            1e3 * g.from,
+            1e3 * g.to
+        );
+        say!("  width {}", list(&g.width, 1e3));
+        say!("  depth {}", list(&g.depth, 1e6));
+    }
+    Ok(())
+}
+
+fn random(args: &RandomArgs) -> Result<(), Failure> {
+    for (name, x, top) in [
+        ("--length-mm", args.length_mm, 1e4),
+        ("--width-mm", args.width_mm, 1e4),
+        ("--depth-um", args.depth_um, 1e5),
+    ] {
+        if !(x > 0.0 && x <= top) {
+            return Err(Failure::Usage(format!(
+                "{name} {x}: expected more than 0, at most {top}"
+            )));
+        }
+    }
+    if !(0.0..=1.0).contains(&args.roughness) {
+        return Err(Failure::Usage(format!(
+            "--roughness {}: expected 0 (an ellipse) to 1 (ragged)",
+            args.roughness
+        )));
+    }
+    let defect = scenario::Defect {
+        on: Surface::OuterRaceway,
+        row: 1,
+        center_deg: 0.0,
+        depth_um: args.depth_um,
+        shape: scenario::Shape::Random {
+            seed: args.seed,
+            length_mm: args.length_mm,
+            width_mm: args.width_mm,
+            roughness: args.roughness,
+        },
+    };
+    let area = 1e6 * shape(&defect)?.area();
+    let deepest = match shape(&defect)? {
+        Shape::DepthMap(grid) => 1e6 * grid.extremes().0,
+        _ => args.depth_um,
+    };
+    let alone = Scenario {
+        defects: vec![defect],
+        ..Scenario::example()
+    };
+    let remark = format!(
+        "area {} mm^2, deepest {} um; see it: brinell defect preview SCENARIO",
+        short(area, 4),
+        short(deepest, 3)
+    );
+    print_entry(&alone, &[remark]);
+    Ok(())
+}

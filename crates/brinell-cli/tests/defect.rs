@@ -1,0 +1,231 @@
+//! `brinell defect`: what it prints reads back, what it measures is right, what is wrong is told.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const HEAD: &str = "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\n\
+    load_n = [300.0, 0.0]\nload_on = \"outer-ring\"\n[simulation]\nduration_s = 0.1\n";
+const SQUARE_WITH_A_HOLE: &str = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 8.0\n\
+    shape = { outline = { polygons_mm = [[[-2, -2], [2, -2], [2, 2], [-2, 2]], [[-1, -1], [1, -1], [1, 1], [-1, 1]]] } }\n";
+
+fn brinell(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+/// Standard output of a command that must succeed.
+fn out(args: &[&str]) -> String {
+    let output = brinell(args);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{args:?}: {error}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn scenario(folder: &Path, name: &str, defects: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, format!("{HEAD}{defects}")).unwrap();
+    path.display().to_string()
+}
+
+fn example(name: &str) -> String {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    root.join(name).display().to_string()
+}
+
+/// preview.json of a scenario.
+fn preview(folder: &Path, scenario: &str) -> serde_json::Value {
+    let to = folder.join("preview");
+    let to = to.to_str().unwrap();
+    out(&["defect", "preview", scenario, "-o", to, "--formats", "svg"]);
+    let text = std::fs::read_to_string(Path::new(to).join("preview.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+fn number(json: &serde_json::Value, key: &str) -> f64 {
+    json["defects"][0][key].as_f64().unwrap()
+}
+
+#[test]
+fn analytic_preview_measures_closed_forms() {
+    let folder = tempfile::tempdir().unwrap();
+    let circle = preview(folder.path(), &example("circle.toml"));
+    assert!(
+        (number(&circle, "area_mm2") / (std::f64::consts::PI * 2.25 * 2.25) - 1.0).abs() < 1e-5
+    );
+    assert!((number(&circle, "arc_deg") - (4.5f64 / 27.5).to_degrees()).abs() < 1e-9);
+    let hole = scenario(folder.path(), "hole.toml", SQUARE_WITH_A_HOLE);
+    let hole = preview(folder.path(), &hole);
+    assert!((number(&hole, "area_mm2") - 12.0).abs() < 1e-3);
+    assert!((number(&hole, "widest_mm") - 4.0).abs() < 1e-9);
+    let passage = &hole["defects"][0]["passage"];
+    let curve = |name: &str| -> Vec<f64> {
+        let values = passage[name].as_array().unwrap();
+        values.iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let (damaged, left) = (
+        curve("length_damaged_l_s_mm"),
+        curve("length_in_contact_l_e_mm"),
+    );
+    assert!(
+        damaged
+            .iter()
+            .zip(&left)
+            .all(|(a, b)| (a + b - 6.0).abs() < 1e-12)
+    );
+    assert!(
+        damaged
+            .iter()
+            .all(|x| [0.0, 2.0, 4.0].iter().any(|y| (x - y).abs() < 1e-9))
+    );
+    // Below the floor K is that of the remaining length, Eq. (23).
+    let k = curve("stiffness_k_ecl_point_n_m_10_9");
+    let healthy = k[0];
+    for (k, l) in k.iter().zip(&left) {
+        assert!((k / healthy - (l / 6.0).powf(8.0 / 9.0)).abs() < 1e-9);
+    }
+    // An envelope is never deeper.
+    let (point, envelope) = (curve("depth_h_s_point_um"), curve("depth_h_s_envelope_um"));
+    assert!(point.iter().zip(&envelope).all(|(p, e)| *e <= p + 1e-9));
+    for file in [
+        "damage-1.svg",
+        "damage-1-passage.svg",
+        "damage-1-passage.csv",
+        "damage-1-section.csv",
+    ] {
+        assert!(folder.path().join("preview").join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn prop_what_is_printed_reads_back_with_the_same_area() {
+    let folder = tempfile::tempdir().unwrap();
+    let spall = out(&[
+        "defect",
+        "random",
+        "--seed",
+        "7",
+        "--length-mm",
+        "4",
+        "--width-mm",
+        "3",
+        "--roughness",
+        "0.7",
+    ]);
+    let sources = [
+        example("rectangle.toml"),
+        example("circle.toml"),
+        example("irregular.toml"),
+        scenario(folder.path(), "hole.toml", SQUARE_WITH_A_HOLE),
+        scenario(folder.path(), "spall.toml", &spall),
+    ];
+    for source in &sources {
+        let area = number(&preview(folder.path(), source), "area_mm2");
+        for command in [
+            &["convert", "--to", "profile"][..],
+            &["convert", "--to", "outline"],
+            &["simplify", "--to", "equal-area-rectangle"],
+            &["simplify", "--to", "equal-area-circle"],
+            &["fit", "--toml"],
+        ] {
+            let mut args = vec!["defect", command[0], source];
+            args.extend(&command[1..]);
+            let printed = out(&args);
+            let again = scenario(folder.path(), "again.toml", &printed);
+            let off = number(&preview(folder.path(), &again), "area_mm2") / area - 1.0;
+            assert!(
+                off.abs() < 3e-3,
+                "{command:?} of {source}: area off by {off}"
+            );
+        }
+    }
+}
+
+#[test]
+fn lit_the_bounding_rectangle_of_the_papers_shape_is_seven_by_four() {
+    let printed = out(&[
+        "defect",
+        "simplify",
+        &example("irregular.toml"),
+        "--to",
+        "bounding-rectangle",
+    ]);
+    let folder = tempfile::tempdir().unwrap();
+    let again = scenario(folder.path(), "again.toml", &printed);
+    let json = preview(folder.path(), &again);
+    assert!((number(&json, "length_mm") - 7.0).abs() < 5e-3);
+    assert!((number(&json, "widest_mm") - 4.0).abs() < 1e-3);
+}
+
+#[test]
+fn lit_the_fit_is_the_papers_six_segments_and_states_its_error() {
+    let text = out(&["defect", "fit", &example("irregular.toml")]);
+    assert!(
+        text.starts_with("6 segments, order 5, 113 samples each"),
+        "{text}"
+    );
+    assert!(
+        text.contains("fit error: width rms") && text.contains("segment 6:"),
+        "{text}"
+    );
+}
+
+#[test]
+fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
+    let irregular = example("irregular.toml");
+    let healthy = example("healthy.toml");
+    for (args, words) in [
+        (
+            &["preview", &irregular, "--defect", "0"][..],
+            "defects 1 to 1",
+        ),
+        (&["preview", &healthy], "no [[defects]]"),
+        (
+            &["preview", &irregular, "--ring-thickness-mm", "-1"],
+            "above 0",
+        ),
+        (
+            &["convert", &irregular, "--to", "profile", "--points", "1"],
+            "expected 8 to",
+        ),
+        (
+            &["fit", &irregular, "--order", "200"],
+            "an order of at most 20",
+        ),
+        (&["fit", &irregular, "--segments", "0"], "expected 1 to"),
+        (
+            &[
+                "random",
+                "--seed",
+                "1",
+                "--length-mm",
+                "nan",
+                "--width-mm",
+                "1",
+            ],
+            "--length-mm NaN",
+        ),
+        (
+            &[
+                "random",
+                "--seed",
+                "1",
+                "--length-mm",
+                "1",
+                "--width-mm",
+                "1",
+                "--roughness",
+                "2",
+            ],
+            "--roughness 2",
+        ),
+    ] {
+        let mut all = vec!["defect"];
+        all.extend(args);
+        let output = brinell(&all);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
+        assert!(error.contains(words), "{args:?}: {error}");
+    }
+}
