@@ -182,6 +182,12 @@ impl Keys for Writer<'_> {
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add::<T>(&spec, &value.write(), true);
+        } else if self.is_template() && self.inline.is_some() {
+            self.asides.push(format!(
+                "{}: {}; only where {case}",
+                spec.name,
+                explain::<T>(&spec)
+            ));
         } else if self.is_template() {
             self.add::<T>(&spec, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {

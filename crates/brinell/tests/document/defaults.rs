@@ -163,7 +163,12 @@ fn regress_the_template_is_the_example() {
     let live: String = template()
         .lines()
         .map(|line| match line.strip_prefix("# ") {
-            Some(code) if code.contains(" = ") && !code.starts_with("roller = ") => {
+            // Explanations of shapes stand further in.
+            Some(code)
+                if code.contains(" = ")
+                    && !code.starts_with(' ')
+                    && !code.starts_with("roller = ") =>
+            {
                 code.to_string() + "\n"
             }
             _ => line.to_string() + "\n",
