@@ -28,7 +28,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let folder = folder(args, &loaded);
     make_folder(&folder)?;
     // What a reader needs to make sense of a partial run comes first.
-    atomic_write(folder.join("scenario.toml"), loaded.to_toml().as_bytes())?;
+    let path = folder.join("scenario.toml");
+    atomic_write(&path, loaded.to_toml().as_bytes())?;
+    let mut written = vec![path];
     let writers = writers(args, &loaded, &simulation, &folder)?;
 
     let mut recorder = Recorder {
@@ -52,7 +54,6 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         End::Stopped => brinell_io::Outcome::Partial("interrupted".into()),
         End::Failed(error) => brinell_io::Outcome::Partial(error.to_string()),
     };
-    let mut written = Vec::new();
     for writer in recorder.writers {
         written.push(writer.finish(ending.clone())?);
     }

@@ -1,0 +1,271 @@
+//! The commands that look things up: `frequencies`, `bearing`, `schema`, `init`, and every `--help`.
+
+mod common;
+
+use common::{SHORT, brinell, brinell_reading};
+use serde_json::Value;
+use std::fs;
+use tempfile::tempdir;
+
+/// model.md, section 13: NN3007 at 1800 r/min, Hz.
+const SECTION_13: [(&str, f64); 4] = [
+    ("bpfo", 250.102),
+    ("bpfi", 319.898),
+    ("ftf", 13.163),
+    ("bsf", 120.663),
+];
+
+fn call(args: &[&str]) -> common::Call {
+    brinell(tempdir().unwrap().path(), args)
+}
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).expect("it is JSON")
+}
+
+#[test]
+fn analytic_frequencies_of_the_papers_bearing() {
+    let text = call(&["frequencies", "NN3007", "--speed", "1800"])
+        .exits(0)
+        .keeps_quiet()
+        .out;
+    let by_numbers = [
+        "frequencies",
+        "--pitch",
+        "49",
+        "--roller",
+        "6",
+        "--rollers",
+        "19",
+        "--speed",
+        "1800",
+        "--json",
+    ];
+    let catalogued = call(&["frequencies", "nn3007", "--speed", "1800", "--json"]).exits(0);
+    let [catalogued, given] = [catalogued, call(&by_numbers).exits(0)].map(|c| parsed(&c.out));
+    for (name, hz) in SECTION_13 {
+        let line = text
+            .lines()
+            .find(|l| l.trim_start().starts_with(&name.to_uppercase()))
+            .unwrap_or_else(|| panic!("no {name} in {text}"));
+        let printed: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+        for found in [&catalogued, &given] {
+            let found = found[format!("{name}_hz")].as_f64().unwrap();
+            // Half of the last digit, there of section 13, here of the terminal.
+            assert!((found - hz).abs() <= 5e-4, "{name}: {found}");
+            assert!(
+                (found - printed).abs() <= 5.1e-5,
+                "{name}: {printed} printed, {found} in JSON"
+            );
+        }
+    }
+    assert_eq!(catalogued["speed_rpm"], 1800.0);
+    let [once, twice] = ["bsf_hz", "2bsf_hz"].map(|name| catalogued[name].as_f64().unwrap());
+    assert_eq!(twice, 2.0 * once);
+}
+
+#[test]
+fn prop_frequencies_are_orders_without_a_speed_and_know_no_sense_of_rotation() {
+    let json = |args: &[&str]| {
+        let args = [&["frequencies", "NU206", "--json"], args].concat();
+        parsed(&call(&args).exits(0).out)
+    };
+    let (order, forth, back) = (
+        json(&[]),
+        json(&["--speed", "1500"]),
+        json(&["--speed", "-1500"]),
+    );
+    assert_eq!(order["shaft_hz"], 1.0);
+    for name in ["ftf_hz", "bpfo_hz", "bpfi_hz", "bsf_hz"] {
+        let [order, forth, back] = [&order, &forth, &back].map(|v| v[name].as_f64().unwrap());
+        assert!((forth - 25.0 * order).abs() < 1e-12 * forth, "{name}");
+        assert_eq!(forth, back, "{name}");
+    }
+}
+
+#[test]
+fn regress_frequencies_of_a_scenario_use_its_speed() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s"), SHORT).unwrap();
+    let read = brinell(folder.path(), &["frequencies", "s"])
+        .exits(0)
+        .says(&["Pure rolling at 1500 r/min"]);
+    let piped = brinell_reading(folder.path(), &["frequencies", "-"], SHORT.as_bytes()).exits(0);
+    assert_eq!(read.out, piped.out);
+}
+
+#[test]
+fn regress_frequencies_refuse_what_makes_no_bearing() {
+    for (args, parts) in [
+        (&[][..], &["catalogue name", "--pitch"][..]),
+        (
+            &["NN3008"],
+            &["no bearing \"NN3008\"", "it holds NN3007", "NU206"],
+        ),
+        (&["missing.toml"], &["cannot read missing.toml"]),
+        (&["NN3007", "--speed", "0"], &["--speed 0", "r/min"]),
+        (&["NN3007", "--speed", "nan"], &["--speed NaN", "r/min"]),
+        (&["NN3007", "--pitch", "49"], &["--pitch"]),
+        (
+            &["--pitch", "49"],
+            &["--pitch, --roller and --rollers together"],
+        ),
+        (
+            &["--pitch", "49", "--roller", "-6", "--rollers", "19"],
+            &["--roller -6", "0 < roller < pitch, in mm"],
+        ),
+        (
+            &["--pitch", "49", "--roller", "60", "--rollers", "19"],
+            &["--roller 60", "in mm"],
+        ),
+        (
+            &["--pitch", "49", "--roller", "6", "--rollers", "2"],
+            &["--rollers 2", "at least 3"],
+        ),
+    ] {
+        let call = call(&[&["frequencies"], args].concat())
+            .exits(2)
+            .complains(parts);
+        assert_eq!(call.out, "");
+    }
+}
+
+#[test]
+fn regress_bearings_are_listed_and_shown_with_their_sources() {
+    let list = call(&["bearing", "list"]).exits(0).keeps_quiet().out;
+    let names: Vec<&str> = list
+        .lines()
+        .take_while(|line| !line.is_empty())
+        .map(|line| line.split(' ').next().unwrap())
+        .collect();
+    assert!(names.contains(&"NN3007") && names.len() >= 5, "{names:?}");
+    for name in names {
+        let shown = call(&["bearing", "show", name]).exits(0).keeps_quiet().out;
+        let mut lines = shown.lines();
+        assert!(lines.next().unwrap().starts_with(&format!("{name}: ")));
+        let ends: Vec<usize> = lines
+            .map(|line| {
+                let words: Vec<&str> = line.split_whitespace().collect();
+                assert!(words.len() > 2, "no source: {line}");
+                let value = line.find(&format!(" {}  ", words[1])).unwrap();
+                value + words[1].len()
+            })
+            .collect();
+        assert!(ends.len() > 8, "{shown}");
+        assert!(
+            ends.iter().all(|end| *end == ends[0]),
+            "not aligned:\n{shown}"
+        );
+    }
+    call(&["bearing", "show", "NN307"])
+        .exits(2)
+        .complains(&["no bearing \"NN307\"", "it holds NN3007"]);
+}
+
+#[test]
+fn regress_the_schema_is_a_json_schema() {
+    let schema = parsed(&call(&["schema"]).exits(0).keeps_quiet().out);
+    assert_eq!(
+        schema["$schema"],
+        "https://json-schema.org/draft/2020-12/schema"
+    );
+    let sections = schema["properties"].as_object().unwrap();
+    for section in [
+        "name",
+        "bearing",
+        "cage",
+        "contact",
+        "friction",
+        "lubricant",
+        "support",
+        "operation",
+        "defects",
+        "simulation",
+    ] {
+        assert!(sections.contains_key(section), "{section}");
+    }
+}
+
+#[test]
+fn regress_init_writes_a_scenario_that_passes_and_overwrites_nothing() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    brinell(here, &["init", "s.toml"])
+        .exits(0)
+        .keeps_quiet()
+        .says(&["wrote s.toml", "brinell run s.toml"]);
+    let written = fs::read_to_string(here.join("s.toml")).unwrap();
+    assert_eq!(brinell(here, &["init"]).exits(0).out, written);
+    brinell(here, &["check", "s.toml"]).exits(0).keeps_quiet();
+    fs::write(here.join("s.toml"), "mine").unwrap();
+    brinell(here, &["init", "s.toml"])
+        .exits(2)
+        .complains(&["s.toml exists; --force overwrites it"]);
+    assert_eq!(fs::read(here.join("s.toml")).unwrap(), b"mine");
+    brinell(here, &["init", "s.toml", "--force"]).exits(0);
+    assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), written);
+}
+
+#[test]
+fn regress_help_mentions_every_option() {
+    for (command, options) in [
+        (
+            &[][..],
+            &[
+                "run",
+                "check",
+                "init",
+                "bearing",
+                "frequencies",
+                "schema",
+                "--version",
+                "Exit codes",
+            ][..],
+        ),
+        (
+            &["run"],
+            &[
+                "SCENARIO",
+                "--set",
+                "--output",
+                "--signals",
+                "--plots",
+                "--no-report",
+                "--quiet",
+                "parquet",
+                "Ctrl-C",
+            ],
+        ),
+        (&["check"], &["SCENARIO", "--set", "--assumptions"]),
+        (&["init"], &["FILE", "--force"]),
+        (&["bearing"], &["list", "show"]),
+        (&["bearing", "list"], &["catalogue"]),
+        (&["bearing", "show"], &["NAME"]),
+        (
+            &["frequencies"],
+            &[
+                "BEARING",
+                "--speed",
+                "--pitch",
+                "--roller",
+                "--rollers",
+                "--json",
+                "Examples:",
+            ],
+        ),
+        (&["schema"], &["JSON Schema"]),
+    ] {
+        for flag in ["--help", "-h"] {
+            let call = call(&[command, &[flag]].concat())
+                .exits(0)
+                .keeps_quiet()
+                .says(options);
+            let widest = call.out.lines().map(|line| line.chars().count()).max();
+            // clap wraps at 100 columns where there is no terminal.
+            assert!(widest <= Some(100), "{}", call.out);
+        }
+    }
+    call(&["--version"])
+        .exits(0)
+        .says(&["brinell ", env!("CARGO_PKG_VERSION")]);
+}
