@@ -228,9 +228,13 @@ fn spectrum(parts: &Parts) -> Spectrum {
         amplitude: s.amplitude.clone(),
         unit: "m/s^2".into(),
         note: format!(
-            "measured acceleration along {}, peak amplitude, Hann window, {} segments of {} samples",
+            "Measured acceleration along {}, peak amplitude, Hann window, {} of {} samples.",
             axis(parts),
-            s.segments,
+            if s.segments == 1 {
+                "one segment".to_owned()
+            } else {
+                format!("mean of {} segments", s.segments)
+            },
             s.segment_length
         ),
     }
@@ -246,7 +250,7 @@ fn envelope_spectrum(parts: &Parts) -> Spectrum {
         amplitude: e.spectrum.amplitude.clone(),
         unit: "m/s^2".into(),
         note: format!(
-            "envelope of the measured acceleration between {:.1} and {:.1} kHz",
+            "Envelope of the measured acceleration between {:.1} and {:.1} kHz.",
             1e-3 * band.low,
             1e-3 * band.high
         ),
