@@ -207,7 +207,7 @@ fn read_outline(bytes: &[u8], image: &ImageFile) -> Result<crate::Polygons, Dama
         center: image.center,
         smooth: match image.edges {
             scenario::ImageEdges::SubPixel => crate::Smooth::SubPixel {
-                blur_px: image.blur_px,
+                blur_px: image.blur_px.unwrap_or(0.0),
             },
             scenario::ImageEdges::PixelEdges => crate::Smooth::PixelEdges,
         },
@@ -251,7 +251,7 @@ fn scan_options(scan: &ScanFile) -> DepthMapOptions {
             scenario::ScanUnit::Um => Unit::Um,
             scenario::ScanUnit::Mm => Unit::Mm,
             scenario::ScanUnit::M => Unit::M,
-            scenario::ScanUnit::Counts => Unit::NmPerCount(scan.nm_per_count),
+            scenario::ScanUnit::Counts => Unit::NmPerCount(scan.nm_per_count.unwrap_or(f64::NAN)),
         },
         height_positive_up: scan.height_positive_up,
         missing: scan.missing,
@@ -269,7 +269,9 @@ fn scan_options(scan: &ScanFile) -> DepthMapOptions {
         zero: match scan.zero {
             scenario::ScanZero::AsIs => Zero::AsIs,
             scenario::ScanZero::RimMedian => Zero::RimMedian,
-            scenario::ScanZero::Percentile => Zero::Percentile(scan.zero_percentile),
+            scenario::ScanZero::Percentile => {
+                Zero::Percentile(scan.zero_percentile.unwrap_or(f64::NAN))
+            }
         },
         first_row: match scan.first_row {
             scenario::FirstRow::Top => FirstRow::Top,

@@ -341,8 +341,8 @@ pub struct ImageFile {
     pub center: bool,
     /// How outlines run.
     pub edges: ImageEdges,
-    /// Standard deviation of the blur before, pixels; without meaning along pixel edges.
-    pub blur_px: f64,
+    /// Standard deviation of the blur before, pixels; none along pixel edges.
+    pub blur_px: Option<f64>,
     /// Spots and holes smaller than this are dropped, mm^2.
     pub speck_mm2: f64,
 }
@@ -427,7 +427,7 @@ pub struct ScanFile {
     /// What the numbers count.
     pub unit: ScanUnit,
     /// nm, where `unit` is `Counts`.
-    pub nm_per_count: f64,
+    pub nm_per_count: Option<f64>,
     /// Heights out of the material; else depths into it.
     pub height_positive_up: bool,
     /// A number that marks missing points, beside empty cells and NaN.
@@ -441,7 +441,7 @@ pub struct ScanFile {
     /// Depth 0.
     pub zero: ScanZero,
     /// Percent, where `zero` is `Percentile`.
-    pub zero_percentile: f64,
+    pub zero_percentile: Option<f64>,
     /// First row of the file.
     pub first_row: FirstRow,
     /// Where the roller passes to.

@@ -38,13 +38,15 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
         stated(ImageEdges::SubPixel, "a photo"),
         &mut i.edges,
     );
+    let mut blur_px = i.blur_px.unwrap_or(f64::NAN);
     let blur = key("blur_px", "standard deviation of the blur before, pixels");
     k.key_where(
         blur.from(0.0).to(20.0).unit("px"),
         (i.edges == ImageEdges::SubPixel, "edges = \"sub-pixel\""),
         assumed(1.5, "calms a photo's noise"),
-        &mut i.blur_px,
+        &mut blur_px,
     );
+    i.blur_px = (i.edges == ImageEdges::SubPixel).then_some(blur_px);
     k.key(
         SPECK,
         assumed(0.02, "dirt and grinding marks"),
@@ -76,6 +78,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
         stated(ScanUnit::Um, "micrometres"),
         &mut s.unit,
     );
+    let mut nm_per_count = s.nm_per_count.unwrap_or(f64::NAN);
     k.only_where(
         key("nm_per_count", "height of one count")
             .above(0.0)
@@ -83,8 +86,9 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
             .unit("nm"),
         wanted && s.unit == ScanUnit::Counts,
         "unit = \"counts\"",
-        &mut s.nm_per_count,
+        &mut nm_per_count,
     );
+    s.nm_per_count = (wanted && s.unit == ScanUnit::Counts).then_some(nm_per_count);
     k.key_where(
         key("height_positive_up", "heights; false: depths"),
         filed,
@@ -121,6 +125,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
         assumed(ScanZero::RimMedian, "the rim is undamaged"),
         &mut s.zero,
     );
+    let mut zero_percentile = s.zero_percentile.unwrap_or(f64::NAN);
     k.only_where(
         key("zero_percentile", "percent of the points")
             .from(0.0)
@@ -128,8 +133,9 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
             .unit("%"),
         wanted && s.zero == ScanZero::Percentile,
         "zero = \"percentile\"",
-        &mut s.zero_percentile,
+        &mut zero_percentile,
     );
+    s.zero_percentile = (wanted && s.zero == ScanZero::Percentile).then_some(zero_percentile);
     k.key_where(
         key("first_row", "where the file's first row lies"),
         filed,
