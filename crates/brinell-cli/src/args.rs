@@ -304,7 +304,7 @@ pub(crate) struct FitArgs {
     /// Samples of each segment, more than the order
     #[arg(long, value_name = "N", default_value_t = 113)]
     pub(crate) samples: usize,
-    /// Print the fit as damage: a [[defects]] entry with a dense profile
+    /// Print the fit as damage: an entry of defects with a dense profile
     #[arg(long)]
     pub(crate) toml: bool,
 }
