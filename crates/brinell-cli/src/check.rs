@@ -40,25 +40,9 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             short(60.0 * d.top_speed / TAU, 5)
         ),
     };
-    let k = &d.kinematics;
     say!("");
     say!("Frequencies in pure rolling, {at}");
-    for (name, value, meaning) in [
-        ("shaft", d.top_speed / TAU, "turns of the inner ring"),
-        ("FTF", k.ftf, "turns of the cage"),
-        (
-            "BPFO",
-            k.bpfo,
-            "rollers passing a point of the outer raceway",
-        ),
-        (
-            "BPFI",
-            k.bpfi,
-            "rollers passing a point of the inner raceway",
-        ),
-        ("BSF", k.bsf, "turns of a roller relative to the cage"),
-        ("2 BSF", 2.0 * k.bsf, "strikes of damage on a roller"),
-    ] {
+    for (name, value, meaning) in d.kinematics.table(d.top_speed / TAU) {
         say!("  {name:<7} {value:>10.3} Hz   {meaning}");
     }
     say!("");

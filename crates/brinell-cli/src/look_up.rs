@@ -95,23 +95,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         )));
     }
     let w = rpm / 60.0 * TAU;
-    let k = Kinematics::pure_rolling(&geometry, w);
-    let rows = [
-        ("shaft", rpm.abs() / 60.0, "turns of the inner ring"),
-        ("FTF", k.ftf, "turns of the cage"),
-        (
-            "BPFO",
-            k.bpfo,
-            "rollers passing a point of the outer raceway",
-        ),
-        (
-            "BPFI",
-            k.bpfi,
-            "rollers passing a point of the inner raceway",
-        ),
-        ("BSF", k.bsf, "turns of a roller relative to the cage"),
-        ("2 BSF", 2.0 * k.bsf, "strikes of damage on a roller"),
-    ];
+    let rows = Kinematics::pure_rolling(&geometry, w).table(rpm.abs() / 60.0);
     if args.json {
         let values: serde_json::Map<String, serde_json::Value> = rows
             .iter()

@@ -81,6 +81,26 @@ impl Kinematics {
         }
     }
 
+    /// Name, value (Hz) and meaning of every frequency, that of the shaft (Hz) first.
+    pub fn table(&self, shaft: f64) -> [(&'static str, f64, &'static str); 6] {
+        [
+            ("shaft", shaft, "turns of the inner ring"),
+            ("FTF", self.ftf, "turns of the cage"),
+            (
+                "BPFO",
+                self.bpfo,
+                "rollers passing a point of the outer raceway",
+            ),
+            (
+                "BPFI",
+                self.bpfi,
+                "rollers passing a point of the inner raceway",
+            ),
+            ("BSF", self.bsf, "turns of a roller relative to the cage"),
+            ("2 BSF", 2.0 * self.bsf, "strikes of damage on a roller"),
+        ]
+    }
+
     /// Name and value (Hz) of the frequency at which damage on a surface strikes.
     pub fn struck_by(&self, surface: Surface) -> (&'static str, f64) {
         match surface {
