@@ -99,20 +99,23 @@ impl Guide {
     /// Force and moment for the cage's offset (m) from its guiding ring, its speed and the ring's (rad/s): Ocvirk's
     /// short bearing. Valid to an eccentricity ratio of 0.95, held there beyond.
     pub fn force(&self, offset: [f64; 2], cage_speed: f64, ring_speed: f64) -> GuideForce {
-        let e = offset[0].hypot(offset[1]);
+        // Offsets are far from where squares overflow.
+        let e = (offset[0] * offset[0] + offset[1] * offset[1]).sqrt();
         let eps = (e / self.clearance).min(MAX_ECCENTRICITY);
         let n = if e > 0.0 {
-            [offset[0] / e, offset[1] / e]
+            let per_e = 1.0 / e;
+            [offset[0] * per_e, offset[1] * per_e]
         } else {
             [1.0, 0.0]
         };
         let entrainment = self.radius * (cage_speed + ring_speed);
         let shear = self.radius * (cage_speed - ring_speed);
         let gap = 1.0 - eps * eps;
+        let root = gap.sqrt();
         let scale = self.viscosity * self.width.powi(3) / self.clearance.powi(2);
         let normal = -scale * entrainment.abs() * eps * eps / (gap * gap);
-        let tangential = 0.25 * PI * scale * entrainment * eps / (gap * gap.sqrt());
-        let land = -self.land_stiffness * self.land_penetration(offset);
+        let tangential = 0.25 * PI * scale * entrainment * eps / (gap * root);
+        let land = -self.land_stiffness * (e - self.clearance).max(0.0);
         GuideForce {
             film: [
                 normal * n[0] - tangential * n[1],
@@ -120,7 +123,7 @@ impl Guide {
             ],
             land: [land * n[0], land * n[1]],
             moment: -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width
-                / (self.clearance * gap.sqrt()),
+                / (self.clearance * root),
         }
     }
 

@@ -33,7 +33,7 @@ impl Problem {
         Self {
             speed: model.rotation.at(0.0).0,
             ring_angle: 0.0,
-            orbit: model.pocket_angle.clone(),
+            orbit: model.pocket_angle.to_vec(),
             spin: vec![0.0; model.layout.slots],
             load_share: 1.0,
             fix_inner: false,

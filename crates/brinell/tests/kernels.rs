@@ -56,8 +56,8 @@ fn xval_kernels_agree_to_round_off() {
         let mut there = 0;
         for kernel in Kernel::ALL.into_iter().filter(|k| k.is_there()) {
             there += 1;
-            let mut plain = Workspace::with_kernel(&model.layout, Kernel::Portable);
-            let mut other = Workspace::with_kernel(&model.layout, kernel);
+            let mut plain = Workspace::with_kernel(&model, Kernel::Portable);
+            let mut other = Workspace::with_kernel(&model, kernel);
             assert_eq!(other.kernel(), kernel);
             let mut worst: f64 = 0.0;
             for (t, y) in states(&s) {
@@ -93,7 +93,7 @@ fn prop_a_workspace_never_holds_a_kernel_that_is_not_there() {
     s.cage.guidance = Guidance::Rollers;
     let simulation = Simulation::new(&s).unwrap();
     for kernel in Kernel::ALL {
-        let ws = Workspace::with_kernel(&simulation.model().layout, kernel);
+        let ws = Workspace::with_kernel(simulation.model(), kernel);
         assert!(ws.kernel().is_there());
     }
     assert!(Kernel::fastest().is_there());

@@ -174,12 +174,9 @@ impl Defect {
         })
     }
 
-    /// Whether a roller at `angles` may stand on the damage: false only where it does not.
-    #[inline]
-    pub fn may_cover(&self, angles: &Angles, side: Side) -> bool {
-        let (first, last) = self.windows[side as usize];
-        let u = self.local_angle(angles, side);
-        u >= first && u <= last
+    /// Local angles (rad) beyond which the defect never meets a roller on `side`.
+    pub fn window(&self, side: Side) -> (f64, f64) {
+        self.windows[side as usize]
     }
 
     /// L_s at the arc coordinate s (m), clamped to the roller; 0 off the damage.

@@ -4,11 +4,13 @@
 //! and AVX-512. Functions over lanes do not branch on a lane's value. The implementations differ in round-off alone: the
 //! portable one rounds every product, the others fuse products with sums.
 
+mod column;
 mod functions;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use column::Column;
 pub use functions::{exp, sin_cos, tanh, ten_ninths};
 pub use portable::Portable;
 #[cfg(target_arch = "x86_64")]
@@ -38,14 +40,16 @@ pub trait Lanes:
     fn array(self) -> [f64; WIDTH];
     /// self * b + c, rounded once where the processor can.
     fn times_plus(self, b: Self, c: Self) -> Self;
+    /// c - self * b, rounded once where the processor can.
+    fn minus_times(self, b: Self, c: Self) -> Self;
     /// |self|.
     fn abs(self) -> Self;
     /// |self| with the sign of `sign`.
     fn with_sign(self, sign: Self) -> Self;
     /// `x` where self > other, else `y`.
     fn if_above(self, other: Self, x: Self, y: Self) -> Self;
-    /// Whether any lane is above 0.
-    fn any_positive(self) -> bool;
+    /// The lanes above `other`, a bit each.
+    fn above(self, other: Self) -> u8;
     /// Bitwise and with a constant.
     fn and_bits(self, bits: u64) -> Self;
     /// Bitwise or with a constant.
@@ -83,11 +87,16 @@ pub trait Lanes:
         to[..WIDTH].copy_from_slice(&self.array());
     }
 
-    /// max(self, 0), and 0 for what is not a number.
+    /// Whether any lane is above 0.
     #[inline(always)]
-    fn positive_part(self) -> Self {
-        self.if_above(Self::zero(), self, Self::zero())
+    fn any_positive(self) -> bool {
+        self.above(Self::zero()) != 0
     }
+
+    /// max(self, 0), and 0 for what is not a number.
+    fn positive_part(self) -> Self;
+    /// min(self, other), and `other` for what is not a number.
+    fn at_most(self, other: Self) -> Self;
 
     /// self with the sign of `other` multiplied in, and 0 where `other` is 0.
     #[inline(always)]

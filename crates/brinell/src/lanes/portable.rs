@@ -117,6 +117,21 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        (-self).times_plus(b, c)
+    }
+
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        self.map(|x| if x > 0.0 { x } else { 0.0 })
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.map(f64::abs)
     }
@@ -140,12 +155,12 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn any_positive(self) -> bool {
-        let mut any = false;
-        for x in self.0 {
-            any |= x > 0.0;
+    fn above(self, other: Self) -> u8 {
+        let mut bits = 0;
+        for (lane, (x, y)) in self.0.into_iter().zip(other.0).enumerate() {
+            bits |= u8::from(x > y) << lane;
         }
-        any
+        bits
     }
 
     #[inline(always)]

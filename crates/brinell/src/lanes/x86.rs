@@ -39,6 +39,18 @@ macro_rules! operators {
     };
 }
 
+/// Sum in the order of [`Lanes::sum`].
+///
+/// # Safety
+/// As for the module.
+#[inline(always)]
+unsafe fn sum_of_four(x: __m256d) -> f64 {
+    unsafe {
+        let two = _mm_add_pd(_mm256_castpd256_pd128(x), _mm256_extractf128_pd::<1>(x));
+        _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)))
+    }
+}
+
 /// Eight numbers in one register of AVX-512.
 #[derive(Debug, Clone, Copy)]
 pub struct Avx512(__m512d);
@@ -102,6 +114,30 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        unsafe { Self(_mm512_fnmadd_pd(self.0, b.0, c.0)) }
+    }
+
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        unsafe { Self(_mm512_max_pd(self.0, _mm512_setzero_pd())) }
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        unsafe { Self(_mm512_min_pd(self.0, other.0)) }
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        unsafe {
+            let low = _mm512_castpd512_pd256(self.0);
+            let high = _mm512_extractf64x4_pd::<1>(self.0);
+            sum_of_four(_mm256_add_pd(low, high))
+        }
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.and_bits(!(1 << 63))
     }
@@ -120,8 +156,8 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn any_positive(self) -> bool {
-        unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, _mm512_setzero_pd()) != 0 }
+    fn above(self, other: Self) -> u8 {
+        unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0) }
     }
 
     #[inline(always)]
@@ -251,6 +287,39 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_fnmadd_pd(self.0, b.0, c.0),
+                _mm256_fnmadd_pd(self.1, b.1, c.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        unsafe {
+            let zero = _mm256_setzero_pd();
+            Self(_mm256_max_pd(self.0, zero), _mm256_max_pd(self.1, zero))
+        }
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_min_pd(self.0, other.0),
+                _mm256_min_pd(self.1, other.1),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        unsafe { sum_of_four(_mm256_add_pd(self.0, self.1)) }
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.and_bits(!(1 << 63))
     }
@@ -273,12 +342,11 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn any_positive(self) -> bool {
+    fn above(self, other: Self) -> u8 {
         unsafe {
-            let zero = _mm256_setzero_pd();
-            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, zero);
-            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, zero);
-            _mm256_movemask_pd(_mm256_or_pd(first, second)) != 0
+            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
+            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, other.1);
+            (_mm256_movemask_pd(first) | (_mm256_movemask_pd(second) << 4)) as u8
         }
     }
 

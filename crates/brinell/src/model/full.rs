@@ -1,84 +1,98 @@
 //! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
 //!
-//! Rollers go eight at a time: one pass for the normal contacts of healthy raceways, one over the damage, which replaces the elastic
-//! force of the few contacts that stand on it, and one for friction, pockets and what the bodies feel. Levers are those of
-//! the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. Padded slots carry
-//! no force and never move.
+//! Rollers go eight at a time, in three passes: how each contact moves and what may stand on damage; the elementary functions; and
+//! forces, damage, pockets and what the bodies feel. Levers are those of the centred bearing, as in the paper; the energy that this
+//! leaves over is booked as [`Power::lever`]. Padded slots never close a contact and never move.
 
+use super::workspace::Contacts;
 use super::{Kernel, Model, Power, Workspace};
-use crate::defect::{Angles, SIDES, acting_given, edge_gradient};
+use crate::defect::{Angles, SIDES, Side, acting_given, edge_gradient};
 use crate::elementary::Exponent;
 use crate::lanes::{self, Lanes, Portable, WIDTH};
 use crate::scenario::Guidance;
 
-/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
-pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names. Where `keep`, the forces stay in the workspace;
+/// else the flows of energy alone.
+pub(super) fn derivative(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+    keep: bool,
+) {
+    // The push of slopes is found from the forces kept.
+    if keep || model.rules.is_conservative() {
+        dispatch::<true>(model, t, y, dy, ws);
+    } else {
+        dispatch::<false>(model, t, y, dy, ws);
+    }
+}
+
+fn dispatch<const KEEP: bool>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
     match ws.kernel() {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a workspace holds a kernel only where the processor has its instructions.
-        Kernel::Avx512 => unsafe { with_avx512(model, t, y, dy, ws) },
+        Kernel::Avx512 => unsafe { with_avx512::<KEEP>(model, t, y, dy, ws) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
-        _ => equations::<Portable>(model, t, y, dy, ws),
+        Kernel::Avx2 => unsafe { with_avx2::<KEEP>(model, t, y, dy, ws) },
+        _ => equations::<Portable, KEEP>(model, t, y, dy, ws),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<lanes::Avx512>(model, t, y, dy, ws);
+fn with_avx512<const KEEP: bool>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
+    equations::<lanes::Avx512, KEEP>(model, t, y, dy, ws);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<lanes::Avx2>(model, t, y, dy, ws);
-}
-
-/// x and y of the two rings and their rates, in every lane.
-#[derive(Clone, Copy)]
-struct Rings<L> {
-    xi: [L; 2],
-    vi: [L; 2],
-    xo: [L; 2],
-    vo: [L; 2],
+fn with_avx2<const KEEP: bool>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
+    equations::<lanes::Avx2, KEEP>(model, t, y, dy, ws);
 }
 
 #[inline(always)]
-fn pair<L: Lanes>(from: &[f64]) -> [L; 2] {
-    [L::splat(from[0]), L::splat(from[1])]
-}
-
-/// u along e_r.
-#[inline(always)]
-fn along_r<L: Lanes>(cos: L, sin: L, u: &[L; 2]) -> L {
-    cos.times_plus(u[0], sin * u[1])
-}
-
-/// u along e_t.
-#[inline(always)]
-fn along_t<L: Lanes>(cos: L, sin: L, u: &[L; 2]) -> L {
-    cos.times_plus(u[1], -(sin * u[0]))
-}
-
-#[inline(always)]
-fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+fn equations<L: Lanes, const KEEP: bool>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
     let l = &model.layout;
     let dof = l.dof();
     let (q, v) = y.split_at(dof);
     let (dq, a) = dy.split_at_mut(dof);
     dq.copy_from_slice(v);
     let (w, ring_angle) = model.rotation.at(t);
-    let rings = Rings {
-        xi: pair(&q[l.inner()..]),
-        vi: pair(&v[l.inner()..]),
-        xo: pair(&q[l.outer()..]),
-        vo: pair(&v[l.outer()..]),
-    };
-    normal_contacts::<L>(model, q, v, &rings, ws);
-    damaged_contacts(model, q, ring_angle, ws);
-    let mut sums = rollers::<L>(model, q, v, a, w, &rings, ws);
+    for (exposure, directions) in model.exposure.iter().zip(&mut ws.directions) {
+        exposure.turn(ring_angle, directions);
+    }
+    // Passes of their own, because these functions are long chains of operations that wait for one another: with little in between,
+    // the processor works on several groups at once.
+    motion::<L>(model, q, v, w, ws);
+    functions::<L>(model, ws);
+    let mut sums = rollers::<L, KEEP>(model, q, v, a, (w, ring_angle), ws);
     if model.rules.is_conservative() && !model.defects.is_empty() {
         edge_reaction(model, q, a, (w, ring_angle), ws, &mut sums.power);
     }
@@ -87,83 +101,139 @@ fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mu
     ws.power = sums.power;
 }
 
-/// Normal contacts of healthy raceways, section 2.
+type Group = [f64; WIDTH];
+
+/// Column `k` of a structure of arrays, of `groups` groups each.
 #[inline(always)]
-fn normal_contacts<L: Lanes>(
-    model: &Model,
-    q: &[f64],
-    v: &[f64],
-    rings: &Rings<L>,
-    ws: &mut Workspace,
-) {
-    let l = &model.layout;
-    let g = &model.geometry;
-    for at in (0..l.slots).step_by(WIDTH) {
-        let (sin, cos) = lanes::sin_cos(L::load(&q[l.theta() + at..]));
-        sin.store(&mut ws.sin[at..]);
-        cos.store(&mut ws.cos[at..]);
-        let r = L::load(&q[l.r() + at..]);
-        let dr = L::load(&v[l.r() + at..]);
-        let dtheta = L::load(&v[l.theta() + at..]);
-        let radial = |u| along_r(cos, sin, u);
-        let tangential = |u| along_t(cos, sin, u);
-        let delta = [
-            radial(&rings.xi) - r - L::splat(g.clearance),
-            r - radial(&rings.xo) - L::splat(g.outer_gap),
-        ];
-        let rate = [
-            dtheta.times_plus(tangential(&rings.xi), radial(&rings.vi)) - dr,
-            dr - dtheta.times_plus(tangential(&rings.xo), radial(&rings.vo)),
-        ];
-        for side in SIDES {
-            let k = side as usize;
-            let contacts = &mut ws.contacts[k];
-            let power = match model.contact(side).exponent {
-                Exponent::TenNinths => lanes::ten_ninths(delta[k]),
-                Exponent::One => delta[k].positive_part(),
-                exponent @ Exponent::Other(_) => L::new(delta[k].array().map(|x| exponent.of(x))),
-            };
-            delta[k].store(&mut contacts.approach[at..]);
-            rate[k].store(&mut contacts.approach_rate[at..]);
-            power.store(&mut contacts.power[at..]);
-            (L::splat(model.contact(side).stiffness) * power).store(&mut contacts.elastic[at..]);
-        }
+fn column(from: &[f64], k: usize, groups: usize) -> &[Group] {
+    &from.as_chunks::<WIDTH>().0[k * groups..(k + 1) * groups]
+}
+
+/// r, theta and phi.
+#[inline(always)]
+fn columns(from: &[f64], groups: usize) -> [&[Group]; 3] {
+    [
+        column(from, 0, groups),
+        column(from, 1, groups),
+        column(from, 2, groups),
+    ]
+}
+
+/// Three columns to write to.
+#[inline(always)]
+fn columns_mut(from: &mut [f64], groups: usize) -> [&mut [Group]; 3] {
+    let (all, _) = from[..3 * groups * WIDTH].as_chunks_mut::<WIDTH>();
+    let (first, rest) = all.split_at_mut(groups);
+    let (second, third) = rest.split_at_mut(groups);
+    [first, second, third]
+}
+
+#[inline(always)]
+fn groups(from: &[f64]) -> &[Group] {
+    from.as_chunks::<WIDTH>().0
+}
+
+#[inline(always)]
+fn groups_mut(from: &mut [f64]) -> &mut [Group] {
+    from.as_chunks_mut::<WIDTH>().0
+}
+
+#[inline(always)]
+fn put<L: Lanes>(x: L, to: &mut [f64], group: usize) {
+    to.as_chunks_mut::<WIDTH>().0[group] = x.array();
+}
+
+/// A vector in the plane, the same in every lane.
+type Plane<L> = [L; 2];
+
+#[inline(always)]
+fn pair<L: Lanes>(from: &[f64]) -> Plane<L> {
+    [L::splat(from[0]), L::splat(from[1])]
+}
+
+/// u along e_r and along e_t.
+#[inline(always)]
+fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
+    (
+        cos.times_plus(u[0], sin * u[1]),
+        sin.minus_times(u[0], cos * u[1]),
+    )
+}
+
+#[inline(always)]
+fn at<L: Lanes>(from: &[f64], group: usize) -> L {
+    L::new(from.as_chunks::<WIDTH>().0[group])
+}
+
+/// u along e_t.
+#[inline(always)]
+fn along_t<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> L {
+    sin.minus_times(u[0], cos * u[1])
+}
+
+/// `[delta]_+^n`.
+#[inline(always)]
+fn power<L: Lanes>(exponent: Exponent, delta: L) -> L {
+    match exponent {
+        Exponent::TenNinths => lanes::ten_ninths(delta),
+        Exponent::One => delta.positive_part(),
+        Exponent::Other(_) => L::new(delta.array().map(|x| exponent.of(x))),
     }
 }
 
-/// Elastic forces of the contacts that stand on damage, section 3.
+/// Elastic forces of a group's contacts that stand on damage, section 3, in place of those of healthy raceways.
 #[inline(always)]
-fn damaged_contacts(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+fn damaged_contacts<L: Lanes>(
+    model: &Model,
+    (side, group, exposed): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    elastic: L,
+    contacts: &mut Contacts,
+    keep: bool,
+) -> L {
+    let mut forces = elastic.array();
+    on_damage(
+        model,
+        (side, group, exposed),
+        (q, ring_angle),
+        &mut forces,
+        contacts,
+        keep,
+    );
+    L::new(forces)
+}
+
+#[inline(never)]
+fn on_damage(
+    model: &Model,
+    (side, group, mut exposed): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    forces: &mut Group,
+    contacts: &mut Contacts,
+    keep: bool,
+) {
     let l = &model.layout;
-    for side in SIDES {
-        let contacts = &mut ws.contacts[side as usize];
-        let law = model.contact(side);
-        for &slot in &model.exposed[side as usize] {
-            let angles = Angles {
-                orbit: q[l.theta() + slot],
-                spin: q[l.phi() + slot],
-                ring: ring_angle,
-            };
-            contacts.on_damage[slot] = false;
-            contacts.damaged_length[slot] = 0.0;
-            if !model
-                .defects_of(slot, side)
-                .any(|d| d.may_cover(&angles, side))
-            {
-                continue;
-            }
-            let delta = contacts.approach[slot];
-            let found = acting_given(
-                model.defects_of(slot, side),
-                law,
-                &angles,
-                side,
-                delta,
-                contacts.power[slot],
-            );
-            if let Some(acting) = found {
+    while exposed != 0 {
+        let lane = exposed.trailing_zeros() as usize;
+        exposed &= exposed - 1;
+        let slot = group * WIDTH + lane;
+        let angles = Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: ring_angle,
+        };
+        let acting = acting_given(
+            model.defects_of(slot, side),
+            model.contact(side),
+            &angles,
+            side,
+            contacts.approach[slot],
+            contacts.power[slot],
+        );
+        if let Some(acting) = acting {
+            forces[lane] = acting.elastic;
+            if keep {
                 contacts.on_damage[slot] = true;
-                contacts.elastic[slot] = acting.elastic;
                 contacts.damaged_length[slot] = acting.floor.damaged_length;
             }
         }
@@ -184,19 +254,19 @@ fn edge_reaction(
     power: &mut Power,
 ) {
     let l = &model.layout;
-    for slot in 0..l.rollers() {
-        let angles = Angles {
-            orbit: q[l.theta() + slot],
-            spin: q[l.phi() + slot],
-            ring: ring_angle,
-        };
-        let arm = model.geometry.pitch_radius + q[l.r() + slot];
-        ws.edge_force[slot] = 0.0;
-        for side in SIDES {
-            let contacts = &ws.contacts[side as usize];
+    ws.edge_force.fill(0.0);
+    for side in SIDES {
+        let contacts = &ws.contacts[side as usize];
+        for &slot in &model.exposure[side as usize].slots {
             if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
                 continue;
             }
+            let angles = Angles {
+                orbit: q[l.theta() + slot],
+                spin: q[l.phi() + slot],
+                ring: ring_angle,
+            };
+            let arm = model.geometry.pitch_radius + q[l.r() + slot];
             let delta = contacts.approach[slot];
             let defects = model.defects_of(slot, side);
             let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
@@ -215,203 +285,317 @@ struct Sums {
     power: Power,
 }
 
-/// Cage quantities of each lane: rows are interleaved, so that their pattern over the slots repeats.
-struct Cages<'a> {
-    pattern: &'a mut [[[f64; WIDTH]; CAGE]],
+/// x, y and theta of each lane's cage, and their rates.
+#[derive(Clone, Copy)]
+struct Cages<L> {
+    x: Plane<L>,
+    theta: L,
+    v: Plane<L>,
+    dtheta: L,
 }
 
-/// x, y, theta and their rates, then the sums of the reactions: x, y, moment.
-pub(super) const CAGE: usize = 9;
-
-impl Cages<'_> {
+impl<L: Lanes> Cages<L> {
+    /// `rows` has a group for each row: 1 in the lanes of its rollers, else 0.
     #[inline(always)]
-    fn spread(&mut self, model: &Model, q: &[f64], v: &[f64]) {
+    fn spread(model: &Model, q: &[f64], v: &[f64], rows: &[Group]) -> Self {
         let l = &model.layout;
-        for (group, cage) in self.pattern.iter_mut().enumerate() {
-            for lane in 0..WIDTH {
-                let at = l.cage(l.row(group * WIDTH + lane));
-                for k in 0..3 {
-                    cage[k][lane] = q[at + k];
-                    cage[3 + k][lane] = v[at + k];
-                }
+        let mut all = [L::zero(); 6];
+        for (row, lanes) in rows.iter().enumerate() {
+            let lanes = L::new(*lanes);
+            let at = l.cage(row);
+            for k in 0..3 {
+                all[k] = lanes.times_plus(L::splat(q[at + k]), all[k]);
+                all[3 + k] = lanes.times_plus(L::splat(v[at + k]), all[3 + k]);
             }
-            cage[6..].fill([0.0; WIDTH]);
         }
-    }
-
-    #[inline(always)]
-    fn gather(&self, model: &Model, a: &mut [f64]) {
-        let l = &model.layout;
-        a[l.cage(0)..l.cage(l.rows)].fill(0.0);
-        for (group, cage) in self.pattern.iter().enumerate() {
-            for lane in 0..WIDTH {
-                let at = l.cage(l.row(group * WIDTH + lane));
-                for k in 0..3 {
-                    a[at + k] += cage[6 + k][lane];
-                }
-            }
+        let [x, y, theta, dx, dy, dtheta] = all;
+        Self {
+            x: [x, y],
+            theta,
+            v: [dx, dy],
+            dtheta,
         }
     }
 }
 
-/// Friction (section 4), pockets (section 5), drag (section 7) and the rollers' own motion (Eq. 51).
+/// Sums of power over the rollers.
+#[derive(Clone, Copy)]
+struct Flows<L> {
+    contact: L,
+    friction: L,
+    drive: L,
+    pocket: L,
+    pocket_friction: L,
+    drag: L,
+    lever: L,
+}
+
+/// How each contact moves: approach, its rate and slip. Finds what may stand on damage.
 #[inline(always)]
-fn rollers<L: Lanes>(
+fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
+    let l = &model.layout;
+    let g = &model.geometry;
+    let groups = l.slots / WIDTH;
+    let [q_r, q_theta, _] = columns(q, groups);
+    let [v_r, v_theta, v_phi] = columns(v, groups);
+    let (xi, vi) = (pair(&q[l.inner()..]), pair(&v[l.inner()..]));
+    let (xo, vo) = (pair(&q[l.outer()..]), pair(&v[l.outer()..]));
+    let pitch = L::splat(g.pitch_radius);
+    let radius = L::splat(g.roller_radius);
+    let surface = L::splat(w * g.inner_radius);
+    let gaps = [
+        column(&model.gaps[0], 0, groups),
+        column(&model.gaps[1], 0, groups),
+    ];
+    for group in 0..groups {
+        let r = L::new(q_r[group]);
+        let dr = L::new(v_r[group]);
+        let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
+        let axes = lanes::sin_cos(L::new(q_theta[group]));
+        let (xi_r, xi_t) = polar(axes, &xi);
+        let (vi_r, vi_t) = polar(axes, &vi);
+        let (xo_r, xo_t) = polar(axes, &xo);
+        let (vo_r, vo_t) = polar(axes, &vo);
+        let delta = [
+            xi_r - r - L::new(gaps[0][group]),
+            r - xo_r - L::new(gaps[1][group]),
+        ];
+        let rate = [
+            dtheta.times_plus(xi_t, vi_r) - dr,
+            dtheta.minus_times(xo_t, dr - vo_r),
+        ];
+        let slip = [
+            radius.times_plus(dphi, pitch.minus_times(dtheta, surface + vi_t)),
+            radius.minus_times(dphi, pitch.minus_times(dtheta, vo_t)),
+        ];
+        put(axes.0, &mut ws.sin, group);
+        put(axes.1, &mut ws.cos, group);
+        for side in SIDES {
+            let k = side as usize;
+            let contacts = &mut ws.contacts[k];
+            put(delta[k], &mut contacts.approach, group);
+            put(rate[k], &mut contacts.approach_rate, group);
+            put(slip[k], &mut contacts.slip, group);
+            ws.exposed[k][group] = model.exposure[k].lanes(group, axes, &ws.directions[k]);
+        }
+    }
+}
+
+/// What each contact asks of elementary functions: `[delta]_+^n`, and tanh of the slip in place of the friction.
+#[inline(always)]
+fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
+    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    for side in SIDES {
+        let exponent = model.contact(side).exponent;
+        let contacts = &mut ws.contacts[side as usize];
+        let approach = groups(&contacts.approach);
+        let slip = &groups(&contacts.slip)[..approach.len()];
+        let power = &mut groups_mut(&mut contacts.power)[..approach.len()];
+        let tanh = &mut groups_mut(&mut contacts.friction)[..approach.len()];
+        let exposed = &ws.exposed[side as usize][..approach.len()];
+        let near = &mut ws.near[side as usize][..approach.len()];
+        for group in 0..approach.len() {
+            let delta = L::new(approach[group]);
+            // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
+            near[group] = exposed[group] != 0 || delta.any_positive();
+            if near[group] {
+                power[group] = self::power(exponent, delta).array();
+                tanh[group] = lanes::tanh(L::new(slip[group]) * per_slip).array();
+            } else {
+                power[group] = [0.0; WIDTH];
+            }
+        }
+    }
+}
+
+/// Normal forces (section 2) and damage (section 3), friction (section 4), pockets (section 5), drag (section 7) and the rollers' own
+/// motion (Eq. 51).
+#[inline(always)]
+fn rollers<L: Lanes, const KEEP: bool>(
     model: &Model,
     q: &[f64],
     v: &[f64],
     a: &mut [f64],
-    w: f64,
-    rings: &Rings<L>,
+    (w, ring_angle): (f64, f64),
     ws: &mut Workspace,
 ) -> Sums {
     let l = &model.layout;
     let g = &model.geometry;
     let m = &model.inertia;
-    let mut pattern = std::mem::take(&mut ws.cage_lanes);
-    let mut cages = Cages {
-        pattern: &mut pattern,
-    };
-    cages.spread(model, q, v);
+    let groups = l.slots / WIDTH;
+    let [q_r, q_theta, _] = columns(q, groups);
+    let [v_r, v_theta, v_phi] = columns(v, groups);
+    let live = column(&model.live, 0, groups);
+    let pocket_angle = column(&model.pocket_angle, 0, groups);
+    let pocket_gap = column(&model.pocket_gap, 0, groups);
+    let heavy = model.gravity != [0.0; 2];
+    let (xi, xo) = (pair(&q[l.inner()..]), pair(&q[l.outer()..]));
+    let cage_at = l.cage(0);
+    a[cage_at..cage_at + 3 * l.rows].fill(0.0);
+    let (a_rollers, a_bodies) = a.split_at_mut(cage_at);
+    let [out_r, out_theta, out_phi] = columns_mut(a_rollers, groups);
+
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let surface = L::splat(w * g.inner_radius);
     let gravity = pair(&model.gravity);
-    let damping = [model.inner_contact.damping, model.outer_contact.damping].map(L::splat);
+    let damping = [
+        L::splat(model.inner_contact.damping),
+        L::splat(model.outer_contact.damping),
+    ];
     let mu = L::splat(model.friction.coefficient);
-    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    let per_mass = L::splat(1.0 / m.roller);
+    let per_spin = L::splat(1.0 / m.roller_spin);
+    let drag_factor = L::splat(model.drag);
+    let one = L::splat(1.0);
+
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
-    let [mut p_contact, mut p_friction, mut p_drive, mut p_pocket] = [L::zero(); 4];
-    let [mut p_rub, mut p_drag, mut p_lever] = [L::zero(); 3];
-    for at in (0..l.slots).step_by(WIDTH) {
-        let live = L::load(&model.live[at..]);
-        let (cos, sin) = (L::load(&ws.cos[at..]), L::load(&ws.sin[at..]));
-        let radial = |u: &[L; 2]| along_r(cos, sin, u);
-        let tangential = |u: &[L; 2]| along_t(cos, sin, u);
-        let (r, theta) = (L::load(&q[l.r() + at..]), L::load(&q[l.theta() + at..]));
-        let dr = L::load(&v[l.r() + at..]);
-        let (dtheta, dphi) = (L::load(&v[l.theta() + at..]), L::load(&v[l.phi() + at..]));
-        let orbit_speed = pitch * dtheta;
-        let roll = radius * dphi;
+    let mut flows = Flows {
+        contact: L::zero(),
+        friction: L::zero(),
+        drive: L::zero(),
+        pocket: L::zero(),
+        pocket_friction: L::zero(),
+        drag: L::zero(),
+        lever: L::zero(),
+    };
+    let period = model.row_lanes.len();
+    for (phase, rows) in model.row_lanes.iter().enumerate() {
+        let cage = Cages::<L>::spread(model, q, v, rows);
+        let [mut to_x, mut to_y, mut to_spin] = [L::zero(); 3];
+        for group in (phase..groups).step_by(period) {
+            let (r, theta) = (L::new(q_r[group]), L::new(q_theta[group]));
+            let dr = L::new(v_r[group]);
+            let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
+            let (sin, cos) = (at(&ws.sin, group), at(&ws.cos, group));
+            let axes = (sin, cos);
+            let orbit_speed = pitch * dtheta;
 
-        // Normal forces and raceway friction.
-        let slip = [
-            surface + tangential(&rings.vi) - (orbit_speed - roll),
-            tangential(&rings.vo) - (orbit_speed + roll),
-        ];
-        let mut normal = [L::zero(); 2];
-        let mut friction = [L::zero(); 2];
-        for side in SIDES {
-            let k = side as usize;
-            let contacts = &mut ws.contacts[k];
-            let elastic = L::load(&contacts.elastic[at..]) * live;
-            let rate = L::load(&contacts.approach_rate[at..]);
-            let pressed = rate.times_plus(damping[k], elastic).positive_part();
-            normal[k] = elastic.if_above(L::zero(), pressed, L::zero());
-            // Outside the load zone whole groups of inner contacts are open. A contact that parts faster than its damper lets it push
-            // carries no force, but still loses its elastic energy.
-            if elastic.any_positive() {
-                friction[k] = mu * normal[k] * lanes::tanh(slip[k] * per_slip);
-                p_contact += (normal[k] - elastic) * rate;
-                p_friction += friction[k] * slip[k];
+            // Normal forces and raceway friction.
+            let mut normal = [L::zero(); 2];
+            let mut friction = [L::zero(); 2];
+            for side in SIDES {
+                let k = side as usize;
+                let law = model.contact(side);
+                let contacts = &mut ws.contacts[k];
+                if KEEP && !model.exposure[k].slots.is_empty() {
+                    contacts.on_damage[group * WIDTH..][..WIDTH].fill(false);
+                    contacts.damaged_length[group * WIDTH..][..WIDTH].fill(0.0);
+                }
+                let mut elastic = L::zero();
+                if ws.near[k][group] {
+                    elastic = L::splat(law.stiffness) * at(&contacts.power, group);
+                    if ws.exposed[k][group] != 0 {
+                        elastic = damaged_contacts(
+                            model,
+                            (side, group, ws.exposed[k][group]),
+                            (q, ring_angle),
+                            elastic,
+                            contacts,
+                            KEEP,
+                        );
+                    }
+                    let rate: L = at(&contacts.approach_rate, group);
+                    let pressed = rate.times_plus(damping[k], elastic).positive_part();
+                    normal[k] = elastic.if_above(L::zero(), pressed, L::zero());
+                    // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
+                    friction[k] = mu * normal[k] * at(&contacts.friction, group);
+                    flows.contact = (normal[k] - elastic).times_plus(rate, flows.contact);
+                    flows.friction =
+                        friction[k].times_plus(at(&contacts.slip, group), flows.friction);
+                }
+                if KEEP {
+                    put(elastic, &mut contacts.elastic, group);
+                    put(normal[k], &mut contacts.force, group);
+                    put(friction[k], &mut contacts.friction, group);
+                }
             }
-            elastic.store(&mut contacts.elastic[at..]);
-            normal[k].store(&mut contacts.force[at..]);
-            friction[k].store(&mut contacts.friction[at..]);
-            slip[k].store(&mut contacts.slip[at..]);
+            let [q_in, q_out] = normal;
+            let [f_in, f_out] = friction;
+            flows.drive = f_in.times_plus(surface, flows.drive);
+
+            // Pocket.
+            let (xc_r, xc_t) = polar(axes, &cage.x);
+            let alpha = L::new(pocket_angle[group]);
+            let s = pitch.times_plus(cage.theta + alpha - theta, xc_t);
+            let depth = (s.abs() - L::new(pocket_gap[group])).positive_part();
+            let (mut push, mut rub, mut rub_moment) = (L::zero(), L::zero(), L::zero());
+            if depth.any_positive() {
+                let (vc_r, vc_t) = polar(axes, &cage.v);
+                let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
+                // Both sides at once: what closes on the side of s, with its sign.
+                let closing = ds * one.with_sign(s);
+                let elastic = L::splat(model.pocket.stiffness) * depth;
+                let size = closing
+                    .times_plus(L::splat(model.pocket.damping), elastic)
+                    .positive_part();
+                let size = depth.if_above(L::zero(), size, L::zero());
+                push = size.with_sign(s);
+                // sigma = -sign(F_c), 0 where the pocket is open.
+                let sigma = size.if_above(L::zero(), one.with_sign(-push), L::zero());
+                let u = dr - sigma * radius * (dphi - cage.dtheta) - vc_r;
+                rub = -(traction(u.abs()) * size).with_sign_of(u);
+                rub_moment = sigma * radius * rub;
+                flows.pocket = (size - elastic).times_plus(closing, flows.pocket);
+                flows.pocket_friction -= rub * u;
+                to_x += push * sin - rub * cos;
+                to_y -= push * cos + rub * sin;
+                to_spin += rub_moment - push * pitch;
+            }
+
+            // Roller.
+            let drag = drag_factor * orbit_speed * orbit_speed.abs();
+            let arm = pitch + r;
+            let tangential = f_in + f_out + push;
+            let mut a_r = (dtheta * dtheta).times_plus(arm, (q_in - q_out + rub) * per_mass);
+            let mut a_t = (dr + dr).minus_times(dtheta, (tangential - drag) * per_mass);
+            if heavy {
+                // Nothing else moves the slots that have no roller.
+                let live = L::new(live[group]);
+                let (g_r, g_t) = polar(axes, &gravity);
+                a_r = live.times_plus(g_r, a_r);
+                a_t = live.times_plus(g_t, a_t);
+            }
+            let a_phi = radius.times_plus(f_out - f_in, -rub_moment) * per_spin;
+            out_r[group] = a_r.array();
+            out_theta[group] = (a_t / arm).array();
+            out_phi[group] = a_phi.array();
+
+            // Reactions.
+            on_inner[0] = q_in.minus_times(cos, f_in.times_plus(sin, on_inner[0]));
+            on_inner[1] = q_in.minus_times(sin, f_in.minus_times(cos, on_inner[1]));
+            on_outer[0] = q_out.times_plus(cos, f_out.times_plus(sin, on_outer[0]));
+            on_outer[1] = q_out.times_plus(sin, f_out.minus_times(cos, on_outer[1]));
+
+            flows.drag = (drag * arm).times_plus(dtheta, flows.drag);
+            let (xi_t, xo_t) = (along_t(axes, &xi), along_t(axes, &xo));
+            let levers = r.times_plus(tangential, q_in * xi_t);
+            let levers = push.minus_times(xc_r, q_out.minus_times(xo_t, levers));
+            flows.lever = dtheta.times_plus(levers, flows.lever);
+            if KEEP {
+                put(push, &mut ws.pocket_force, group);
+                put(rub, &mut ws.pocket_friction, group);
+            }
         }
-        let [q_in, q_out] = normal;
-        let [f_in, f_out] = friction;
-        p_drive += f_in * surface;
-
-        // Pocket.
-        let group = (at / WIDTH) % cages.pattern.len();
-        let cage = cages.pattern[group];
-        let [
-            xc,
-            yc,
-            theta_c,
-            vxc,
-            vyc,
-            dtheta_c,
-            mut to_x,
-            mut to_y,
-            mut to_spin,
-        ] = cage.map(L::new);
-        let (xc, vc) = ([xc, yc], [vxc, vyc]);
-        let alpha = L::load(&model.pocket_angle[at..]);
-        let s = pitch.times_plus(theta_c + alpha - theta, tangential(&xc));
-        let ds = pitch.times_plus(dtheta_c - dtheta, tangential(&vc)) - dtheta * radial(&xc);
-        let depth = (s.abs() - L::splat(model.pocket.clearance)).positive_part() * live;
-        let (mut push, mut rub, mut rub_moment) = (L::zero(), L::zero(), L::zero());
-        if depth.any_positive() {
-            // Both sides at once: what closes on the side of s, with its sign.
-            let closing = ds * L::splat(1.0).with_sign(s);
-            let elastic = L::splat(model.pocket.stiffness) * depth;
-            let size = closing
-                .times_plus(L::splat(model.pocket.damping), elastic)
-                .positive_part();
-            let size = depth.if_above(L::zero(), size, L::zero());
-            push = size.with_sign(s);
-            // sigma = -sign(F_c), 0 where the pocket is open.
-            let sigma = size.if_above(L::zero(), L::splat(1.0).with_sign(-push), L::zero());
-            let u = dr - sigma * radius * (dphi - dtheta_c) - radial(&vc);
-            rub = -(traction(u.abs()) * size).with_sign_of(u);
-            rub_moment = sigma * radius * rub;
-            p_pocket += (size - elastic) * closing;
-            p_rub -= rub * u;
+        for (row, lanes) in rows.iter().enumerate() {
+            let lanes = L::new(*lanes);
+            for (k, sum) in [to_x, to_y, to_spin].into_iter().enumerate() {
+                a_bodies[3 * row + k] += (sum * lanes).sum();
+            }
         }
-        push.store(&mut ws.pocket_force[at..]);
-        rub.store(&mut ws.pocket_friction[at..]);
-
-        // Roller.
-        let drag = L::splat(model.drag) * orbit_speed * orbit_speed.abs();
-        let arm = pitch + r;
-        let per_mass = L::splat(1.0 / m.roller);
-        let a_r =
-            (dtheta * dtheta).times_plus(arm, radial(&gravity)) + (q_in - q_out + rub) * per_mass;
-        let a_theta = ((f_in + f_out + push - drag).times_plus(per_mass, tangential(&gravity))
-            - L::splat(2.0) * dr * dtheta)
-            / arm;
-        let a_phi = (radius * (f_out - f_in) - rub_moment) * L::splat(1.0 / m.roller_spin);
-        (a_r * live).store(&mut a[l.r() + at..]);
-        (a_theta * live).store(&mut a[l.theta() + at..]);
-        (a_phi * live).store(&mut a[l.phi() + at..]);
-
-        // Reactions.
-        on_inner[0] += f_in * sin - q_in * cos;
-        on_inner[1] -= q_in * sin + f_in * cos;
-        on_outer[0] += q_out * cos + f_out * sin;
-        on_outer[1] += q_out * sin - f_out * cos;
-        to_x += push * sin - rub * cos;
-        to_y -= push * cos + rub * sin;
-        to_spin += rub_moment - push * pitch;
-        for (sum, lanes) in cages.pattern[group][6..]
-            .iter_mut()
-            .zip([to_x, to_y, to_spin])
-        {
-            *sum = lanes.array();
-        }
-
-        p_drag += drag * arm * dtheta;
-        p_lever += dtheta
-            * (q_in * tangential(&rings.xi) - q_out * tangential(&rings.xo) - push * radial(&xc)
-                + r * (f_in + f_out + push));
     }
-    cages.gather(model, a);
-    ws.cage_lanes = pattern;
     Sums {
-        on_inner: on_inner.map(Lanes::sum),
-        on_outer: on_outer.map(Lanes::sum),
+        on_inner: [on_inner[0].sum(), on_inner[1].sum()],
+        on_outer: [on_outer[0].sum(), on_outer[1].sum()],
         power: Power {
-            contact: p_contact.sum(),
-            friction: p_friction.sum(),
-            drive: p_drive.sum(),
-            pocket: p_pocket.sum(),
-            pocket_friction: p_rub.sum(),
-            drag: p_drag.sum(),
-            lever: p_lever.sum(),
+            contact: flows.contact.sum(),
+            friction: flows.friction.sum(),
+            drive: flows.drive.sum(),
+            pocket: flows.pocket.sum(),
+            pocket_friction: flows.pocket_friction.sum(),
+            drag: flows.drag.sum(),
+            lever: flows.lever.sum(),
             ..Power::default()
         },
     }

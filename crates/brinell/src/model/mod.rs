@@ -4,6 +4,7 @@
 //! from 0 in code and from 1 in names and scenarios.
 
 pub(crate) mod energy;
+mod exposure;
 mod full;
 mod layout;
 pub(crate) mod lumped;
@@ -12,6 +13,7 @@ mod motion;
 mod workspace;
 
 pub use energy::{Energy, Power};
+pub use exposure::Exposure;
 pub use layout::{LANES, Layout};
 pub use momentum::imbalance;
 pub use motion::Motion;
@@ -23,6 +25,7 @@ use crate::contact::Hertz;
 use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
+use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
 use std::f64::consts::TAU;
@@ -122,13 +125,19 @@ pub struct Model {
     /// g, m/s^2.
     pub gravity: [f64; 2],
     /// alpha of each slot, rad: the pocket's angle on its cage.
-    pub pocket_angle: Vec<f64>,
+    pub pocket_angle: Column,
     /// 1 for the slots of rollers, 0 for padding.
-    pub live: Vec<f64>,
+    pub live: Column,
+    /// Gap of each slot's contact where all is centred, m, by side; so wide for padding that it never closes.
+    pub(crate) gaps: [Column; 2],
+    /// C_p of each slot, m; so wide for padding that it never closes.
+    pub(crate) pocket_gap: Column,
     /// Damage.
     pub defects: Vec<Defect>,
-    /// Slots whose contact on each side some defect can meet.
-    pub exposed: [Vec<usize>; 2],
+    /// Where damage can meet the contacts of each side, indexed by `Side as usize`.
+    pub exposure: [Exposure; 2],
+    /// For each group of one period of rows, the lanes of every row: 1 in its own, else 0.
+    pub(crate) row_lanes: Vec<Vec<[f64; LANES]>>,
     /// How damage acts.
     pub rules: Rules,
     /// Start.
@@ -195,21 +204,27 @@ impl Model {
                 requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
             })?);
         }
-        let exposed = SIDES.map(|side| {
-            let meets = |&slot: &usize| {
-                defects
-                    .iter()
-                    .any(|d| d.meets(layout.row(slot), layout.roller(slot), side))
-            };
-            (0..layout.rollers()).filter(meets).collect()
-        });
-        let live = (0..layout.slots)
-            .map(|slot| f64::from(u8::from(slot < layout.rollers())))
+        let exposure = SIDES.map(|side| Exposure::new(&layout, &defects, side));
+        let lanes_of = |group: usize, row: usize| {
+            let own = |lane| layout.row(group * LANES + lane) == row;
+            std::array::from_fn(|lane| f64::from(u8::from(own(lane))))
+        };
+        let row_lanes = (0..layout.row_period() / LANES)
+            .map(|group| (0..layout.rows).map(|row| lanes_of(group, row)).collect())
             .collect();
+        let by_slot = |roller: f64, padding: f64| {
+            let mut column = Column::new(layout.slots, padding);
+            column[..layout.rollers()].fill(roller);
+            column
+        };
+        const NEVER_CLOSES: f64 = 1e3;
         Ok(Self {
             kind: s.simulation.model,
-            live,
-            exposed,
+            live: by_slot(1.0, 0.0),
+            gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
+            pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
+            exposure,
+            row_lanes,
             layout,
             geometry,
             inertia,
@@ -367,7 +382,16 @@ impl Model {
     #[inline]
     pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
         match self.kind {
-            ModelKind::Full => full::derivative(self, t, y, dy, ws),
+            ModelKind::Full => full::derivative(self, t, y, dy, ws, true),
+            ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
+        }
+    }
+
+    /// The same, to the bit, with only the flows of energy left in `ws`: for stages within a step.
+    #[inline]
+    pub fn slope(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+        match self.kind {
+            ModelKind::Full => full::derivative(self, t, y, dy, ws, false),
             ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
         }
     }

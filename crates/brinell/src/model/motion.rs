@@ -17,7 +17,7 @@ impl<'a> Motion<'a> {
     pub fn new(model: &'a Model) -> Self {
         Self {
             model,
-            ws: Workspace::new(&model.layout),
+            ws: Workspace::new(model),
         }
     }
 }
@@ -32,6 +32,11 @@ impl System for Motion<'_> {
     #[inline]
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.model.derivative(t, y, dy, &mut self.ws);
+    }
+
+    #[inline]
+    fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.model.slope(t, y, dy, &mut self.ws);
     }
 
     fn flow(&self) -> Power {

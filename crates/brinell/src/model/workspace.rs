@@ -1,8 +1,7 @@
 //! What one evaluation of the equations of motion leaves behind: forces of every contact and the flows of energy.
 
-use super::full::CAGE;
-use super::{Layout, Power};
-use crate::lanes::WIDTH;
+use super::{Model, Power};
+use crate::lanes::{Column, WIDTH};
 
 /// Instructions that the equations of motion are compiled for. They differ in round-off alone: [`Kernel::Portable`] rounds every
 /// product on x86-64, the others fuse products with sums.
@@ -55,28 +54,28 @@ impl Kernel {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contacts {
     /// delta, m.
-    pub approach: Vec<f64>,
+    pub approach: Column,
     /// d(delta)/dt, m/s.
-    pub approach_rate: Vec<f64>,
+    pub approach_rate: Column,
     /// `[delta]_+^n`.
-    pub power: Vec<f64>,
+    pub power: Column,
     /// Elastic part of Q, N.
-    pub elastic: Vec<f64>,
+    pub elastic: Column,
     /// Q, N.
-    pub force: Vec<f64>,
+    pub force: Column,
     /// Friction on the roller along e_t, N.
-    pub friction: Vec<f64>,
+    pub friction: Column,
     /// Slip of the ring's surface over the roller's, m/s.
-    pub slip: Vec<f64>,
+    pub slip: Column,
     /// L_s at the contact, m.
-    pub damaged_length: Vec<f64>,
+    pub damaged_length: Column,
     /// Whether the contact stands on damage.
     pub on_damage: Vec<bool>,
 }
 
 impl Contacts {
     fn new(slots: usize) -> Self {
-        let zeros = || vec![0.0; slots];
+        let zeros = || Column::new(slots, 0.0);
         Self {
             approach: zeros(),
             approach_rate: zeros(),
@@ -95,19 +94,23 @@ impl Contacts {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workspace {
     /// cos theta of each slot.
-    pub cos: Vec<f64>,
+    pub cos: Column,
     /// sin theta of each slot.
-    pub sin: Vec<f64>,
+    pub sin: Column,
     /// Inner and outer contacts, indexed by `Side as usize`.
     pub contacts: [Contacts; 2],
     /// Tangential push of damage's slopes on each roller along e_t, N; 0 without `edge_reaction`.
-    pub edge_force: Vec<f64>,
+    pub edge_force: Column,
     /// F_c of each slot, N.
-    pub pocket_force: Vec<f64>,
+    pub pocket_force: Column,
     /// f_c of each slot, N.
-    pub pocket_friction: Vec<f64>,
-    /// Cage quantities spread over the lanes of one period of rows.
-    pub(super) cage_lanes: Vec<[[f64; WIDTH]; CAGE]>,
+    pub pocket_friction: Column,
+    /// (cos, sin) of the middle of each raceway defect that meets the contacts of each side.
+    pub(super) directions: [Vec<[f64; 2]>; 2],
+    /// Lanes of each group whose contact may stand on damage, a bit each.
+    pub(super) exposed: [Vec<u8>; 2],
+    /// Groups of which some contact may be closed.
+    pub(super) near: [Vec<bool>; 2],
     kernel: Kernel,
     /// Orbit angle of each roller in the reference model, where they are not states.
     pub kinematic_orbit: Vec<f64>,
@@ -118,29 +121,31 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// For one layout, with the fastest kernel that this processor has.
-    pub fn new(layout: &Layout) -> Self {
-        Self::with_kernel(layout, Kernel::fastest())
+    /// For one model, with the fastest kernel that this processor has.
+    pub fn new(model: &Model) -> Self {
+        Self::with_kernel(model, Kernel::fastest())
     }
 
-    /// For one layout and one kernel; the fastest where this processor lacks it.
-    pub fn with_kernel(layout: &Layout, kernel: Kernel) -> Self {
-        let slots = layout.slots;
-        let zeros = || vec![0.0; slots];
+    /// For one model and one kernel; the fastest where this processor lacks it.
+    pub fn with_kernel(model: &Model, kernel: Kernel) -> Self {
+        let slots = model.layout.slots;
+        let zeros = || Column::new(slots, 0.0);
         Self {
-            cos: vec![1.0; slots],
+            cos: Column::new(slots, 1.0),
             sin: zeros(),
             contacts: [Contacts::new(slots), Contacts::new(slots)],
             edge_force: zeros(),
             pocket_force: zeros(),
             pocket_friction: zeros(),
-            cage_lanes: vec![[[0.0; WIDTH]; CAGE]; layout.row_period() / WIDTH],
+            exposed: [vec![0; slots / WIDTH], vec![0; slots / WIDTH]],
+            near: [vec![false; slots / WIDTH], vec![false; slots / WIDTH]],
+            directions: [0, 1].map(|side| model.exposure[side].directions()),
             kernel: if kernel.is_there() {
                 kernel
             } else {
                 Kernel::fastest()
             },
-            kinematic_orbit: zeros(),
+            kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
             power: Power::default(),
         }

@@ -22,6 +22,11 @@ pub trait System {
     /// dy/dt.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
 
+    /// The same within a step, where nothing but the derivative and the flow is looked at.
+    fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.derivative(t, y, dy);
+    }
+
     /// Rate of the integrated quantity at the last evaluated state.
     fn flow(&self) -> Self::Flow;
 }
@@ -161,7 +166,11 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             for (s, (row, node)) in tableau.rows.iter().zip(tableau.nodes).enumerate() {
                 let (done, rest) = self.stages.split_at_mut(s + 1);
                 combine(&mut self.trial, &self.y, done, row, h);
-                system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
+                if s + 1 < tableau.rows.len() {
+                    system.stage(self.t + node * h, &self.trial, &mut rest[0]);
+                } else {
+                    system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
+                }
                 self.flows[s + 1] = system.flow();
             }
             self.work.evaluations += tableau.rows.len() as u64;
