@@ -427,11 +427,14 @@ static void find_arc(Defect *d)
     d->first = -d->last;
 }
 
+/* A slice's middle on a damage's border is damaged; round-off must not decide. */
+#define BORDER 1e-12
+
 /* Is a slice at z damaged at s, by a shape given by width alone? */
 static int wide_enough(const Defect *d, double s, double z)
 {
     double Ls, h;
-    return defect_at(d, s / d->radius, &Ls, &h) && fabs(z) <= 0.5 * Ls;
+    return defect_at(d, s / d->radius, &Ls, &h) && Ls > 0.0 && fabs(z) <= 0.5 * Ls + BORDER;
 }
 
 /* The depth from a to b within one stretch of constant or linear depth. */
@@ -489,6 +492,22 @@ static double equivalent_radius(int side)
 
 static double slice_at(int k) { return ((k + 0.5) / M.slices - 0.5) * M.L; }
 
+/* Stretches of the arc between corners on which an outline has any width. */
+static void outline_floor(const Defect *d, Floor *f)
+{
+    double s[256];
+    int count = 0;
+    for (int k = 0; k < d->polygons; k++)
+        for (int i = 0; i < d->corners[k]; i++) {
+            if (count == 256) die("outline:", "too many corners");
+            s[count++] = d->s[k][i];
+        }
+    qsort(s, (size_t)count, sizeof(double), ascending);
+    for (int i = 0; i + 1 < count; i++)
+        if (s[i + 1] > s[i] && outline_width(d, 0.5 * (s[i] + s[i + 1])) > 0.0)
+            add_piece(f, s[i], s[i + 1], d->depth, d->depth);
+}
+
 static void find_reach(Defect *d)
 {
     double raised = 0.0;
@@ -503,7 +522,8 @@ static void build_floors(Defect *d)
     find_arc(d);
     if (M.law == LAW_ECL) {
         d->floor = need(1, sizeof(Floor));
-        add_range(d, d->floor, d->first, d->last);
+        if (d->shape == OUTLINE) outline_floor(d, d->floor); /* not where polygons leave a gap: that is outside the defect */
+        else add_range(d, d->floor, d->first, d->last);
         find_reach(d);
         return;
     }
