@@ -39,8 +39,6 @@ def parameters(sc, step, perturb, record):
     """The flat SI text that model.c reads."""
     b, c, k = sc["bearing"], sc["cage"], sc["contact"]
     f, l, s, o, sim = sc["friction"], sc["lubricant"], sc["support"], sc["operation"], sc["simulation"]
-    if k.get("law", "ecl") != "ecl" or k.get("roller_path", "point") != "point":
-        raise SystemExit("only law = ecl with roller_path = point is implemented")
     out = []
 
     def put(name, *values):
@@ -72,6 +70,10 @@ def parameters(sc, step, perturb, record):
     put("exponent", k.get("exponent", 10 / 9))
     put("inner_stiffness", k.get("inner_stiffness", palmgren(b["roller_length_mm"])))
     put("outer_stiffness", k.get("outer_stiffness", palmgren(b["roller_length_mm"])))
+    put("law", k.get("law", "ecl"))
+    put("roller_path", k.get("roller_path", "point"))
+    put("edge_reaction", k.get("edge_reaction", "none"))
+    put("slices", k.get("slices", 30))
     put("contact_damping", k["damping_ns_per_m"])
     put("friction", f["raceway_coefficient"])
     put("slip_velocity", f["slip_velocity_m_per_s"])
@@ -105,6 +107,15 @@ def parameters(sc, step, perturb, record):
             values = [len(shape["arc_mm"])]
             for a, w, h in zip(shape["arc_mm"], shape["width_mm"], depths, strict=True):
                 values += [a * 1e-3, w * 1e-3, h * 1e-6]
+        elif kind == "outline":
+            polygons = shape["polygons_mm"] if "polygons_mm" in shape else [shape["points_mm"]]
+            values = [len(polygons)]
+            for points in polygons:
+                values += [len(points), *(x * 1e-3 for point in points for x in point)]
+        elif kind == "depth_map" and "file" not in shape:
+            columns, rows, ds, dz = shape["columns"], shape["rows"], shape["ds_mm"], shape["dz_mm"]
+            s0, z0 = shape.get("s0_mm", -0.5 * ds * (columns - 1)), shape.get("z0_mm", -0.5 * dz * (rows - 1))
+            values = [columns, rows, *(x * 1e-3 for x in (s0, z0, ds, dz)), *(h * 1e-6 for h in shape["depth_um"])]
         else:
             raise SystemExit(f"shape {kind} is not implemented")
         put("defect", d["on"], d["row"], d.get("roller", 0), math.radians(d["center_deg"]), depth, kind, *values)

@@ -13,10 +13,21 @@
 
 #define PI 3.14159265358979323846
 
-enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR };
+enum { RECTANGLE, CIRCLE, PROFILE, IRREGULAR, OUTLINE, DEPTH_MAP };
+enum { LAW_ECL, LAW_SLICED };
+enum { PATH_POINT, PATH_ENVELOPE };
+enum { EDGE_NONE, EDGE_CONSERVATIVE };
 enum { OUTER, INNER, ROLLER };
 enum { START_ROLLING, START_REST, START_EQUILIBRIUM };
 enum { GUIDE_NONE, GUIDE_OUTER, GUIDE_INNER };
+
+typedef struct { double a, b, ha, hb; } Piece; /* depth ha at s = a to hb at s = b, linear between */
+
+/* h(s) along the surface, whole (ecl) or under one slice: pieces in order of s, 0 outside them. */
+typedef struct {
+    int count, space;
+    Piece *piece;
+} Floor;
 
 typedef struct {
     int on, row, roller, shape, points; /* row and roller count from 0 */
@@ -24,6 +35,13 @@ typedef struct {
     double length, width;               /* rectangle; width also the irregular shape's largest */
     double diameter;
     double *arc, *widths, *depths;      /* profile */
+    int polygons, *corners;             /* outline */
+    double **s, **z;
+    int columns, rows;                  /* depth map */
+    double s0, z0, ds, dz, *grid;
+    double first, last;                 /* its arc */
+    double reach;                       /* how far before it a raised edge lifts a roller */
+    Floor *floor;                       /* one, or one per slice */
 } Defect;
 
 typedef struct {
@@ -40,7 +58,7 @@ typedef struct {
     int load_outer;
     int defects;
     Defect *defect;
-    int reference, start;
+    int reference, start, law, path, edge, slices;
     double duration, fs, step, perturb;
     int channels;
     char **channel;
@@ -90,7 +108,7 @@ static int pick(const char *w, const char *names[], int count)
 static void read_defect(void)
 {
     static const char *surfaces[] = {"outer-raceway", "inner-raceway", "roller"};
-    static const char *shapes[] = {"rectangle", "circle", "profile", "li2023_irregular"};
+    static const char *shapes[] = {"rectangle", "circle", "profile", "li2023_irregular", "outline", "depth_map"};
     char w[64];
     M.defect = realloc(M.defect, sizeof(Defect) * (size_t)(M.defects + 1));
     if (!M.defect) die("out of memory", "");
@@ -103,7 +121,7 @@ static void read_defect(void)
     d->psi = num();
     d->depth = num();
     word(w);
-    d->shape = pick(w, shapes, 4);
+    d->shape = pick(w, shapes, 6);
     if (d->shape == RECTANGLE) {
         d->length = num();
         d->width = num();
@@ -111,6 +129,26 @@ static void read_defect(void)
         d->diameter = num();
     } else if (d->shape == IRREGULAR) {
         d->width = num();
+    } else if (d->shape == OUTLINE) {
+        d->polygons = integer();
+        d->corners = need((size_t)d->polygons, sizeof(int));
+        d->s = need((size_t)d->polygons, sizeof(double *));
+        d->z = need((size_t)d->polygons, sizeof(double *));
+        for (int k = 0; k < d->polygons; k++) {
+            d->corners[k] = integer();
+            d->s[k] = need((size_t)d->corners[k], sizeof(double));
+            d->z[k] = need((size_t)d->corners[k], sizeof(double));
+            for (int i = 0; i < d->corners[k]; i++) { d->s[k][i] = num(); d->z[k][i] = num(); }
+        }
+    } else if (d->shape == DEPTH_MAP) {
+        d->columns = integer();
+        d->rows = integer();
+        d->s0 = num();
+        d->z0 = num();
+        d->ds = num();
+        d->dz = num();
+        d->grid = need((size_t)(d->columns * d->rows), sizeof(double));
+        for (int i = 0; i < d->columns * d->rows; i++) d->grid[i] = num();
     } else {
         d->points = integer();
         d->arc = need((size_t)d->points, sizeof(double));
@@ -123,6 +161,8 @@ static void read_defect(void)
         }
     }
 }
+
+static void build_floors(Defect *d);
 
 static void read_model(const char *path)
 {
@@ -143,6 +183,9 @@ static void read_model(const char *path)
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
     static const char *models[] = {"full", "reference"};
+    static const char *laws[] = {"ecl", "sliced"};
+    static const char *paths[] = {"point", "envelope"};
+    static const char *edges[] = {"none", "conservative"};
     const int count = (int)(sizeof reals / sizeof reals[0]);
     char w[64];
     in = fopen(path, "r");
@@ -157,6 +200,10 @@ static void read_model(const char *path)
         else if (!strcmp(w, "start")) { word(w); M.start = pick(w, starts, 3); }
         else if (!strcmp(w, "load_on")) { word(w); M.load_outer = pick(w, rings, 2); }
         else if (!strcmp(w, "model")) { word(w); M.reference = pick(w, models, 2); }
+        else if (!strcmp(w, "law")) { word(w); M.law = pick(w, laws, 2); }
+        else if (!strcmp(w, "roller_path")) { word(w); M.path = pick(w, paths, 2); }
+        else if (!strcmp(w, "edge_reaction")) { word(w); M.edge = pick(w, edges, 2); }
+        else if (!strcmp(w, "slices")) M.slices = integer();
         else if (!strcmp(w, "defect")) read_defect();
         else if (!strcmp(w, "speed")) {
             M.speed_points = integer();
@@ -182,7 +229,10 @@ static void read_model(const char *path)
     for (int i = 0; i < M.defects; i++) {
         Defect *d = &M.defect[i];
         d->radius = d->on == OUTER ? M.Ro : d->on == INNER ? M.Ri : M.r;
+        build_floors(d);
     }
+    if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
+    if (M.reference && (M.law || M.path)) die("the reference model", "is written for ecl and point");
 }
 
 /* ---------- prescribed motion and load ---------- */
@@ -245,6 +295,40 @@ static double irregular_half_width(double a)
 
 #define IRREGULAR_ARC (1.6695 + 1.5000 + 0.7071 + 1.4142 + 0.7071 + 1.0000)
 
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Where the line p = at crosses an outline's edges, ascending in the other coordinate q. Between odd and even crossings lies
+ * damage, so a polygon within another is a hole. Half-open edges: a corner on the line counts once. */
+static int crossings(const Defect *d, double **p, double **q, double at, double *found, int space)
+{
+    int count = 0;
+    for (int k = 0; k < d->polygons; k++)
+        for (int i = 0; i < d->corners[k]; i++) {
+            const int j = (i + 1) % d->corners[k];
+            const double pa = p[k][i], pb = p[k][j];
+            if ((pa <= at) == (pb <= at)) continue;
+            if (count == space) die("outline:", "too many crossings");
+            found[count++] = q[k][i] + (at - pa) / (pb - pa) * (q[k][j] - q[k][i]);
+        }
+    qsort(found, (size_t)count, sizeof(double), ascending);
+    return count;
+}
+
+enum { CROSSINGS = 64 };
+
+/* L_s(s): the measure of the damaged z. */
+static double outline_width(const Defect *d, double s)
+{
+    double z[CROSSINGS], sum = 0.0;
+    const int count = crossings(d, d->s, d->z, s, z, CROSSINGS);
+    for (int i = 0; i + 1 < count; i += 2) sum += z[i + 1] - z[i];
+    return sum;
+}
+
 /* Damaged length and depth at local angle u; returns 0 outside the arc. */
 static int defect_at(const Defect *d, double u, double *Ls, double *h)
 {
@@ -268,6 +352,13 @@ static int defect_at(const Defect *d, double u, double *Ls, double *h)
         w = 2.0 * irregular_half_width(mm + 0.5 * IRREGULAR_ARC) * (d->width / 4e-3) * 1e-3;
         break;
     }
+    case OUTLINE:
+        if (s < d->first || s > d->last) return 0;
+        w = outline_width(d, s);
+        break;
+    case DEPTH_MAP:
+        die("depth map:", "sliced only");
+        break;
     default: {
         const int n = d->points;
         if (s < d->arc[0] || s > d->arc[n - 1]) return 0;
@@ -298,6 +389,211 @@ static int local_angle(const Defect *d, int side, int row, int j, double theta, 
     return 1;
 }
 
+/* ---------- floors of `sliced` and `envelope`, section 3 ---------- */
+
+static void add_piece(Floor *f, double a, double b, double ha, double hb)
+{
+    if (f->count == f->space) {
+        f->space = 2 * f->space + 4;
+        f->piece = realloc(f->piece, sizeof(Piece) * (size_t)f->space);
+        if (!f->piece) die("out of memory", "");
+    }
+    f->piece[f->count++] = (Piece){a, b, ha, hb};
+}
+
+static void find_arc(Defect *d)
+{
+    switch (d->shape) {
+    case RECTANGLE: d->last = 0.5 * d->length; break;
+    case CIRCLE: d->last = 0.5 * d->diameter; break;
+    case IRREGULAR: d->last = 0.5e-3 * IRREGULAR_ARC; break;
+    case PROFILE:
+        d->first = d->arc[0];
+        d->last = d->arc[d->points - 1];
+        return;
+    case DEPTH_MAP:
+        d->first = d->s0;
+        d->last = d->s0 + d->ds * (d->columns - 1);
+        return;
+    default:
+        d->first = d->last = d->s[0][0];
+        for (int k = 0; k < d->polygons; k++)
+            for (int i = 0; i < d->corners[k]; i++) {
+                d->first = fmin(d->first, d->s[k][i]);
+                d->last = fmax(d->last, d->s[k][i]);
+            }
+        return;
+    }
+    d->first = -d->last;
+}
+
+/* A slice's middle on a damage's border is damaged; round-off must not decide. */
+#define BORDER 1e-12
+
+/* Is a slice at z damaged at s, by a shape given by width alone? */
+static int wide_enough(const Defect *d, double s, double z)
+{
+    double Ls, h;
+    return defect_at(d, s / d->radius, &Ls, &h) && Ls > 0.0 && fabs(z) <= 0.5 * Ls + BORDER;
+}
+
+/* The depth from a to b within one stretch of constant or linear depth. */
+static void add_stretch(const Defect *d, Floor *f, double a, double b, double lo, double hi, double hlo, double hhi)
+{
+    a = fmax(a, lo);
+    b = fmin(b, hi);
+    if (!(b > a)) return;
+    const double m = d->shape == PROFILE ? (hhi - hlo) / (hi - lo) : 0.0;
+    add_piece(f, a, b, hlo + m * (a - lo), hlo + m * (b - lo));
+}
+
+static void add_range(const Defect *d, Floor *f, double a, double b)
+{
+    if (d->shape != PROFILE) {
+        add_stretch(d, f, a, b, d->first, d->last, d->depth, d->depth);
+        return;
+    }
+    for (int i = 0; i + 1 < d->points; i++)
+        add_stretch(d, f, a, b, d->arc[i], d->arc[i + 1], d->depths[i], d->depths[i + 1]);
+}
+
+/* Floor under a slice at z of a shape given by width alone: borders by scanning its arc and bisecting. */
+static void width_floor(const Defect *d, Floor *f, double z)
+{
+    const int steps = 20000;
+    double from = 0.0;
+    int inside = 0;
+    for (int i = 0; i <= steps; i++) {
+        const double s = i < steps ? d->first + (d->last - d->first) * i / steps : d->last;
+        const int now = wide_enough(d, s, z);
+        if (now != inside) {
+            double border = s;
+            if (i > 0) {
+                double lo = d->first + (d->last - d->first) * (i - 1) / steps, hi = s;
+                for (int it = 0; it < 60; it++) {
+                    border = 0.5 * (lo + hi);
+                    if (wide_enough(d, border, z) == inside) lo = border;
+                    else hi = border;
+                }
+            }
+            if (now) from = border;
+            else add_range(d, f, from, border);
+            inside = now;
+        }
+    }
+    if (inside) add_range(d, f, from, d->last);
+}
+
+/* R_eq of a roller on the raceway of `side`, also for damage on the roller itself. */
+static double equivalent_radius(int side)
+{
+    return 1.0 / (side == OUTER ? 1.0 / M.r - 1.0 / M.Ro : 1.0 / M.r + 1.0 / M.Ri);
+}
+
+static double slice_at(int k) { return ((k + 0.5) / M.slices - 0.5) * M.L; }
+
+/* Stretches of the arc between corners on which an outline has any width. */
+static void outline_floor(const Defect *d, Floor *f)
+{
+    double s[256];
+    int count = 0;
+    for (int k = 0; k < d->polygons; k++)
+        for (int i = 0; i < d->corners[k]; i++) {
+            if (count == 256) die("outline:", "too many corners");
+            s[count++] = d->s[k][i];
+        }
+    qsort(s, (size_t)count, sizeof(double), ascending);
+    for (int i = 0; i + 1 < count; i++)
+        if (s[i + 1] > s[i] && outline_width(d, 0.5 * (s[i] + s[i + 1])) > 0.0)
+            add_piece(f, s[i], s[i + 1], d->depth, d->depth);
+}
+
+static void find_reach(Defect *d)
+{
+    double raised = 0.0;
+    for (int k = 0; k < (M.law == LAW_SLICED ? M.slices : 1); k++)
+        for (int i = 0; i < d->floor[k].count; i++)
+            raised = fmax(raised, -fmin(d->floor[k].piece[i].ha, d->floor[k].piece[i].hb));
+    if (M.path == PATH_ENVELOPE) d->reach = sqrt(2.0 * raised * fmax(equivalent_radius(OUTER), equivalent_radius(INNER)));
+}
+
+static void build_floors(Defect *d)
+{
+    find_arc(d);
+    if (M.law == LAW_ECL) {
+        d->floor = need(1, sizeof(Floor));
+        if (d->shape == OUTLINE) outline_floor(d, d->floor); /* not where polygons leave a gap: that is outside the defect */
+        else add_range(d, d->floor, d->first, d->last);
+        find_reach(d);
+        return;
+    }
+    d->floor = need((size_t)M.slices, sizeof(Floor));
+    for (int k = 0; k < M.slices; k++) {
+        Floor *f = &d->floor[k];
+        const double z = slice_at(k);
+        if (d->shape == OUTLINE) {
+            double s[CROSSINGS];
+            const int count = crossings(d, d->z, d->s, z, s, CROSSINGS);
+            for (int i = 0; i + 1 < count; i += 2) add_range(d, f, s[i], s[i + 1]);
+        } else if (d->shape == DEPTH_MAP) {
+            const double y = (z - d->z0) / d->dz;
+            if (y < 0.0 || y > d->rows - 1) continue;
+            int r = (int)y;
+            if (r > d->rows - 2) r = d->rows - 2;
+            const double *low = d->grid + r * d->columns, *high = low + d->columns, x = y - r;
+            for (int i = 0; i + 1 < d->columns; i++)
+                add_piece(f, d->s0 + i * d->ds, d->s0 + (i + 1) * d->ds, low[i] + x * (high[i] - low[i]),
+                          low[i + 1] + x * (high[i + 1] - low[i + 1]));
+        } else {
+            width_floor(d, f, z);
+        }
+    }
+    find_reach(d);
+}
+
+/* h(s); `slope` receives dh/ds. */
+static double point_depth(const Floor *f, double s, double *slope)
+{
+    *slope = 0.0;
+    for (int i = 0; i < f->count; i++) {
+        const Piece *p = &f->piece[i];
+        if (s < p->a || s > p->b) continue;
+        *slope = (p->hb - p->ha) / (p->b - p->a);
+        return p->ha + *slope * (s - p->a);
+    }
+    return 0.0;
+}
+
+/* h_env(s) = min over s' of h(s') + (s - s')^2 / (2 R), exactly: within a piece the minimum is at s - R dh/ds or at an end, outside
+ * them at s itself or at the nearest end. Its slope is (s - s')/R at the s' that holds the roller up. */
+static double envelope_depth(const Floor *f, double s, double R, double *slope)
+{
+    double best = INFINITY, where = s;
+    double gap = -INFINITY; /* where undamaged surface begins; it ends at the next piece */
+    for (int i = 0; i <= f->count; i++) {
+        const double end = i < f->count ? f->piece[i].a : INFINITY;
+        if (i == 0 || end > gap) {
+            const double x = fmin(fmax(s, gap), end), h = (s - x) * (s - x) / (2.0 * R);
+            if (h < best) { best = h; where = x; }
+        }
+        if (i == f->count) break;
+        const Piece *p = &f->piece[i];
+        const double m = (p->hb - p->ha) / (p->b - p->a);
+        const double x = fmin(fmax(s - m * R, p->a), p->b);
+        const double h = p->ha + m * (x - p->a) + (s - x) * (s - x) / (2.0 * R);
+        if (h < best) { best = h; where = x; }
+        gap = p->b;
+    }
+    *slope = (s - where) / R;
+    return best;
+}
+
+/* Depth that acts at arc s under floor f. */
+static double depth_of(const Floor *f, int side, double s, double *slope)
+{
+    return M.path == PATH_ENVELOPE ? envelope_depth(f, s, equivalent_radius(side), slope) : point_depth(f, s, slope);
+}
+
 static double power(double x)
 {
     return x > 0.0 ? pow(x, M.n) : 0.0;
@@ -311,15 +607,63 @@ static double factor(double Ls)
 typedef struct {
     double elastic;   /* K times the bracketed sum */
     double stiffness; /* its derivative by delta */
-    double length;    /* L_e of the acting defect */
+    double length;    /* L_e of the acting defect (ecl) */
+    double push;      /* -dE/du of the damage's slopes, all of it */
+    double push_own;  /* the part that damage on the roller has in it */
 } Elastic;
+
+/* Law `sliced`: the deepest defect under each slice; slices that none meets are healthy. */
+static Elastic sliced_law(int side, int row, int j, double theta, double phi, double W, double delta, int slope)
+{
+    const double K = side == OUTER ? M.Kout : M.Kin;
+    Elastic e = {0.0, 0.0, M.L, 0.0, 0.0};
+    const Defect *met[16];
+    double arc[16];
+    int count = 0;
+    for (int i = 0; i < M.defects; i++) {
+        const Defect *d = &M.defect[i];
+        double u;
+        if (!local_angle(d, side, row, j, theta, phi, W, &u)) continue;
+        const double s = u * d->radius;
+        if (s < d->first - d->reach || s > d->last + d->reach) continue;
+        if (count == 16) die("too many defects at one contact", "");
+        met[count] = d;
+        arc[count++] = s;
+    }
+    const double whole = power(delta);
+    for (int k = 0; k < M.slices && count; k++) {
+        const Defect *acting = 0;
+        double depth = 0.0, rise = 0.0;
+        for (int i = 0; i < count; i++) {
+            double m, h;
+            /* A raised edge holds a roller up before the arc begins; a floor has no say there. */
+            h = depth_of(&met[i]->floor[k], side, arc[i], &m);
+            if (h == 0.0 && (arc[i] < met[i]->first || arc[i] > met[i]->last)) continue;
+            if (!acting || h > depth) { acting = met[i]; depth = h; rise = m; }
+        }
+        const double x = delta - depth, q = depth == 0.0 ? whole : power(x);
+        e.elastic += K / M.slices * q;
+        if (slope && x > 0.0) e.stiffness += K / M.slices * M.n * pow(x, M.n - 1.0);
+        if (M.edge == EDGE_CONSERVATIVE && acting && q > 0.0) {
+            const double push = K / M.slices * q * rise * acting->radius;
+            e.push += push;
+            if (acting->on == ROLLER) e.push_own += push;
+        }
+    }
+    if (!count) {
+        e.elastic = K * whole;
+        e.stiffness = slope && delta > 0.0 ? K * M.n * pow(delta, M.n - 1.0) : 0.0;
+    }
+    return e;
+}
 
 /* Elastic part of the law `ecl` at one contact; of several defects the smallest sum acts.
  * With equal sums (contact open) the longest damaged length is the one reported. */
 static Elastic elastic_law(int side, int row, int j, double theta, double phi, double W, double delta, int slope)
 {
+    if (M.law == LAW_SLICED) return sliced_law(side, row, j, theta, phi, W, delta, slope);
     const double K = side == OUTER ? M.Kout : M.Kin;
-    Elastic e;
+    Elastic e = {0.0, 0.0, M.L, 0.0, 0.0};
     const double whole = power(delta);
     e.elastic = K * whole;
     e.length = M.L;
@@ -329,6 +673,10 @@ static Elastic elastic_law(int side, int row, int j, double theta, double phi, d
         double u, Ls, h;
         if (!local_angle(d, side, row, j, theta, phi, W, &u)) continue;
         if (!defect_at(d, u, &Ls, &h)) continue;
+        if (M.path == PATH_ENVELOPE) {
+            double unused;
+            h = depth_of(d->floor, side, u * d->radius, &unused);
+        }
         const double g = factor(Ls), rest = delta > h ? power(delta - h) : 0.0;
         const double sum = K * (g * whole + (1.0 - g) * rest);
         if (sum < e.elastic || (sum == e.elastic && M.L - Ls < e.length)) {
@@ -404,15 +752,20 @@ static void accelerations(double t, const double *q, const double *v, double *ac
             const double dout = rj - (ex * xo + ey * yo) - M.outer_gap;
             const double ddout = drj - (ex * vxo + ey * vyo) - dth * (tx * xo + ty * yo);
             double Qin = 0.0, Qout = 0.0, Lin = M.L, Lout = M.L;
-            if (din > 0.0 || want) {
+            double push = 0.0, push_own = 0.0;
+            if (din > 0.0 || want || M.law == LAW_SLICED) { /* a raised slice touches sooner */
                 const Elastic e = elastic_law(INNER, row, j, th, ph, W, din, 0);
                 if (e.elastic > 0.0) Qin = fmax(e.elastic + M.c * ddin, 0.0);
                 Lin = e.length;
+                push += e.push;
+                push_own += e.push_own;
             }
-            if (dout > 0.0 || want) {
+            if (dout > 0.0 || want || M.law == LAW_SLICED) {
                 const Elastic e = elastic_law(OUTER, row, j, th, ph, W, dout, 0);
                 if (e.elastic > 0.0) Qout = fmax(e.elastic + M.c * ddout, 0.0);
                 Lout = e.length;
+                push += e.push;
+                push_own += e.push_own;
             }
 
             /* section 4 */
@@ -442,10 +795,10 @@ static void accelerations(double t, const double *q, const double *v, double *ac
             /* section 8, roller */
             const double R = M.Rm + rj;
             const double radial = Qin - Qout + fc + M.m * (M.g[0] * ex + M.g[1] * ey);
-            const double tangential = fin + fout + Fc - Fd + M.m * (M.g[0] * tx + M.g[1] * ty);
+            const double tangential = fin + fout + Fc - Fd + push / R + M.m * (M.g[0] * tx + M.g[1] * ty);
             acc[p] = radial / M.m + R * dth * dth;
             acc[p + 1] = (tangential / M.m - 2.0 * drj * dth) / R;
-            acc[p + 2] = (M.r * (fout - fin) - sigma * M.r * fc) / M.Ir;
+            acc[p + 2] = (M.r * (fout - fin) - sigma * M.r * fc - push_own) / M.Ir;
 
             /* reactions */
             Fi[0] += -Qin * ex - fin * tx;

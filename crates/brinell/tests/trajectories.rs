@@ -115,7 +115,7 @@ fn xval_independent_implementation() {
         .map(|p| p.file_stem().unwrap().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    assert_eq!(names.len(), 13);
+    assert_eq!(names.len(), 21);
     let mut failures = Vec::new();
     for name in names {
         let (differences, _) = compare(&folder("xval").join(&name));

@@ -49,22 +49,21 @@ impl Profile {
             if b <= a || (wa <= 0.0 && wb <= 0.0) || !(wide(wa) || wide(wb)) {
                 continue;
             }
-            // Where the width passes the least one, if it does.
+            let (ha, hb) = self
+                .depth
+                .as_ref()
+                .map_or((depth, depth), |d| (d[k], d[k + 1]));
+            // Where the width passes the least one, if it does. A point of the profile stays to the bit where it is: a gap of a rounding
+            // error between two lines would be a wall to the envelope.
             let border = (least - wa) / (wb - wa);
-            let (from, to) = match (wide(wa), wide(wb)) {
-                (true, true) => (0.0, 1.0),
-                (true, false) => (0.0, border),
-                _ => (border, 1.0),
-            };
-            let at = |f: f64| match &self.depth {
-                Some(d) => d[k] + (d[k + 1] - d[k]) * f,
-                None => depth,
-            };
+            let (s, h) = (a + (b - a) * border, ha + (hb - ha) * border);
+            let (from, at_from) = if wide(wa) { (a, ha) } else { (s, h) };
+            let (to, at_to) = if wide(wb) { (b, hb) } else { (s, h) };
             lines.push(Line {
-                from: a + (b - a) * from,
-                to: a + (b - a) * to,
-                at_from: at(from),
-                at_to: at(to),
+                from,
+                to,
+                at_from,
+                at_to,
             });
         }
         lines
@@ -102,4 +101,26 @@ impl Profile {
 
 fn lerp(values: &[f64], (k, fraction): (usize, f64)) -> f64 {
     values[k] + (values[k + 1] - values[k]) * fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_neighbouring_lines_meet_to_the_bit() {
+        // -1.0e-3 + (0.3e-3 - -1.0e-3) is not 0.3e-3: the envelope took the gap for undamaged surface.
+        let arc: Vec<f64> = [-1.0, 0.3, 1.2].map(|s| s * 1e-3).to_vec();
+        let depth = vec![2e-6, 8e-6, 5e-6];
+        let profile = Profile::new(arc.clone(), vec![1e-3, 4e-3, 2e-3], Some(depth)).unwrap();
+        for from_middle in [0.0, 0.25e-3, 1.3e-3, 1.9e-3] {
+            let lines = profile.along(from_middle, 6e-12, 5e-6);
+            assert_eq!(
+                (lines[0].to, lines[1].from),
+                (arc[1], arc[1]),
+                "{from_middle}"
+            );
+            assert_eq!((lines[0].at_to, lines[1].at_from), (8e-6, 8e-6));
+        }
+    }
 }
