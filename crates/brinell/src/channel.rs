@@ -83,6 +83,14 @@ impl Channel {
         }
     }
 
+    /// Entry of the derivative that the channel is, if it is one.
+    pub fn slope_entry(&self) -> Option<usize> {
+        match self.quantity {
+            Quantity::Slope(k) => Some(k),
+            _ => None,
+        }
+    }
+
     /// The channel's value in a frame; NaN for measured channels, which no frame holds.
     pub fn value(&self, f: &Frame) -> f64 {
         match self.quantity {

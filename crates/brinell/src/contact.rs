@@ -2,7 +2,7 @@
 //!
 //! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is approach beyond first touch.
 
-use crate::elementary::Exponent;
+use crate::elementary::{Exponent, eight_ninths};
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
 /// the effective contact length in m to N/m^(10/9).
@@ -18,7 +18,7 @@ pub fn remaining_share(length: f64, damaged: f64) -> f64 {
     if share == 1.0 {
         1.0
     } else {
-        share.powf(8.0 / 9.0)
+        eight_ninths(share)
     }
 }
 
@@ -101,6 +101,13 @@ impl Hertz {
         }
     }
 
+    /// d(elastic)/d(delta) of a healthy contact that carries `force` > 0, N/m: n K^(1/n) Q^(1 - 1/n).
+    #[inline]
+    pub fn tangent_at(&self, force: f64) -> f64 {
+        let n = self.exponent.value();
+        n * force * (self.stiffness / force).powf(1.0 / n)
+    }
+
     /// Approach that carries `force` on the healthy contact, m.
     pub fn deflection(&self, force: f64) -> f64 {
         (force.max(0.0) / self.stiffness).powf(1.0 / self.exponent.value())
@@ -135,6 +142,8 @@ mod tests {
     #[test]
     fn analytic_deflection_inverts_the_law() {
         for force in [1e-3, 1.0, 1e4] {
+            let tangent = NN3007.tangent(NN3007.deflection(force), None);
+            assert!((NN3007.tangent_at(force) / tangent - 1.0).abs() < 1e-13);
             assert!((NN3007.healthy(NN3007.deflection(force)) / force - 1.0).abs() < 1e-13);
         }
     }

@@ -1,12 +1,13 @@
 //! One run: from a scenario through the solver to rows of channels, streamed to an observer.
 //!
-//! Memory does not grow with the duration. The run is sampled by dense output at eight times the sample rate for the
-//! anti-alias filter; every eighth of those instants is a sample of the instantaneous channels (section 11 of the model). To
-//! fill the filter at the end, the run goes on for half the filter's length past the last sample.
+//! Memory does not grow with the duration. Dense output at eight times the sample rate feeds the anti-alias filter; every eighth of
+//! those instants is a sample of the instantaneous channels, evaluated from the equations of motion at the interpolated state
+//! (section 11 of the model). To fill the filter at the end, the run goes on for half the filter's length past the last sample.
 
 use crate::accuracy::settings;
 use crate::channel::{self, Channel, Frame};
 use crate::defect::SIDES;
+use crate::lanes::{Column, WIDTH, blend, positive};
 use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Layout, Model, ModelError, Motion, Power, Workspace, imbalance};
 use crate::scenario::{Accuracy, Scenario};
@@ -153,6 +154,8 @@ pub struct Simulation {
     model: Model,
     channels: Vec<Channel>,
     filtered: Vec<Channel>,
+    /// Entries of the derivative that these are.
+    filtered_entries: Vec<usize>,
     idle_patterns: Vec<String>,
     initial: Vec<f64>,
     sample_rate: f64,
@@ -176,8 +179,9 @@ impl Simulation {
         let others = others
             .into_iter()
             .filter(|c| channels.iter().any(|r| r.name == c.name));
-        let filtered = measured.into_iter().chain(others).collect();
+        let filtered: Vec<Channel> = measured.into_iter().chain(others).collect();
         Ok(Self {
+            filtered_entries: filtered.iter().filter_map(Channel::slope_entry).collect(),
             channels,
             filtered,
             idle_patterns,
@@ -380,19 +384,22 @@ impl<'a> Run<'a> {
     }
 
     /// One instant of the fast grid.
+    ///
+    /// What passes the anti-alias filter are slopes of the interpolated rates, not right-hand sides at interpolated states: an eighth of the
+    /// evaluations. They keep the momentum of every step, so they differ from those above the filter's band alone.
     fn sample(&mut self, t: f64) -> ControlFlow<()> {
-        let model = &self.simulation.model;
-        self.stepper.interpolate(t, &mut self.y);
-        self.motion.derivative(t, &self.y, &mut self.dy);
-        self.work.sample_evaluations += 1;
-        let frame = Frame {
-            model,
-            t,
-            y: &self.y,
-            dy: &self.dy,
-            ws: &self.motion.ws,
-        };
         if self.next.is_multiple_of(FACTOR as u64) {
+            let model = &self.simulation.model;
+            self.stepper.interpolate(t, &mut self.y);
+            self.motion.derivative(t, &self.y, &mut self.dy);
+            self.work.sample_evaluations += 1;
+            let frame = Frame {
+                model,
+                t,
+                y: &self.y,
+                dy: &self.dy,
+                ws: &self.motion.ws,
+            };
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
             for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
@@ -408,8 +415,8 @@ impl<'a> Run<'a> {
                 self.observer.sample(index, &frame);
             }
         }
-        for (value, channel) in self.fast.iter_mut().zip(&self.simulation.filtered) {
-            *value = channel.value(&frame);
+        for (value, entry) in self.fast.iter_mut().zip(&self.simulation.filtered_entries) {
+            *value = self.stepper.interpolated_slope(t, *entry);
         }
         if let Some(filtered) = self.decimator.push(&self.fast) {
             let row = self.pending.row(self.rows);
@@ -481,20 +488,23 @@ fn suspect(layout: &Layout, ws: &Workspace) -> String {
     worst.1
 }
 
-/// Which forces act, to count the changes.
+/// Which forces act, to count the changes: closed contacts by side and pockets pressed from behind and from before, a bit a slot; and
+/// which contacts stand on damage.
 struct Switches {
-    closed: [Vec<bool>; 2],
+    acting: [Vec<u8>; 4],
+    now: [Vec<u8>; 4],
+    pull: Column,
     on_damage: [Vec<bool>; 2],
-    pocket: Vec<i8>,
 }
 
 impl Switches {
     fn new(layout: &Layout) -> Self {
-        let flags = || [vec![false; layout.slots], vec![false; layout.slots]];
+        let bits = || std::array::from_fn(|_| vec![0; layout.slots / WIDTH]);
         Self {
-            closed: flags(),
-            on_damage: flags(),
-            pocket: vec![0; layout.slots],
+            acting: bits(),
+            now: bits(),
+            pull: Column::new(layout.slots, 0.0),
+            on_damage: std::array::from_fn(|_| vec![false; layout.slots]),
         }
     }
 
@@ -503,23 +513,31 @@ impl Switches {
     }
 
     fn count(&mut self, ws: &Workspace, work: &mut SolverWork) {
-        for (side, c) in ws.contacts.iter().enumerate() {
-            for (slot, force) in c.force.iter().enumerate() {
-                let closed = *force > 0.0;
-                work.contact_switches += u64::from(closed != self.closed[side][slot]);
-                self.closed[side][slot] = closed;
-                work.damage_switches += u64::from(c.on_damage[slot] != self.on_damage[side][slot]);
-                self.on_damage[side][slot] = c.on_damage[slot];
+        blend(&mut self.pull, [-1.0], [&ws.pocket_force]);
+        let [inner, outer] = &ws.contacts;
+        let [a, b, c, d] = &mut self.now;
+        positive(
+            [&inner.force, &outer.force, &ws.pocket_force, &self.pull],
+            [a, b, c, d],
+        );
+        let changed = |k: usize| -> u64 {
+            let pairs = self.acting[k].iter().zip(&self.now[k]);
+            pairs.map(|(a, b)| u64::from((a ^ b).count_ones())).sum()
+        };
+        work.contact_switches += changed(0) + changed(1);
+        let pockets = (0..self.now[2].len()).map(|group| {
+            let differ = |k: usize| self.acting[k][group] ^ self.now[k][group];
+            u64::from((differ(2) | differ(3)).count_ones())
+        });
+        work.pocket_switches += pockets.sum::<u64>();
+        std::mem::swap(&mut self.acting, &mut self.now);
+        for (before, contacts) in self.on_damage.iter_mut().zip(&ws.contacts) {
+            let now = &contacts.on_damage;
+            if before != now {
+                work.damage_switches +=
+                    before.iter().zip(now).filter(|(a, b)| a != b).count() as u64;
+                before.copy_from_slice(now);
             }
-        }
-        for (slot, force) in ws.pocket_force.iter().enumerate() {
-            let state = if *force > 0.0 {
-                1
-            } else {
-                -i8::from(*force < 0.0)
-            };
-            work.pocket_switches += u64::from(state != self.pocket[slot]);
-            self.pocket[slot] = state;
         }
     }
 }

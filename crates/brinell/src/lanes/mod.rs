@@ -4,12 +4,14 @@
 //! and AVX-512. Functions over lanes do not branch on a lane's value. The implementations differ in round-off alone: the
 //! portable one rounds every product, the others fuse products with sums.
 
+mod blend;
 mod column;
 mod functions;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use blend::{blend, positive, weighted_square};
 pub use column::Column;
 pub use functions::{exp, sin_cos, tanh, ten_ninths};
 pub use portable::Portable;
@@ -95,6 +97,8 @@ pub trait Lanes:
 
     /// max(self, 0), and 0 for what is not a number.
     fn positive_part(self) -> Self;
+    /// max(self, other), and `other` for what is not a number.
+    fn at_least(self, other: Self) -> Self;
     /// min(self, other), and `other` for what is not a number.
     fn at_most(self, other: Self) -> Self;
 
@@ -103,6 +107,12 @@ pub trait Lanes:
     fn with_sign_of(self, other: Self) -> Self {
         let zero = Self::zero();
         other.if_above(zero, self, zero.if_above(other, -self, zero))
+    }
+
+    /// Largest lane; NaN is passed over.
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        self.array().into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Sum of the lanes, in a fixed order.

@@ -127,6 +127,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
     fn at_most(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
     }

@@ -129,6 +129,11 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        unsafe { Self(_mm512_max_pd(self.0, other.0)) }
+    }
+
+    #[inline(always)]
     fn sum(self) -> f64 {
         unsafe {
             let low = _mm512_castpd512_pd256(self.0);
@@ -301,6 +306,16 @@ impl Lanes for Avx2 {
         unsafe {
             let zero = _mm256_setzero_pd();
             Self(_mm256_max_pd(self.0, zero), _mm256_max_pd(self.1, zero))
+        }
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_max_pd(self.0, other.0),
+                _mm256_max_pd(self.1, other.1),
+            )
         }
     }
 

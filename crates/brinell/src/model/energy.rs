@@ -5,6 +5,7 @@
 
 use super::{Layout, Model, Workspace};
 use crate::defect::{Angles, SIDES, energy};
+use crate::lanes::Column;
 use crate::scenario::{Guidance, ModelKind};
 use std::ops::{AddAssign, Mul};
 
@@ -165,32 +166,42 @@ impl Energy {
 /// What decides the energy of the contacts at one end of a step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ContactState {
-    angles: Vec<[f64; 2]>,
+    orbit: Column,
+    spin: Column,
     ring: f64,
-    approach: [Vec<f64>; 2],
+    approach: [Column; 2],
     on_damage: [Vec<bool>; 2],
 }
 
 impl ContactState {
     pub(crate) fn new(layout: &Layout) -> Self {
         let slots = layout.slots;
+        let zeros = || Column::new(slots, 0.0);
         Self {
-            angles: vec![[0.0; 2]; slots],
+            orbit: zeros(),
+            spin: zeros(),
             ring: 0.0,
-            approach: [vec![0.0; slots], vec![0.0; slots]],
+            approach: [zeros(), zeros()],
             on_damage: [vec![false; slots], vec![false; slots]],
         }
     }
 
     /// Takes over the evaluation in `ws` at (t, y).
     pub(crate) fn store(&mut self, model: &Model, t: f64, y: &[f64], ws: &Workspace) {
+        if model.defects.is_empty() {
+            return;
+        }
         let l = &model.layout;
         self.ring = model.rotation.at(t).1;
-        for slot in 0..l.rollers() {
-            self.angles[slot] = match model.kind {
-                ModelKind::Full => [y[l.theta() + slot], y[l.phi() + slot]],
-                ModelKind::Reference => [ws.kinematic_orbit[slot], ws.kinematic_spin],
-            };
+        match model.kind {
+            ModelKind::Full => {
+                self.orbit.copy_from_slice(&y[l.theta()..][..l.slots]);
+                self.spin.copy_from_slice(&y[l.phi()..][..l.slots]);
+            }
+            ModelKind::Reference => {
+                self.orbit.copy_from_slice(&ws.kinematic_orbit);
+                self.spin.fill(ws.kinematic_spin);
+            }
         }
         for side in SIDES {
             let k = side as usize;
@@ -201,8 +212,8 @@ impl ContactState {
 
     fn angles(&self, slot: usize) -> Angles {
         Angles {
-            orbit: self.angles[slot][0],
-            spin: self.angles[slot][1],
+            orbit: self.orbit[slot],
+            spin: self.spin[slot],
             ring: self.ring,
         }
     }
@@ -217,10 +228,16 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
         return 0.0;
     }
     let mut work = 0.0;
-    for slot in 0..model.layout.rollers() {
-        for side in SIDES {
-            let k = side as usize;
-            if !before.on_damage[k][slot] && !after.on_damage[k][slot] {
+    for side in SIDES {
+        let k = side as usize;
+        if !before.on_damage[k].contains(&true) && !after.on_damage[k].contains(&true) {
+            continue;
+        }
+        for &slot in &model.exposure[k].slots {
+            let on_damage = |k: usize| before.on_damage[k][slot] || after.on_damage[k][slot];
+            // The reference model has one contact in series for both sides: count it once.
+            let counted = model.kind == ModelKind::Reference && k == 1 && on_damage(0);
+            if !on_damage(k) || counted {
                 continue;
             }
             let (from, to) = (before.angles(slot), after.angles(slot));
@@ -244,10 +261,6 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
                 }
             };
             work += 0.5 * (change(before.approach[k][slot]) + change(after.approach[k][slot]));
-            if model.kind == ModelKind::Reference {
-                // One series contact for both sides: count it once.
-                break;
-            }
         }
     }
     work

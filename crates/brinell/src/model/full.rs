@@ -449,6 +449,7 @@ fn rollers<L: Lanes, const KEEP: bool>(
     let drag_factor = L::splat(model.drag);
     let one = L::splat(1.0);
 
+    let mut heaviest = [L::zero(); 2];
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
     let mut flows = Flows {
@@ -506,6 +507,7 @@ fn rollers<L: Lanes, const KEEP: bool>(
                         friction[k].times_plus(at(&contacts.slip, group), flows.friction);
                 }
                 if KEEP {
+                    heaviest[k] = heaviest[k].at_least(elastic);
                     put(elastic, &mut contacts.elastic, group);
                     put(normal[k], &mut contacts.force, group);
                     put(friction[k], &mut contacts.friction, group);
@@ -584,6 +586,9 @@ fn rollers<L: Lanes, const KEEP: bool>(
                 a_bodies[3 * row + k] += (sum * lanes).sum();
             }
         }
+    }
+    if KEEP {
+        ws.heaviest = [heaviest[0].largest(), heaviest[1].largest()];
     }
     Sums {
         on_inner: [on_inner[0].sum(), on_inner[1].sum()],

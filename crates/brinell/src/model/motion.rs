@@ -1,6 +1,7 @@
 //! The model as a system that the solver can integrate.
 
 use super::{Model, Power, Workspace};
+use crate::accuracy::longest_step;
 use crate::solver::System;
 
 /// A model and the workspace of its evaluations.
@@ -37,6 +38,10 @@ impl System for Motion<'_> {
     #[inline]
     fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.model.slope(t, y, dy, &mut self.ws);
+    }
+
+    fn longest_step(&self) -> f64 {
+        longest_step(self.model, self.ws.heaviest)
     }
 
     fn flow(&self) -> Power {

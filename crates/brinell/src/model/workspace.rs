@@ -116,6 +116,8 @@ pub struct Workspace {
     pub kinematic_orbit: Vec<f64>,
     /// phi of a roller in the reference model, rad.
     pub kinematic_spin: f64,
+    /// Largest elastic force of each side's contacts, N.
+    pub heaviest: [f64; 2],
     /// Flows of energy at this instant, W.
     pub power: Power,
 }
@@ -147,6 +149,7 @@ impl Workspace {
             },
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
+            heaviest: [0.0; 2],
             power: Power::default(),
         }
     }

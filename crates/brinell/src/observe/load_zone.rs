@@ -64,7 +64,8 @@ impl LoadZone {
                 ModelKind::Full => f.y[l.theta() + slot],
                 ModelKind::Reference => f.ws.kinematic_orbit[slot],
             };
-            let turn = (orbit / TAU).rem_euclid(1.0);
+            let turn = wrap(orbit) / TAU;
+            let turn = if turn < 0.0 { turn + 1.0 } else { turn };
             let bin = ((turn * BINS as f64) as usize).min(BINS - 1);
             let row = &mut self.rows[l.row(slot)];
             row.sum[bin] += force[slot];

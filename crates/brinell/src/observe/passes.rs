@@ -5,6 +5,7 @@ use crate::defect::{Angles, Defect, SIDES, Side, wrap};
 use crate::model::Model;
 use crate::scenario::{ModelKind, Surface};
 use std::collections::VecDeque;
+use std::f64::consts::PI;
 
 /// One point of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,6 +64,8 @@ const MARGIN: f64 = 0.5;
 struct Watch {
     first: f64,
     last: f64,
+    /// Of a raceway's defect: cosine of the widest angle from its middle at which a roller is looked at.
+    cos_near: Option<f64>,
     /// Contacts that can meet the defect, and whether each stands on it.
     contacts: Vec<(usize, Side, bool)>,
     current: Option<Pass>,
@@ -91,9 +94,13 @@ impl Passes {
                 .filter(|&(slot, side)| d.meets(l.row(slot), l.roller(slot), side))
                 .map(|(slot, side)| (slot, side, false))
                 .collect();
+            // Half the arc and the margin, and a little more for round-off.
+            let near = (0.5 + MARGIN) * (last - first) / d.radius + 1e-6;
             Watch {
                 first: first / d.radius,
                 last: last / d.radius,
+                cos_near: (!matches!(d.surface, Surface::Roller(_)) && near < PI)
+                    .then(|| near.cos()),
                 contacts,
                 current: None,
                 stride: 1,
@@ -114,8 +121,21 @@ impl Passes {
         for (index, watch) in self.watches.iter_mut().enumerate() {
             let defect = &f.model.defects[index];
             let margin = MARGIN * (watch.last - watch.first);
+            let middle = defect.center
+                + 0.5 * (watch.first + watch.last)
+                + if defect.surface == Surface::InnerRaceway {
+                    ring
+                } else {
+                    0.0
+                };
+            let (sin, cos) = middle.sin_cos();
             for k in 0..watch.contacts.len() {
                 let (slot, side, inside) = watch.contacts[k];
+                // Most rollers are far away.
+                let far = |cos_near| cos * f.ws.cos[slot] + sin * f.ws.sin[slot] < cos_near;
+                if watch.cos_near.is_some_and(far) && !inside && !watch.is_followed(slot, side) {
+                    continue;
+                }
                 let angles = match f.model.kind {
                     ModelKind::Full => Angles {
                         orbit: f.y[l.theta() + slot],
@@ -160,6 +180,12 @@ fn from_middle(u: f64, watch: &Watch) -> f64 {
 }
 
 impl Watch {
+    /// Whether the contact is on its way over the defect.
+    fn is_followed(&self, slot: usize, side: Side) -> bool {
+        let mine = |pass: &Pass| pass.slot == slot && pass.side == side;
+        self.current.as_ref().is_some_and(mine)
+    }
+
     #[expect(clippy::too_many_arguments, reason = "one contact at one instant")]
     fn follow(
         &mut self,

@@ -9,6 +9,7 @@ mod tableau;
 
 pub use tableau::{BOGACKI_SHAMPINE, Tableau};
 
+use crate::lanes::{Column, blend, weighted_square};
 use std::ops::{AddAssign, Mul};
 
 /// What is integrated.
@@ -25,6 +26,11 @@ pub trait System {
     /// The same within a step, where nothing but the derivative and the flow is looked at.
     fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.derivative(t, y, dy);
+    }
+
+    /// Longest step from the last state given to [`System::derivative`] in which the fastest motions still decay.
+    fn longest_step(&self) -> f64 {
+        f64::INFINITY
     }
 
     /// Rate of the integrated quantity at the last evaluated state.
@@ -78,16 +84,18 @@ pub enum StepError {
 #[derive(Debug, Clone)]
 pub struct Stepper<F> {
     settings: Settings,
-    /// Stage derivatives; the first is that of `y`, the last that of the trial state.
-    stages: Vec<Vec<f64>>,
+    /// Stage derivatives; the first is that of `y`, the last that of the trial state, and between steps that of `previous`.
+    stages: Vec<Column>,
     flows: Vec<F>,
-    y: Vec<f64>,
-    trial: Vec<f64>,
-    previous: Vec<f64>,
-    previous_slope: Vec<f64>,
+    y: Column,
+    trial: Column,
+    previous: Column,
+    mass: Column,
     t: f64,
     t_previous: f64,
     step: f64,
+    /// The system's longest step from the current state.
+    limit: f64,
     last_error: f64,
     work: Work,
 }
@@ -105,22 +113,24 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         let n = system.size();
         let stages = settings.tableau.stages();
         let mut stepper = Self {
-            stages: vec![vec![0.0; n]; stages],
+            stages: vec![Column::new(n, 0.0); stages],
             flows: vec![F::default(); stages],
-            y: y.to_vec(),
-            trial: vec![0.0; n],
-            previous: y.to_vec(),
-            previous_slope: vec![0.0; n],
+            y: Column::from(y),
+            trial: Column::new(n, 0.0),
+            previous: Column::from(y),
+            mass: Column::from(settings.mass.as_slice()),
             t,
             t_previous: t,
             // The controller finds its own step within a few trials; too short costs little, too long is rejected.
             step: 1e-3 * settings.max_step,
+            limit: f64::INFINITY,
             last_error: 1.0,
             work: Work::default(),
             settings,
         };
         system.derivative(t, y, &mut stepper.stages[0]);
         stepper.flows[0] = system.flow();
+        stepper.limit = system.longest_step();
         stepper.work.evaluations = 1;
         stepper
     }
@@ -159,7 +169,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         let exponent = 1.0 / f64::from(tableau.order);
         let mut shrunk = false;
         loop {
-            let h = self.step.min(self.settings.max_step);
+            let h = self.step.min(self.settings.max_step).min(self.limit);
             if h <= 16.0 * f64::EPSILON * self.t.abs().max(f64::MIN_POSITIVE) || h < 1e-18 {
                 return Err(self.failure());
             }
@@ -182,6 +192,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
                 self.last_error = error.max(1e-4);
                 self.accept(h);
+                self.limit = system.longest_step();
                 self.step = h * factor.clamp(*GROWTH.start(), ceiling);
                 let mut integral = F::default();
                 for (weight, flow) in tableau.weights().iter().zip(&self.flows) {
@@ -204,7 +215,6 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     fn accept(&mut self, h: f64) {
         std::mem::swap(&mut self.previous, &mut self.y);
         std::mem::swap(&mut self.y, &mut self.trial);
-        self.previous_slope.copy_from_slice(&self.stages[0]);
         let last = self.stages.len() - 1;
         self.stages.swap(0, last);
         self.t_previous = self.t;
@@ -215,15 +225,20 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// Mass-weighted norm of the error of the rates.
     fn error(&self, h: f64) -> f64 {
         let half = self.y.len() / 2;
-        let mut sum = 0.0;
-        for (k, mass) in self.settings.mass.iter().enumerate() {
-            let mut e = 0.0;
-            for (weight, stage) in self.settings.tableau.error.iter().zip(&self.stages) {
-                e += weight * stage[half + k];
-            }
-            sum += mass * e * e;
-        }
-        h * sum.sqrt()
+        let square = match (self.settings.tableau.error, self.stages.as_slice()) {
+            (&[a, b, c, d], [k, l, m, n]) => weighted_square(
+                &self.mass,
+                [a, b, c, d],
+                [&k[half..], &l[half..], &m[half..], &n[half..]],
+            ),
+            (weights, stages) => (0..half)
+                .map(|k| {
+                    let terms = weights.iter().zip(stages).map(|(w, s)| w * s[half + k]);
+                    self.mass[k] * terms.sum::<f64>().powi(2)
+                })
+                .sum(),
+        };
+        h * square.sqrt()
     }
 
     fn failure(&self) -> StepError {
@@ -257,33 +272,71 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         }
     }
 
+    /// How far into the last step `t` lies, as a share of it, and the step.
+    fn within(&self, t: f64) -> (f64, f64) {
+        let h = self.t - self.t_previous;
+        if h > 0.0 {
+            ((t - self.t_previous) / h, h)
+        } else {
+            (1.0, h)
+        }
+    }
+
     /// State at a time within the last step, by the cubic Hermite polynomial of its ends (third order, as the pair is).
     pub fn interpolate(&self, t: f64, y: &mut [f64]) {
-        let h = self.t - self.t_previous;
-        let s = if h > 0.0 {
-            (t - self.t_previous) / h
-        } else {
-            1.0
-        };
+        let (s, h) = self.within(t);
         let r = 1.0 - s;
-        let (y0, y1) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
-        let (d0, d1) = (h * s * r * r, -h * s * s * r);
-        let ends = self.previous.iter().zip(&self.y);
-        let slopes = self.previous_slope.iter().zip(&self.stages[0]);
-        for ((out, (a, b)), (da, db)) in y.iter_mut().zip(ends).zip(slopes) {
-            *out = y0 * a + y1 * b + d0 * da + d1 * db;
+        let factors = [
+            r * r * (1.0 + 2.0 * s),
+            s * s * (1.0 + 2.0 * r),
+            h * s * r * r,
+            -h * s * s * r,
+        ];
+        blend(
+            y,
+            factors,
+            [
+                &self.previous,
+                &self.y,
+                self.slope_before(),
+                &self.stages[0],
+            ],
+        );
+    }
+
+    /// Slope of that polynomial in entry `index`: second order at an instant, but its mean over the step is exact.
+    pub fn interpolated_slope(&self, t: f64, index: usize) -> f64 {
+        let (s, h) = self.within(t);
+        let (before, after) = (self.slope_before()[index], self.stages[0][index]);
+        if h <= 0.0 {
+            return after;
         }
+        let r = 1.0 - s;
+        let rise = (self.y[index] - self.previous[index]) / h;
+        6.0 * s * r * rise + r * (1.0 - 3.0 * s) * before + s * (1.0 - 3.0 * r) * after
+    }
+
+    /// Derivative at the start of the last step.
+    fn slope_before(&self) -> &[f64] {
+        &self.stages[self.stages.len() - 1]
     }
 }
 
 /// `out` = y + h sum of `row` times `stages`.
-fn combine(out: &mut [f64], y: &[f64], stages: &[Vec<f64>], row: &[f64], h: f64) {
-    out.copy_from_slice(y);
-    for (weight, stage) in row.iter().zip(stages) {
-        if *weight != 0.0 {
-            let factor = weight * h;
-            for (o, k) in out.iter_mut().zip(stage) {
-                *o += factor * k;
+fn combine(out: &mut [f64], y: &[f64], stages: &[Column], row: &[f64], h: f64) {
+    match (row, stages) {
+        (&[a], [k, ..]) => blend(out, [1.0, h * a], [y, k]),
+        (&[0.0, b], [_, l, ..]) => blend(out, [1.0, h * b], [y, l]),
+        (&[a, b], [k, l, ..]) => blend(out, [1.0, h * a, h * b], [y, k, l]),
+        (&[a, b, c], [k, l, m, ..]) => {
+            blend(out, [1.0, h * a, h * b, h * c], [y, k, l, m]);
+        }
+        _ => {
+            out.copy_from_slice(y);
+            for (weight, stage) in row.iter().zip(stages) {
+                for (o, k) in out.iter_mut().zip(stage) {
+                    *o += h * weight * k;
+                }
             }
         }
     }

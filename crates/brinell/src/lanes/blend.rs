@@ -1,0 +1,154 @@
+//! Sums over long lists, with the widest instructions that the processor has.
+
+use super::{Lanes, Portable, WIDTH};
+
+/// Defines a function that runs `$body::<L, N>` compiled for the processor's instructions.
+macro_rules! dispatched {
+    ($(#[$doc:meta])* $name:ident, $body:ident, ($($arg:ident: $type:ty),*) $(-> $out:ty)?) => {
+        $(#[$doc])*
+        pub fn $name<const N: usize>($($arg: $type),*) $(-> $out)? {
+            #[cfg(target_arch = "x86_64")]
+            {
+                use super::{Avx2, Avx512};
+                #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+                fn avx512<const N: usize>($($arg: $type),*) $(-> $out)? {
+                    $body::<Avx512, N>($($arg),*)
+                }
+                #[target_feature(enable = "avx2,fma")]
+                fn avx2<const N: usize>($($arg: $type),*) $(-> $out)? {
+                    $body::<Avx2, N>($($arg),*)
+                }
+                if is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                {
+                    // SAFETY: the processor has these instructions.
+                    return unsafe { avx512::<N>($($arg),*) };
+                }
+                if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                    // SAFETY: as above.
+                    return unsafe { avx2::<N>($($arg),*) };
+                }
+            }
+            $body::<Portable, N>($($arg),*)
+        }
+    };
+}
+
+dispatched! {
+    /// `out` = sum of the factors times their lists. All are equally long.
+    blend, blend_lanes, (out: &mut [f64], factors: [f64; N], lists: [&[f64]; N])
+}
+
+dispatched! {
+    /// Sum over k of `weight[k]` times the square of the sum of the factors times their lists' k-th entries. All are equally long.
+    weighted_square, weighted_square_lanes, (weight: &[f64], factors: [f64; N], lists: [&[f64]; N]) -> f64
+}
+
+dispatched! {
+    /// Which entries of each list are above 0, a bit each: groups of eight to a byte, the first in the lowest bit. An incomplete group at
+    /// the end is left out.
+    positive, positive_lanes, (lists: [&[f64]; N], bits: [&mut [u8]; N])
+}
+
+#[inline(always)]
+fn positive_lanes<L: Lanes, const N: usize>(lists: [&[f64]; N], bits: [&mut [u8]; N]) {
+    for (list, bits) in lists.into_iter().zip(bits) {
+        for (group, bits) in list.as_chunks::<WIDTH>().0.iter().zip(bits) {
+            *bits = L::new(*group).above(L::zero());
+        }
+    }
+}
+
+/// The lists as groups, `count` of each.
+#[inline(always)]
+fn groups<'a, const N: usize>(lists: &[&'a [f64]; N], count: usize) -> [&'a [[f64; WIDTH]]; N] {
+    let mut out: [&[[f64; WIDTH]]; N] = [&[]; N];
+    for k in 0..N {
+        out[k] = &lists[k].as_chunks::<WIDTH>().0[..count];
+    }
+    out
+}
+
+/// What a tail too short for a group adds up to at its entry `k`.
+#[inline(always)]
+fn scalar<const N: usize>(factors: &[f64; N], lists: &[&[f64]; N], k: usize) -> f64 {
+    let mut sum = 0.0;
+    for n in 0..N {
+        sum += factors[n] * lists[n][k];
+    }
+    sum
+}
+
+#[inline(always)]
+fn blend_lanes<L: Lanes, const N: usize>(out: &mut [f64], factors: [f64; N], lists: [&[f64]; N]) {
+    let whole = out.len() / WIDTH * WIDTH;
+    let (head, tail) = out.split_at_mut(whole);
+    let (head, _) = head.as_chunks_mut::<WIDTH>();
+    let columns = groups(&lists, head.len());
+    for (group, out) in head.iter_mut().enumerate() {
+        let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
+        for k in 1..N {
+            sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
+        }
+        *out = sum.array();
+    }
+    for (k, out) in tail.iter_mut().enumerate() {
+        *out = scalar(&factors, &lists, whole + k);
+    }
+}
+
+#[inline(always)]
+fn weighted_square_lanes<L: Lanes, const N: usize>(
+    weight: &[f64],
+    factors: [f64; N],
+    lists: [&[f64]; N],
+) -> f64 {
+    let (head, tail) = weight.as_chunks::<WIDTH>();
+    let columns = groups(&lists, head.len());
+    let mut total = L::zero();
+    for (group, weight) in head.iter().enumerate() {
+        let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
+        for k in 1..N {
+            sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
+        }
+        total = (L::new(*weight) * sum).times_plus(sum, total);
+    }
+    let rest: f64 = (tail.iter().enumerate())
+        .map(|(k, weight)| weight * scalar(&factors, &lists, WIDTH * head.len() + k).powi(2))
+        .sum();
+    total.sum() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_positive_entries() {
+        let mut list = vec![0.0; 24];
+        (list[3], list[8], list[15], list[20]) = (1e-300, 2.0, f64::INFINITY, -1.0);
+        list[21] = f64::NAN;
+        let mut bits = [0xff; 3];
+        positive([&list], [&mut bits]);
+        assert_eq!(bits, [1 << 3, 1 | 1 << 7, 0]);
+    }
+
+    #[test]
+    fn analytic_blend_and_weighted_square() {
+        let list = |f: fn(f64) -> f64| -> Vec<f64> { (0..21).map(|k| f(f64::from(k))).collect() };
+        let (a, b, c) = (list(f64::sin), list(f64::cos), list(|k| 1.0 + k));
+        let factors = [2.0, -0.25, 1e-3];
+        let mut out = vec![f64::NAN; 21];
+        blend(&mut out, factors, [&a, &b, &c]);
+        let plain: Vec<f64> = (0..21)
+            .map(|k| factors[0] * a[k] + factors[1] * b[k] + factors[2] * c[k])
+            .collect();
+        for (x, y) in out.iter().zip(&plain) {
+            assert!((x - y).abs() < 1e-15);
+        }
+        let sum: f64 = plain.iter().zip(&c).map(|(x, w)| w * x * x).sum();
+        let square = weighted_square(&c, factors, [&a, &b, &c]);
+        assert!((square / sum - 1.0).abs() < 1e-14);
+    }
+}
