@@ -67,7 +67,7 @@ pub trait Observer {
     /// [`Simulation::filtered`] at that sample. Breaking ends the run.
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()>;
 
-    /// After each step: the simulated time reached. Breaking ends the run.
+    /// Every few dozen steps: the simulated time reached. Breaking ends the run.
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
         let _ = (t, work);
         ControlFlow::Continue(())
@@ -231,6 +231,9 @@ impl Simulation {
     }
 }
 
+/// Steps between two reports of progress.
+const PROGRESS: u64 = 32;
+
 /// Rows that wait for their filtered samples.
 struct Pending {
     width: usize,
@@ -354,8 +357,13 @@ impl<'a> Run<'a> {
                     self.book(flows);
                     // Steps rather than samples: a stiff run may take minutes from one sample to the next.
                     self.work.solver = self.stepper.work();
-                    let t = self.stepper.t();
-                    if self.observer.progress(t, &self.work).is_break() {
+                    let due = self.work.solver.steps.is_multiple_of(PROGRESS);
+                    if due
+                        && self
+                            .observer
+                            .progress(self.stepper.t(), &self.work)
+                            .is_break()
+                    {
                         return End::Stopped;
                     }
                 }

@@ -109,12 +109,6 @@ pub trait Lanes:
         other.if_above(zero, self, zero.if_above(other, -self, zero))
     }
 
-    /// Largest lane; NaN is passed over.
-    #[inline(always)]
-    fn largest(self) -> f64 {
-        self.array().into_iter().fold(f64::NEG_INFINITY, f64::max)
-    }
-
     /// Sum of the lanes, in a fixed order.
     #[inline(always)]
     fn sum(self) -> f64 {

@@ -11,74 +11,33 @@ use crate::elementary::Exponent;
 use crate::lanes::{self, Lanes, Portable, WIDTH};
 use crate::scenario::Guidance;
 
-/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names. Where `keep`, the forces stay in the workspace;
-/// else the flows of energy alone.
-pub(super) fn derivative(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    ws: &mut Workspace,
-    keep: bool,
-) {
-    // The push of slopes is found from the forces kept.
-    if keep || model.rules.is_conservative() {
-        dispatch::<true>(model, t, y, dy, ws);
-    } else {
-        dispatch::<false>(model, t, y, dy, ws);
-    }
-}
-
-fn dispatch<const KEEP: bool>(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    ws: &mut Workspace,
-) {
+/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
+pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
     match ws.kernel() {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a workspace holds a kernel only where the processor has its instructions.
-        Kernel::Avx512 => unsafe { with_avx512::<KEEP>(model, t, y, dy, ws) },
+        Kernel::Avx512 => unsafe { with_avx512(model, t, y, dy, ws) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Kernel::Avx2 => unsafe { with_avx2::<KEEP>(model, t, y, dy, ws) },
-        _ => equations::<Portable, KEEP>(model, t, y, dy, ws),
+        Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
+        _ => equations::<Portable>(model, t, y, dy, ws),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn with_avx512<const KEEP: bool>(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    ws: &mut Workspace,
-) {
-    equations::<lanes::Avx512, KEEP>(model, t, y, dy, ws);
+fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    equations::<lanes::Avx512>(model, t, y, dy, ws);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn with_avx2<const KEEP: bool>(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    ws: &mut Workspace,
-) {
-    equations::<lanes::Avx2, KEEP>(model, t, y, dy, ws);
+fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    equations::<lanes::Avx2>(model, t, y, dy, ws);
 }
 
 #[inline(always)]
-fn equations<L: Lanes, const KEEP: bool>(
-    model: &Model,
-    t: f64,
-    y: &[f64],
-    dy: &mut [f64],
-    ws: &mut Workspace,
-) {
+fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
     let l = &model.layout;
     let dof = l.dof();
     let (q, v) = y.split_at(dof);
@@ -92,7 +51,7 @@ fn equations<L: Lanes, const KEEP: bool>(
     // the processor works on several groups at once.
     motion::<L>(model, q, v, w, ws);
     functions::<L>(model, ws);
-    let mut sums = rollers::<L, KEEP>(model, q, v, a, (w, ring_angle), ws);
+    let mut sums = rollers::<L>(model, q, v, a, (w, ring_angle), ws);
     if model.rules.is_conservative() && !model.defects.is_empty() {
         edge_reaction(model, q, a, (w, ring_angle), ws, &mut sums.power);
     }
@@ -189,7 +148,6 @@ fn damaged_contacts<L: Lanes>(
     (q, ring_angle): (&[f64], f64),
     elastic: L,
     contacts: &mut Contacts,
-    keep: bool,
 ) -> L {
     let mut forces = elastic.array();
     on_damage(
@@ -198,7 +156,6 @@ fn damaged_contacts<L: Lanes>(
         (q, ring_angle),
         &mut forces,
         contacts,
-        keep,
     );
     L::new(forces)
 }
@@ -210,7 +167,6 @@ fn on_damage(
     (q, ring_angle): (&[f64], f64),
     forces: &mut Group,
     contacts: &mut Contacts,
-    keep: bool,
 ) {
     let l = &model.layout;
     while exposed != 0 {
@@ -232,10 +188,8 @@ fn on_damage(
         );
         if let Some(acting) = acting {
             forces[lane] = acting.elastic;
-            if keep {
-                contacts.on_damage[slot] = true;
-                contacts.damaged_length[slot] = acting.floor.damaged_length;
-            }
+            contacts.on_damage[slot] = true;
+            contacts.damaged_length[slot] = acting.floor.damaged_length;
         }
     }
 }
@@ -411,7 +365,7 @@ fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
 /// Normal forces (section 2) and damage (section 3), friction (section 4), pockets (section 5), drag (section 7) and the rollers' own
 /// motion (Eq. 51).
 #[inline(always)]
-fn rollers<L: Lanes, const KEEP: bool>(
+fn rollers<L: Lanes>(
     model: &Model,
     q: &[f64],
     v: &[f64],
@@ -480,7 +434,7 @@ fn rollers<L: Lanes, const KEEP: bool>(
                 let k = side as usize;
                 let law = model.contact(side);
                 let contacts = &mut ws.contacts[k];
-                if KEEP && !model.exposure[k].slots.is_empty() {
+                if !model.exposure[k].slots.is_empty() {
                     contacts.on_damage[group * WIDTH..][..WIDTH].fill(false);
                     contacts.damaged_length[group * WIDTH..][..WIDTH].fill(0.0);
                 }
@@ -494,7 +448,6 @@ fn rollers<L: Lanes, const KEEP: bool>(
                             (q, ring_angle),
                             elastic,
                             contacts,
-                            KEEP,
                         );
                     }
                     let rate: L = at(&contacts.approach_rate, group);
@@ -506,12 +459,10 @@ fn rollers<L: Lanes, const KEEP: bool>(
                     flows.friction =
                         friction[k].times_plus(at(&contacts.slip, group), flows.friction);
                 }
-                if KEEP {
-                    heaviest[k] = heaviest[k].at_least(elastic);
-                    put(elastic, &mut contacts.elastic, group);
-                    put(normal[k], &mut contacts.force, group);
-                    put(friction[k], &mut contacts.friction, group);
-                }
+                heaviest[k] = heaviest[k].at_least(elastic);
+                put(elastic, &mut contacts.elastic, group);
+                put(normal[k], &mut contacts.force, group);
+                put(friction[k], &mut contacts.friction, group);
             }
             let [q_in, q_out] = normal;
             let [f_in, f_out] = friction;
@@ -575,10 +526,8 @@ fn rollers<L: Lanes, const KEEP: bool>(
             let levers = r.times_plus(tangential, q_in * xi_t);
             let levers = push.minus_times(xc_r, q_out.minus_times(xo_t, levers));
             flows.lever = dtheta.times_plus(levers, flows.lever);
-            if KEEP {
-                put(push, &mut ws.pocket_force, group);
-                put(rub, &mut ws.pocket_friction, group);
-            }
+            put(push, &mut ws.pocket_force, group);
+            put(rub, &mut ws.pocket_friction, group);
         }
         for (row, lanes) in rows.iter().enumerate() {
             let lanes = L::new(*lanes);
@@ -587,9 +536,7 @@ fn rollers<L: Lanes, const KEEP: bool>(
             }
         }
     }
-    if KEEP {
-        ws.heaviest = [heaviest[0].largest(), heaviest[1].largest()];
-    }
+    ws.heaviest = [heaviest[0].array(), heaviest[1].array()];
     Sums {
         on_inner: [on_inner[0].sum(), on_inner[1].sum()],
         on_outer: [on_outer[0].sum(), on_outer[1].sum()],

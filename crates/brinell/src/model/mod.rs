@@ -382,16 +382,7 @@ impl Model {
     #[inline]
     pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
         match self.kind {
-            ModelKind::Full => full::derivative(self, t, y, dy, ws, true),
-            ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
-        }
-    }
-
-    /// The same, to the bit, with only the flows of energy left in `ws`: for stages within a step.
-    #[inline]
-    pub fn slope(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-        match self.kind {
-            ModelKind::Full => full::derivative(self, t, y, dy, ws, false),
+            ModelKind::Full => full::derivative(self, t, y, dy, ws),
             ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
         }
     }

@@ -35,13 +35,8 @@ impl System for Motion<'_> {
         self.model.derivative(t, y, dy, &mut self.ws);
     }
 
-    #[inline]
-    fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.model.slope(t, y, dy, &mut self.ws);
-    }
-
     fn longest_step(&self) -> f64 {
-        longest_step(self.model, self.ws.heaviest)
+        longest_step(self.model, self.ws.heaviest())
     }
 
     fn flow(&self) -> Power {

@@ -116,8 +116,8 @@ pub struct Workspace {
     pub kinematic_orbit: Vec<f64>,
     /// phi of a roller in the reference model, rad.
     pub kinematic_spin: f64,
-    /// Largest elastic force of each side's contacts, N.
-    pub heaviest: [f64; 2],
+    /// Largest elastic force of each side's contacts, N, in each lane.
+    pub(super) heaviest: [[f64; WIDTH]; 2],
     /// Flows of energy at this instant, W.
     pub power: Power,
 }
@@ -149,9 +149,15 @@ impl Workspace {
             },
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
-            heaviest: [0.0; 2],
+            heaviest: [[0.0; WIDTH]; 2],
             power: Power::default(),
         }
+    }
+
+    /// Largest elastic force of each side's contacts, N.
+    pub fn heaviest(&self) -> [f64; 2] {
+        self.heaviest
+            .map(|lanes| lanes.into_iter().fold(0.0, f64::max))
     }
 
     /// The kernel that evaluations use.

@@ -23,11 +23,6 @@ pub trait System {
     /// dy/dt.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
 
-    /// The same within a step, where nothing but the derivative and the flow is looked at.
-    fn stage(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.derivative(t, y, dy);
-    }
-
     /// Longest step from the last state given to [`System::derivative`] in which the fastest motions still decay.
     fn longest_step(&self) -> f64 {
         f64::INFINITY
@@ -176,11 +171,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             for (s, (row, node)) in tableau.rows.iter().zip(tableau.nodes).enumerate() {
                 let (done, rest) = self.stages.split_at_mut(s + 1);
                 combine(&mut self.trial, &self.y, done, row, h);
-                if s + 1 < tableau.rows.len() {
-                    system.stage(self.t + node * h, &self.trial, &mut rest[0]);
-                } else {
-                    system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
-                }
+                system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
                 self.flows[s + 1] = system.flow();
             }
             self.work.evaluations += tableau.rows.len() as u64;
