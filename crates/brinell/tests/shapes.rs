@@ -580,3 +580,20 @@ fn analytic_under_ecl_two_defects_follow_the_envelope_of_one_profile_and_a_pit_d
         );
     }
 }
+
+#[test]
+fn prop_under_ecl_the_envelope_of_a_raised_edge_is_never_deeper_than_its_floor() {
+    let burr = scenario::Shape::DepthMap {
+        grid: grid_mm([1.0, 1.5], 0.25, |s, z| 10.0 - 11.0 * s.hypot(z)),
+    };
+    let make = |path| defect(burr.clone(), Surface::OuterRaceway, Law::Ecl, path, 1);
+    let (point, envelope) = (make(RollerPath::Point), make(RollerPath::Envelope));
+    let mut raised = 0;
+    for k in -500..=500 {
+        let u = 1e-3 * f64::from(k) / 500.0 / point.radius;
+        let depth = |d: &Defect| d.floor(u, Side::Outer).map_or(0.0, |f| f.depth);
+        assert!(depth(&envelope) <= depth(&point) + 1e-15, "at {k}");
+        raised += usize::from(depth(&point) == 0.0);
+    }
+    assert!(raised > 100, "no raised part");
+}
