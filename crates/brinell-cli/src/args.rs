@@ -238,7 +238,7 @@ pub(crate) enum Written {
 #[command(
     after_help = "Prints a whole [[defects]] entry: paste it over the old one, or redirect it.\n\n\
     A profile keeps L_s and h_s along the arc and forgets where across the roller the damage lies.\n\
-    An outline keeps the place and has one depth, the mean where the shape has several.\n\n\
+    An outline keeps the place and has one depth, that of equal volume where the shape has several.\n\n\
     Example: brinell defect convert spall.toml --to profile --points 200"
 )]
 pub(crate) struct ConvertArgs {
@@ -253,6 +253,12 @@ pub(crate) struct ConvertArgs {
     /// Points along a curved edge; straight edges need none
     #[arg(long, value_name = "N", default_value_t = 113)]
     pub(crate) points: usize,
+    /// Outline of a depth map: what is deeper than this [default: the depth at which it encloses the damaged area]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    pub(crate) level_um: Option<f64>,
+    /// Outline of a depth map: corners closer than this to the line are left out [default: a tenth of the map's finer step]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) tolerance_mm: Option<f64>,
 }
 
 /// Simple shapes.

@@ -8,11 +8,8 @@ use brinell::derived::Derived;
 use brinell::model::{Model, ModelError};
 use brinell::observe::load_zone::static_load_zone;
 use brinell::observe::passes::place;
-use brinell::scenario::{
-    self, Contact, DepthGrid, EdgeReaction, Law, RollerPath, Scenario, Surface,
-};
+use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
 use brinell_report::{DamageCurve, DamagePanel, DamageView, DepthPatch, Fact, Value};
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Points of a curve.
@@ -429,6 +426,55 @@ fn depths(shape: &Shape) -> Option<DepthPatch> {
     })
 }
 
+/// The grid of a shape that has one.
+pub(crate) fn depth_grid(of: &scenario::Defect) -> Option<brinell_damage::DepthGrid> {
+    let grid = match &of.shape {
+        scenario::Shape::DepthMap { grid } => grid.clone(),
+        scenario::Shape::Random {
+            seed,
+            length_mm,
+            width_mm,
+            roughness,
+        } => spall(
+            *seed,
+            *length_mm,
+            *width_mm,
+            *roughness,
+            of.depth_um.max(1.0),
+        ),
+        _ => return None,
+    };
+    Some(brinell_damage::DepthGrid {
+        s0_mm: grid.s0_mm,
+        z0_mm: grid.z0_mm,
+        ds_mm: grid.ds_mm,
+        dz_mm: grid.dz_mm,
+        columns: grid.columns,
+        rows: grid.rows,
+        depth_um: grid.depth_um,
+        ..brinell_damage::DepthGrid::default()
+    })
+}
+
+/// Where a grid's border is drawn if nobody says otherwise.
+pub(crate) struct Contour {
+    pub(crate) level_um: f64,
+    pub(crate) tolerance_mm: f64,
+}
+
+impl Contour {
+    /// At the depth at which the outline encloses the damaged area, to a tenth of the finer step.
+    pub(crate) fn of(
+        grid: &brinell_damage::DepthGrid,
+        shape: &Shape,
+    ) -> Result<Self, brinell_damage::DamageError> {
+        Ok(Self {
+            level_um: grid.level_of_area(1e6 * shape.area())?,
+            tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm),
+        })
+    }
+}
+
 /// The damage seen from above, mm: exact where it has corners, `points` of them on a curved edge; widths alone are centred.
 pub(crate) fn polygons_mm(
     of: &scenario::Defect,
@@ -451,22 +497,12 @@ pub(crate) fn polygons_mm(
             let mm = |p: &Vec<[f64; 2]>| p.iter().map(|x| x.map(|x| 1e3 * x)).collect();
             outline.polygons().iter().map(mm).collect()
         }
-        Shape::DepthMap(_) => match &of.shape {
-            scenario::Shape::DepthMap { grid } => traced(grid),
-            scenario::Shape::Random {
-                seed,
-                length_mm,
-                width_mm,
-                roughness,
-            } => traced(&spall(
-                *seed,
-                *length_mm,
-                *width_mm,
-                *roughness,
-                of.depth_um.max(1.0),
-            )),
-            _ => Vec::new(),
-        },
+        Shape::DepthMap(_) => depth_grid(of)
+            .and_then(|grid| {
+                let usual = Contour::of(&grid, shape).ok()?;
+                grid.outline(usual.level_um, usual.tolerance_mm).ok()
+            })
+            .map_or(Vec::new(), |outline| outline.polygons_mm),
         _ => centred(shape, points),
     }
 }
@@ -557,103 +593,4 @@ pub(crate) fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
         }
     }
     all
-}
-
-/// Borders of the cells around nodes that are deeper than the surface.
-fn traced(grid: &DepthGrid) -> Vec<Vec<[f64; 2]>> {
-    let (columns, rows) = (grid.columns as i64, grid.rows as i64);
-    let damaged = |c: i64, r: i64| {
-        (0..columns).contains(&c)
-            && (0..rows).contains(&r)
-            && grid.depth_um[(r * columns + c) as usize] > 0.0
-    };
-    // Directed edges with the damage to their left.
-    let mut next: BTreeMap<(i64, i64), Vec<(i64, i64)>> = BTreeMap::new();
-    for r in 0..rows {
-        for c in (0..columns).filter(|c| damaged(*c, r)) {
-            for (outside, from, to) in [
-                ((c, r - 1), (c, r), (c + 1, r)),
-                ((c + 1, r), (c + 1, r), (c + 1, r + 1)),
-                ((c, r + 1), (c + 1, r + 1), (c, r + 1)),
-                ((c - 1, r), (c, r + 1), (c, r)),
-            ] {
-                if !damaged(outside.0, outside.1) {
-                    next.entry(from).or_default().push(to);
-                }
-            }
-        }
-    }
-    let place = |(c, r): (i64, i64)| {
-        [
-            grid.s0_mm + grid.ds_mm * (c as f64 - 0.5),
-            grid.z0_mm + grid.dz_mm * (r as f64 - 0.5),
-        ]
-    };
-    let mut polygons = Vec::new();
-    while let Some((&start, _)) = next.first_key_value() {
-        let mut corners: Vec<(i64, i64)> = Vec::new();
-        let (mut at, mut heading) = (start, (0, 0));
-        while let Some(ways) = next.get_mut(&at) {
-            let turn = |to: &(i64, i64)| heading.0 * (to.1 - at.1) - heading.1 * (to.0 - at.0);
-            // Where two cells touch at a corner, left stays with the same one.
-            let best = (0..ways.len()).max_by_key(|k| turn(&ways[*k])).unwrap_or(0);
-            let to = ways.swap_remove(best);
-            if ways.is_empty() {
-                next.remove(&at);
-            }
-            let ahead = (to.0 - at.0, to.1 - at.1);
-            if ahead != heading {
-                corners.push(at);
-            }
-            (at, heading) = (to, ahead);
-            if at == start {
-                break;
-            }
-        }
-        polygons.push(corners.into_iter().map(place).collect());
-    }
-    polygons
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn analytic_a_traced_grid_keeps_its_area_its_hole_and_its_corners_apart() {
-        let mut depth_um = vec![0.0; 36];
-        for (c, r) in [
-            (1, 1),
-            (2, 1),
-            (3, 1),
-            (1, 2),
-            (3, 2),
-            (1, 3),
-            (2, 3),
-            (3, 3),
-            (4, 4),
-        ] {
-            depth_um[r * 6 + c] = 5.0;
-        }
-        let grid = DepthGrid {
-            s0_mm: 0.0,
-            z0_mm: 0.0,
-            ds_mm: 0.5,
-            dz_mm: 0.5,
-            columns: 6,
-            rows: 6,
-            depth_um,
-        };
-        let polygons = traced(&grid);
-        assert_eq!(polygons.len(), 3);
-        assert!(polygons.iter().all(|p| p.len() == 4), "{polygons:?}");
-        let shape = Shape::new(
-            &scenario::Shape::Outline {
-                polygons_mm: polygons,
-            },
-            5e-6,
-        )
-        .unwrap();
-        assert!((1e6 * shape.area() - 9.0 * 0.25).abs() < 1e-9);
-    }
 }

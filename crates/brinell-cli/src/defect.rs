@@ -4,7 +4,7 @@ use crate::args::{
     ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, SimpleShape,
     SimplifyArgs, Written,
 };
-use crate::damage::{self, Damage};
+use crate::damage::{self, Contour, Damage};
 use crate::failure::Failure;
 use crate::files;
 use crate::run::{make_folder, safe_name};
@@ -270,6 +270,14 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let real = shape(of)?;
     let extent = Extent::of(&real, 1e-6 * of.depth_um);
     let points = checked_points(args.points, 8)?;
+    let grid = damage::depth_grid(of).filter(|_| args.to == Written::Outline);
+    if grid.is_none() && (args.level_um.is_some() || args.tolerance_mm.is_some()) {
+        return Err(Failure::Usage(
+            "--level-um and --tolerance-mm belong to the outline of a depth map or a random spall"
+                .into(),
+        ));
+    }
+    let mut remarks = Vec::new();
     let (shape, depth_um) = match args.to {
         Written::Profile => {
             let course = damage::course(&real, points);
@@ -287,12 +295,30 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
                 of.depth_um,
             )
         }
-        Written::Outline => (
-            scenario::Shape::Outline {
-                polygons_mm: damage::polygons_mm(of, &real, points),
-            },
-            1e6 * extent.depth,
-        ),
+        Written::Outline => match grid {
+            Some(grid) => {
+                let usual = Contour::of(&grid, &real).map_err(refused)?;
+                let level_um = args.level_um.unwrap_or(usual.level_um);
+                let tolerance_mm = args.tolerance_mm.unwrap_or(usual.tolerance_mm);
+                let outline = grid.outline(level_um, tolerance_mm).map_err(refused)?;
+                let volume = extent.area * extent.depth;
+                let depth_um = 1e12 * volume / outline.area_mm2();
+                remarks.push(format!(
+                    "what is deeper than {} um, to {} mm; {} um deep, so that it holds as much volume",
+                    short(level_um, 3),
+                    short(tolerance_mm, 3),
+                    short(depth_um, 4)
+                ));
+                let polygons_mm = outline.polygons_mm;
+                (scenario::Shape::Outline { polygons_mm }, depth_um)
+            }
+            None => (
+                scenario::Shape::Outline {
+                    polygons_mm: damage::polygons_mm(of, &real, points),
+                },
+                1e6 * extent.depth,
+            ),
+        },
     };
     let defect = scenario::Defect {
         shape,
@@ -300,13 +326,22 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
         ..of.clone()
     };
     let new = self::shape(&defect)?;
-    let remark = format!(
+    remarks.push(format!(
         "area {} mm^2; the shape it was written from has {} mm^2",
         short(1e6 * new.area(), 5),
         short(1e6 * extent.area, 5)
-    );
-    print(s, defect, &[remark]);
+    ));
+    print(s, defect, &remarks);
     Ok(())
+}
+
+/// An outline that cannot be drawn, with the options by their names.
+fn refused(error: brinell_damage::DamageError) -> Failure {
+    let text = error.to_string();
+    Failure::Usage(
+        text.replace("`level_um`", "--level-um")
+            .replace("`tolerance_mm`", "--tolerance-mm"),
+    )
 }
 
 fn simple(args: &SimplifyArgs) -> Result<(), Failure> {

@@ -91,6 +91,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
         height: pixels.height,
         values: &pixels.values,
         level,
+        rim: 0.5,
         sub_pixel: options.smooth != Smooth::PixelEdges,
     };
     all_or_nothing(&pixels, level)?;
