@@ -4,9 +4,10 @@ use crate::args::{
     ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, SimpleShape,
     SimplifyArgs, Written,
 };
-use crate::damage::{self, Contour, Damage};
+use crate::damage::{self, Damage};
 use crate::failure::Failure;
 use crate::files;
+use crate::plan::{self, Contour};
 use crate::run::{make_folder, safe_name};
 use crate::say::{say, short};
 use brinell::defect::Shape;
@@ -126,7 +127,8 @@ fn tell(damage: &Damage) {
             fact.note.replace('μ', "u")
         );
     }
-    say!("  Passage: {}", view.passage_note);
+    let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
+    say!("  Passage: {plain}");
     say!("  Section: {}", view.section_note);
     say!("");
 }
@@ -217,7 +219,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage_note,
+        "passage_note": view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n"),
         "passage": curves("angle_deg", &view.angle_deg, &view.passage),
         "section_note": view.section_note,
         "section": curves("s_mm", &view.section_s_mm, &view.section),
@@ -270,7 +272,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let real = shape(of)?;
     let extent = Extent::of(&real, 1e-6 * of.depth_um);
     let points = checked_points(args.points, 8)?;
-    let grid = damage::depth_grid(of).filter(|_| args.to == Written::Outline);
+    let grid = plan::depth_grid(of).filter(|_| args.to == Written::Outline);
     if grid.is_none() && (args.level_um.is_some() || args.tolerance_mm.is_some()) {
         return Err(Failure::Usage(
             "--level-um and --tolerance-mm belong to the outline of a depth map or a random spall"
@@ -280,7 +282,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let mut remarks = Vec::new();
     let (shape, depth_um) = match args.to {
         Written::Profile => {
-            let course = damage::course(&real, points);
+            let course = plan::course(&real, points);
             let has_depths = real.own_depth(extent.middle).is_some();
             let depth = |mm: &f64| 1e6 * real.own_depth(1e-3 * mm).unwrap_or(0.0).max(0.0);
             let arc_mm: Vec<f64> = course.iter().map(|p| p.0).collect();
@@ -314,7 +316,7 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
             }
             None => (
                 scenario::Shape::Outline {
-                    polygons_mm: damage::polygons_mm(of, &real, points),
+                    polygons_mm: plan::polygons_mm(of, &real, points),
                 },
                 1e6 * extent.depth,
             ),

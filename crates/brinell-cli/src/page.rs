@@ -32,6 +32,10 @@ const COLUMNS: [(Indicator, &str); 5] = [
 /// The page's data.
 pub(crate) fn report(parts: &Parts) -> Report {
     let scenario = &parts.loaded.scenario;
+    let (damage, undrawn_damage) = match crate::damage::all(scenario, None) {
+        Ok(all) => (all.into_iter().map(|d| d.view).collect(), None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
     Report {
         title: scenario.name.clone(),
         subtitle: subtitle(scenario),
@@ -46,11 +50,8 @@ pub(crate) fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         envelope_spectrum: envelope_spectrum(parts),
         markers: markers(parts),
-        damage: crate::damage::all(scenario, None)
-            .unwrap_or_default()
-            .into_iter()
-            .map(|d| d.view)
-            .collect(),
+        damage,
+        undrawn_damage,
         passes: parts
             .findings
             .passes
