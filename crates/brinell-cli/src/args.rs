@@ -194,13 +194,12 @@ pub(crate) enum DefectCommand {
 
 #[derive(Debug, Args)]
 #[command(after_help = "Files in the folder, N being the defect's number:\n  \
-    damage-N           the surface unrolled, both axes to one scale: damage, the roller's track and footprint, load zone;\n  \
-                       of a roller once around, with both its contacts\n  \
-    damage-N-passage   L_s, L_e, h_s and K over the angle of a passing roller: paths point and envelope, laws ecl and sliced;\n  \
-                       of a roller's damage at the outer and the inner contact\n  \
-    damage-N-section   A, I, h_a, h_I, K_I, K_r of the ring's section along the damage (Eqs. 1-20); not of a roller\n  \
+    damage-N           the surface unrolled to one scale: damage, roller's footprint, load zone\n  \
+    damage-N-passage   L_s, L_e, h_s and K over a passing roller's angle, by path and law\n  \
+    damage-N-section   A, I, h_a, h_I, K_I, K_r of the ring's section there (Eqs. 1-20)\n  \
     damage-N-*.csv     the curves of both\n  \
     preview.json       sizes and curves of all defects\n\n\
+    Damage on a roller is drawn once around, with both its contacts, and without a section.\n\
     Section properties describe the damage; as in the paper they do not enter the equations of motion.\n\n\
     Examples:\n  \
     brinell defect preview spall.toml -o look\n  \

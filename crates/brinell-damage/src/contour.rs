@@ -30,6 +30,8 @@ pub(crate) struct Outlines {
     pub(crate) rings: Vec<Vec<[f64; 2]>>,
     /// Outer rings smaller than the smallest area.
     pub(crate) specks: usize,
+    /// What the largest of them encloses, pixels.
+    pub(crate) largest_speck: f64,
     /// Holes smaller than the smallest area, now filled.
     pub(crate) filled: usize,
 }
@@ -62,6 +64,7 @@ impl<T: Copy + Into<f64>> Field<'_, T> {
                 let area = signed_area(&ring);
                 if area.abs() < smallest || ring.len() < 3 || area == 0.0 {
                     found.specks += usize::from(area >= 0.0);
+                    found.largest_speck = found.largest_speck.max(area);
                     found.filled += usize::from(area < 0.0);
                     continue;
                 }

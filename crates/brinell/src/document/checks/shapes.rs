@@ -206,7 +206,7 @@ impl Checker<'_> {
             self.error(
                 &key,
                 format!("{count} depths for {columns} columns and {rows} rows"),
-                format!("{} numbers", columns.saturating_mul(rows)),
+                format!("a list of {} numbers", columns.saturating_mul(rows)),
                 &also,
             );
             return;
