@@ -323,7 +323,7 @@ pub(crate) struct FitArgs {
 )]
 pub(crate) struct RandomArgs {
     /// Which spall: every seed draws another
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Extent along the rolling direction
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]

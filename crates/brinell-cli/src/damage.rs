@@ -101,7 +101,8 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
         let (angle_deg, passage) = passage(s, &s.defects[k], defect, &model, &sides);
         let thickness =
             1e-3 * thickness_mm.unwrap_or(THICKNESS_SHARE * s.bearing.roller_diameter_mm);
-        let (section_s_mm, section) = if is_roller {
+        let through = deepest >= thickness;
+        let (section_s_mm, section) = if is_roller || through {
             (Vec::new(), Vec::new())
         } else {
             section(defect, thickness)
@@ -178,6 +179,11 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             section,
             section_note: if is_roller {
                 "section properties describe rings; this damage lies on a roller".into()
+            } else if through {
+                format!(
+                    "the damage is deeper than the ring is thick, {} mm ({assumed}): no section is left",
+                    short(1e3 * thickness, 3)
+                )
             } else {
                 format!(
                     "ring {} mm thick ({assumed}), as wide as the roller is long; as in the paper, these do not enter the equations of motion",

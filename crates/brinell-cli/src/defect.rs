@@ -66,6 +66,17 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     }
     let all =
         damage::all(s, args.ring_thickness_mm).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let previewed = |index: usize| args.defect.is_none_or(|n| n == index + 1);
+    for (index, damage) in all.iter().enumerate().filter(|(k, _)| previewed(*k)) {
+        let deepest_mm = 1e-3 * damage.measures.deepest_um;
+        if let Some(x) = args.ring_thickness_mm.filter(|x| *x <= deepest_mm) {
+            return Err(Failure::Usage(format!(
+                "--ring-thickness-mm {x}: defect {} is {} mm deep; expected a thicker ring, in mm",
+                index + 1,
+                short(deepest_mm, 4)
+            )));
+        }
+    }
     let folder = args
         .output
         .clone()
@@ -74,7 +85,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let mut written = Vec::new();
     let mut entries = Vec::new();
     for (index, damage) in all.iter().enumerate() {
-        if args.defect.is_some_and(|n| n != index + 1) {
+        if !previewed(index) {
             continue;
         }
         tell(damage);
@@ -272,6 +283,12 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let real = shape(of)?;
     let extent = Extent::of(&real, 1e-6 * of.depth_um);
     let points = checked_points(args.points, 8)?;
+    if extent.area <= 0.0 && args.to == Written::Outline {
+        return Err(Failure::Usage(format!(
+            "defect {} damages nothing: its width is 0 all along; an outline needs an area",
+            args.defect
+        )));
+    }
     let grid = plan::depth_grid(of).filter(|_| args.to == Written::Outline);
     if grid.is_none() && (args.level_um.is_some() || args.tolerance_mm.is_some()) {
         return Err(Failure::Usage(

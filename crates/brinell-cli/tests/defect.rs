@@ -218,6 +218,10 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
             "above 0",
         ),
         (
+            &["preview", &irregular, "--ring-thickness-mm", "0.001"],
+            "defect 1 is 0.02000 mm deep; expected a thicker ring",
+        ),
+        (
             &["convert", &irregular, "--to", "profile", "--points", "1"],
             "expected 8 to",
         ),
