@@ -38,6 +38,7 @@ impl<'a> Cut<'a> {
         let surface = self.ground.surface.as_ref();
         Strip {
             lines: surface.map_or(&[], |x| &x.slices[k]),
+            envelope: self.ground.slices.get(k),
             s: self.s,
         }
     }
@@ -218,6 +219,7 @@ pub fn floors<'a>(
 ) -> impl Iterator<Item = Floor> + Clone {
     let joint = rest_on(cuts(defects.clone(), angles, side), |cut| Strip {
         lines: cut.ground.surface.as_ref().map_or(&[], |x| &x.floor),
+        envelope: cut.ground.floor.as_ref(),
         s: cut.s,
     });
     let angles = *angles;

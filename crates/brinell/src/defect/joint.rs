@@ -2,19 +2,27 @@
 //!
 //! The joint surface is as deep as the deepest defect at each point; a defect that leaves a point alone (h = 0) has no say there. A roller of
 //! radius r rests on it at the height min over x of [h(x) + x^2 / (2 R_eq)], x being the distance from its line of contact. Defects on one
-//! surface keep their distance, one on a roller and one on a raceway do not, so the minimum is searched where the roller stands:
-//! outwards from x = 0, from one end of a straight piece to the next, until the roller's own curvature lies above what was found.
+//! surface keep their distance, one on a roller and one on a raceway do not, so the minimum is searched where the roller stands.
+//!
+//! The joint surface is nowhere higher than any defect alone (raised edges apart), so no envelope of one lies below that of all: where the
+//! point on which the roller rests over the defect with the lowest-lying envelope is left standing by the others, that is the answer. Else
+//! the search goes outwards from x = 0, from one end of a straight piece to the next, until the roller's own curvature lies above what was found.
 
-use super::course::Line;
+use super::course::{Course, Line};
 
 /// A ridge between defects that is narrower than this (m) carries nothing: it is the rounding of their centres and lengths.
 const NARROWEST: f64 = 1e-9;
+
+/// Depths (m) that differ by less are equal: round-off of a defect's depth, far below an atom.
+const ROUND_OFF: f64 = 1e-15;
 
 /// One defect under the roller, along one line z = const.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Strip<'a> {
     /// Its depths in ascending order, m; 0 where there are none.
     pub(super) lines: &'a [Line],
+    /// Its own envelope.
+    pub(super) envelope: Option<&'a Course>,
     /// Where the line of contact stands on it, m.
     pub(super) s: f64,
 }
@@ -43,6 +51,18 @@ impl Straight {
 }
 
 impl Strip<'_> {
+    /// The deeper of the depths on both sides of x, m; 0 where neither is damaged.
+    fn deepest(&self, x: f64) -> f64 {
+        [1.0, -1.0]
+            .into_iter()
+            .filter_map(|direction| self.piece(x, direction).0)
+            .map(|l| {
+                let share = (self.s + x - l.from) / (l.to - l.from);
+                l.at_from + (l.at_to - l.at_from) * share.clamp(0.0, 1.0)
+            })
+            .fold(0.0, f64::max)
+    }
+
     /// The piece that begins at x and goes on in a direction (1 or -1), and the x of its end. `None`: not damaged there.
     fn piece(&self, x: f64, direction: f64) -> (Option<&Line>, f64) {
         let s = self.s + x;
@@ -81,6 +101,25 @@ fn straights<'a>(
     })
 }
 
+/// The answer where one defect alone gives it; without raised edges.
+fn on_one<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, radius: f64) -> Option<Rest> {
+    let (deepest, depth, slope) = strips
+        .clone()
+        .enumerate()
+        .filter_map(|(k, it)| Some((k, it.envelope?.value(it.s), it.envelope?.slope(it.s))))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    // An envelope falls towards the point that it stands on: its slope is the distance from there over R_eq.
+    let x = -slope * radius;
+    let point = depth - x * x / (2.0 * radius);
+    let left = strips
+        .enumerate()
+        .all(|(k, it)| k == deepest || it.deepest(x) <= point + ROUND_OFF);
+    left.then_some(Rest {
+        depth,
+        slopes: [(deepest, slope), (deepest, 0.0)],
+    })
+}
+
 /// Where a roller of relative radius `radius` (m) rests on several strips; `lowest` (m, 0 or less) is the height of the highest raised edge.
 ///
 /// Exact but for ridges that are narrower than a nanometre.
@@ -89,6 +128,11 @@ pub(super) fn rest<'a>(
     lowest: f64,
     radius: f64,
 ) -> Rest {
+    if lowest >= 0.0
+        && let Some(rest) = on_one(strips.clone(), radius)
+    {
+        return rest;
+    }
     let mut best = Rest {
         depth: f64::INFINITY,
         slopes: [(0, 0.0); 2],
@@ -235,7 +279,12 @@ mod tests {
             let plain = envelope(&lines, R);
             for k in 0..200 {
                 let s = -1.5e-3 + 3e-3 * f64::from(k) / 200.0;
-                let ours = resting(&[Strip { lines: &lines, s }]).depth;
+                let strip = Strip {
+                    lines: &lines,
+                    envelope: None,
+                    s,
+                };
+                let ours = resting(&[strip]).depth;
                 assert!(
                     (ours - plain.value(s)).abs() < 1e-15,
                     "round {round} at {s}"
@@ -268,10 +317,13 @@ mod tests {
             let lines: Vec<Vec<Line>> = (0..2 + round % 2)
                 .map(|_| random_lines(&mut draw, raised))
                 .collect();
+            let envelopes: Vec<Course> = lines.iter().map(|l| envelope(l, R)).collect();
             let mut strips: Vec<Strip> = lines
                 .iter()
-                .map(|lines| Strip {
+                .zip(&envelopes)
+                .map(|(lines, envelope)| Strip {
                     lines,
+                    envelope: Some(envelope),
                     s: 1e-3 * (draw() - 0.5),
                 })
                 .collect();
