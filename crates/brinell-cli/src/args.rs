@@ -194,11 +194,12 @@ pub(crate) enum DefectCommand {
 
 #[derive(Debug, Args)]
 #[command(after_help = "Files in the folder, N being the defect's number:\n  \
-    damage-N           the raceway unrolled, both axes to one scale: damage, the roller's track and footprint, load zone\n  \
-    damage-N-passage   L_s, L_e, h_s and K over the angle of a passing roller: paths point and envelope, laws ecl and sliced\n  \
-    damage-N-section   A, I, h_a, h_I, K_I, K_r of the ring's section along the damage (Eqs. 1-20)\n  \
+    damage-N           the surface unrolled to one scale: damage, roller's footprint, load zone\n  \
+    damage-N-passage   L_s, L_e, h_s and K over a passing roller's angle, by path and law\n  \
+    damage-N-section   A, I, h_a, h_I, K_I, K_r of the ring's section there (Eqs. 1-20)\n  \
     damage-N-*.csv     the curves of both\n  \
     preview.json       sizes and curves of all defects\n\n\
+    Damage on a roller is drawn once around, with both its contacts, and without a section.\n\
     Section properties describe the damage; as in the paper they do not enter the equations of motion.\n\n\
     Examples:\n  \
     brinell defect preview spall.toml -o look\n  \
@@ -238,7 +239,7 @@ pub(crate) enum Written {
 #[command(
     after_help = "Prints a whole [[defects]] entry: paste it over the old one, or redirect it.\n\n\
     A profile keeps L_s and h_s along the arc and forgets where across the roller the damage lies.\n\
-    An outline keeps the place and has one depth, the mean where the shape has several.\n\n\
+    An outline keeps the place and has one depth, that of equal volume where the shape has several.\n\n\
     Example: brinell defect convert spall.toml --to profile --points 200"
 )]
 pub(crate) struct ConvertArgs {
@@ -253,6 +254,12 @@ pub(crate) struct ConvertArgs {
     /// Points along a curved edge; straight edges need none
     #[arg(long, value_name = "N", default_value_t = 113)]
     pub(crate) points: usize,
+    /// Outline of a depth map: what is deeper than this [default: the depth at which it encloses the damaged area]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    pub(crate) level_um: Option<f64>,
+    /// Outline of a depth map: corners closer than this to the line are left out [default: a tenth of the map's finer step]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) tolerance_mm: Option<f64>,
 }
 
 /// Simple shapes.
@@ -316,7 +323,7 @@ pub(crate) struct FitArgs {
 )]
 pub(crate) struct RandomArgs {
     /// Which spall: every seed draws another
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Extent along the rolling direction
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]

@@ -1,26 +1,22 @@
 //! Damage as it is seen before it is simulated: extents, outlines, what a roller meets, the ring's section.
 
+use crate::plan::{CORNERS, polygons_mm};
 use crate::say::short;
 use brinell::defect::section::{Section, sections};
 use brinell::defect::simplify::Extent;
-use brinell::defect::{Angles, Defect, Shape, Side, acting, spall, wrap};
+use brinell::defect::{Angles, Defect, Shape, Side, acting, wrap};
 use brinell::derived::Derived;
 use brinell::model::{Model, ModelError};
 use brinell::observe::load_zone::static_load_zone;
 use brinell::observe::passes::place;
-use brinell::scenario::{
-    self, Contact, DepthGrid, EdgeReaction, Law, RollerPath, Scenario, Surface,
-};
+use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
 use brinell_report::{DamageCurve, DamagePanel, DamageView, DepthPatch, Fact, Value};
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Points of a curve.
 const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
-/// Corners of a drawn circle.
-pub(crate) const CORNERS: usize = 113;
 /// Thickness of a ring that nobody stated, over the roller's diameter.
 pub(crate) const THICKNESS_SHARE: f64 = 0.6;
 /// Approach where no static balance gives one, m.
@@ -68,9 +64,10 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             Surface::InnerRaceway => Side::Inner,
             _ => Side::Outer,
         };
-        let law = model.contact(side);
         let force = statics.as_ref().map(|z| z.largest).filter(|f| *f > 0.0);
-        let delta = force.map_or(FALLBACK_APPROACH, |f| law.deflection(f));
+        let delta_on =
+            |side: Side| force.map_or(FALLBACK_APPROACH, |f| model.contact(side).deflection(f));
+        let delta = delta_on(side);
         let (first, last) = defect.shape.arc();
         let extent = Extent::of(&defect.shape, defect.depth);
         let zone = statics
@@ -95,11 +92,17 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             approach_um: 1e6 * delta,
             force_n: force,
         };
-        let (angle_deg, passage) = passage(s, &s.defects[k], defect, &model, side, delta);
+        let is_roller = matches!(defect.surface, Surface::Roller(_));
+        let sides: Vec<(Side, f64)> = if is_roller {
+            vec![(Side::Outer, delta), (Side::Inner, delta_on(Side::Inner))]
+        } else {
+            vec![(side, delta)]
+        };
+        let (angle_deg, passage) = passage(s, &s.defects[k], defect, &model, &sides);
         let thickness =
             1e-3 * thickness_mm.unwrap_or(THICKNESS_SHARE * s.bearing.roller_diameter_mm);
-        let is_roller = matches!(defect.surface, Surface::Roller(_));
-        let (section_s_mm, section) = if is_roller {
+        let through = deepest >= thickness;
+        let (section_s_mm, section) = if is_roller || through {
             (Vec::new(), Vec::new())
         } else {
             section(defect, thickness)
@@ -115,8 +118,46 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
         } else {
             "an assumption: 0.6 of the roller's diameter"
         };
+        let title = format!("Defect {}: {}", k + 1, place(defect));
+        let approach = match sides[..] {
+            [(_, outer), (_, inner)] => format!(
+                "{} μm at the outer and {} μm at the inner contact",
+                short(1e6 * outer, 3),
+                short(1e6 * inner, 3)
+            ),
+            _ => format!("{} μm", short(1e6 * delta, 3)),
+        };
         let view = DamageView {
-            title: format!("Defect {}: {}", k + 1, place(defect)),
+            plan_title: match defect.surface {
+                Surface::OuterRaceway => format!("{title}. Unrolled"),
+                Surface::InnerRaceway => {
+                    format!("{title}. Unrolled; it turns through the load zone")
+                }
+                Surface::Roller(_) => {
+                    format!("{title}. Unrolled once around; either raceway meets the damage")
+                }
+            },
+            passage_title: match defect.surface {
+                Surface::Roller(_) => {
+                    format!(
+                        "{title}. What both contacts meet as it turns; K at an approach of {approach}"
+                    )
+                }
+                _ => {
+                    format!("{title}. What a passing roller meets; K at an approach of {approach}")
+                }
+            },
+            section_title: format!(
+                "{title}. Section under it of a ring {} mm thick",
+                short(1e3 * thickness, 3)
+            ),
+            surface: match defect.surface {
+                Surface::OuterRaceway => "outer raceway".into(),
+                Surface::InnerRaceway => "inner raceway".into(),
+                Surface::Roller(_) => "roller".into(),
+            },
+            half_turn_mm: is_roller.then_some(0.5e3 * TAU * defect.radius),
+            title,
             facts: facts(&measures, defect),
             polygons_mm: polygons_mm(&s.defects[k], &defect.shape, CORNERS),
             depths: depths(&defect.shape),
@@ -132,13 +173,17 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             angle_deg,
             passage,
             passage_note: format!(
-                "stiffness Q/delta^n at an approach of {} um ({by_force}); this defect alone, the paths and laws side by side",
-                short(1e6 * delta, 3)
+                "stiffness Q/δⁿ at an approach of {approach} ({by_force}); this defect alone, the paths and laws side by side"
             ),
             section_s_mm,
             section,
             section_note: if is_roller {
                 "section properties describe rings; this damage lies on a roller".into()
+            } else if through {
+                format!(
+                    "the damage is deeper than the ring is thick, {} mm ({assumed}): no section is left",
+                    short(1e3 * thickness, 3)
+                )
             } else {
                 format!(
                     "ring {} mm thick ({assumed}), as wide as the roller is long; as in the paper, these do not enter the equations of motion",
@@ -269,8 +314,7 @@ fn passage(
     of: &scenario::Defect,
     defect: &Defect,
     model: &Model,
-    side: Side,
-    delta: f64,
+    sides: &[(Side, f64)],
 ) -> (Vec<f64>, Vec<DamagePanel>) {
     let (first, last) = defect.shape.arc();
     let pad = 0.2 * (last - first);
@@ -285,7 +329,6 @@ fn passage(
         angles.extend([u - hair, u + hair]);
     }
     angles.sort_by(f64::total_cmp);
-    let law = model.contact(side);
     let under = |law: Law, roller_path: RollerPath| {
         let contact = Contact {
             law,
@@ -295,10 +338,16 @@ fn passage(
         };
         Defect::new(of, &s.bearing, &contact)
     };
-    let stiffness = |d: &Defect| -> Vec<f64> {
+    let stiffness = |d: &Defect, side: Side, delta: f64| -> Vec<f64> {
+        let law = model.contact(side);
+        // A roller's defect meets the inner raceway half a turn after the outer one.
+        let half_turn = match (d.surface, side) {
+            (Surface::Roller(_), Side::Inner) => 0.5 * TAU,
+            _ => 0.0,
+        };
         let k = |u: &f64| {
             let angles = Angles {
-                orbit: d.center + u,
+                orbit: d.center + u - half_turn,
                 spin: 0.0,
                 ring: 0.0,
             };
@@ -320,36 +369,40 @@ fn passage(
         .iter()
         .map(|x| 1e3 * defect.roller_length - x)
         .collect();
-    let (mut depth, mut k) = (Vec::new(), Vec::new());
-    for (path, name) in [
-        (RollerPath::Point, "point"),
-        (RollerPath::Envelope, "envelope"),
-    ] {
-        if let Some(d) = under(Law::Ecl, path) {
-            let h = |u: &f64| d.floor(*u, side).map_or(0.0, |f| 1e6 * f.depth);
-            depth.push(curve(name, angles.iter().map(h).collect()));
-        }
-    }
-    for (law, path, name) in [
-        (Law::Ecl, RollerPath::Point, "ecl, point"),
-        (Law::Ecl, RollerPath::Envelope, "ecl, envelope"),
-        (Law::Sliced, RollerPath::Point, "sliced, point"),
-        (Law::Sliced, RollerPath::Envelope, "sliced, envelope"),
-    ] {
-        k.extend(under(law, path).map(|d| curve(name, stiffness(&d))));
-    }
+    let several = sides.len() > 1;
+    let contact = |side: Side| match side {
+        Side::Outer => "outer contact",
+        Side::Inner => "inner contact",
+    };
     let panel = |label: &str, unit: &str, curves| DamagePanel {
         label: label.into(),
         unit: unit.into(),
         from_zero: true,
         curves,
     };
+    let mut depth = Vec::new();
+    let depths = |path: RollerPath, side: Side| {
+        under(Law::Ecl, path).map(|d| {
+            let h = |u: &f64| d.floor(*u, side).map_or(0.0, |f| 1e6 * f.depth);
+            angles.iter().map(h).collect::<Vec<f64>>()
+        })
+    };
+    let first_side = sides.first().map_or(Side::Outer, |s| s.0);
+    depth.extend(depths(RollerPath::Point, first_side).map(|h| curve("point", h)));
+    for &(side, _) in sides {
+        let name = if several {
+            format!("envelope, {}", contact(side))
+        } else {
+            "envelope".to_owned()
+        };
+        depth.extend(depths(RollerPath::Envelope, side).map(|h| curve(&name, h)));
+    }
     let unit = if (s.contact.exponent - 10.0 / 9.0).abs() < 1e-9 {
         "N/m^(10/9)"
     } else {
         brinell::channel::STIFFNESS_UNIT
     };
-    let panels = vec![
+    let mut panels = vec![
         panel(
             "Length",
             "mm",
@@ -359,8 +412,24 @@ fn passage(
             ],
         ),
         panel("Depth h_s", "μm", depth),
-        panel("Stiffness K", unit, k),
     ];
+    for &(side, delta) in sides {
+        let mut k = Vec::new();
+        for (law, path, name) in [
+            (Law::Ecl, RollerPath::Point, "ecl, point"),
+            (Law::Ecl, RollerPath::Envelope, "ecl, envelope"),
+            (Law::Sliced, RollerPath::Point, "sliced, point"),
+            (Law::Sliced, RollerPath::Envelope, "sliced, envelope"),
+        ] {
+            k.extend(under(law, path).map(|d| curve(name, stiffness(&d, side, delta))));
+        }
+        let label = if several {
+            format!("K, {}", contact(side))
+        } else {
+            "Stiffness K".to_owned()
+        };
+        panels.push(panel(&label, unit, k));
+    }
     (angles.iter().map(|u| u.to_degrees()).collect(), panels)
 }
 
@@ -427,233 +496,4 @@ fn depths(shape: &Shape) -> Option<DepthPatch> {
         columns,
         depth_um: (0..columns * rows).map(at).collect(),
     })
-}
-
-/// The damage seen from above, mm: exact where it has corners, `points` of them on a curved edge; widths alone are centred.
-pub(crate) fn polygons_mm(
-    of: &scenario::Defect,
-    shape: &Shape,
-    points: usize,
-) -> Vec<Vec<[f64; 2]>> {
-    match shape {
-        Shape::Rectangle { half_length, width } if *width > 0.0 => {
-            let (a, b) = (1e3 * half_length, 0.5e3 * width);
-            vec![vec![[-a, -b], [a, -b], [a, b], [-a, b]]]
-        }
-        Shape::Circle { radius } => {
-            let corner = |k: usize| {
-                let (sin, cos) = (TAU * k as f64 / points as f64).sin_cos();
-                [1e3 * radius * cos, 1e3 * radius * sin]
-            };
-            vec![(0..points).map(corner).collect()]
-        }
-        Shape::Outline(outline) => {
-            let mm = |p: &Vec<[f64; 2]>| p.iter().map(|x| x.map(|x| 1e3 * x)).collect();
-            outline.polygons().iter().map(mm).collect()
-        }
-        Shape::DepthMap(_) => match &of.shape {
-            scenario::Shape::DepthMap { grid } => traced(grid),
-            scenario::Shape::Random {
-                seed,
-                length_mm,
-                width_mm,
-                roughness,
-            } => traced(&spall(
-                *seed,
-                *length_mm,
-                *width_mm,
-                *roughness,
-                of.depth_um.max(1.0),
-            )),
-            _ => Vec::new(),
-        },
-        _ => centred(shape, points),
-    }
-}
-
-/// Polygons around the parts where L_s > 0, half of it to either side.
-fn centred(shape: &Shape, points: usize) -> Vec<Vec<[f64; 2]>> {
-    let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
-    let mut open: Vec<[f64; 2]> = Vec::new();
-    let mut close = |open: &mut Vec<[f64; 2]>| {
-        let back: Vec<[f64; 2]> = open
-            .iter()
-            .rev()
-            .filter(|p| p[1] > 0.0)
-            .map(|p| [p[0], -p[1]])
-            .collect();
-        if open.len() > 1 && !back.is_empty() {
-            parts.push(open.drain(..).chain(back).collect());
-        }
-        open.clear();
-    };
-    for (s, width) in course(shape, points) {
-        let half = 0.5 * width;
-        if half > 0.0 || !open.is_empty() {
-            open.push([s, half]);
-        } else {
-            // The last point without width before the damage begins.
-            open = vec![[s, 0.0]];
-        }
-        if half <= 0.0 && open.len() > 1 {
-            close(&mut open);
-            open = vec![[s, 0.0]];
-        }
-    }
-    close(&mut open);
-    parts
-}
-
-/// (s, L_s) in mm over the arc: closer at its ends, twice where L_s jumps.
-pub(crate) fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
-    let (first, last) = shape.arc();
-    let length = last - first;
-    let mut nodes: Vec<f64> = match shape {
-        Shape::Rectangle { .. } => vec![first, last],
-        Shape::Outline(outline) => outline.width().breakpoints(),
-        Shape::DepthMap(grid) => grid.width().breakpoints(),
-        _ => {
-            let n = points.max(2) - 1;
-            let cosine = |k: usize| 0.5 - 0.5 * (0.5 * TAU * k as f64 / n as f64).cos();
-            (0..=n).map(|k| first + length * cosine(k)).collect()
-        }
-    };
-    if nodes.len() > 4 * points {
-        let n = points.max(2) - 1;
-        nodes = (0..=n)
-            .map(|k| first + length * k as f64 / n as f64)
-            .collect();
-    }
-    let hair = 1e-9 * length;
-    let width = |s: f64| shape.damaged_length(s.clamp(first, last)).max(0.0);
-    let mut all = Vec::with_capacity(nodes.len());
-    let end = nodes.len() - 1;
-    for (k, s) in nodes.into_iter().enumerate() {
-        let s = if k == end { last } else { s };
-        let (before, after) = (width(s - hair), width(s + hair));
-        let (mm, jump) = (1e3 * s, (after - before).abs() > 1e-6 * length);
-        if k == 0 {
-            all.push((
-                mm,
-                1e3 * if after < 1e-4 * length {
-                    width(s)
-                } else {
-                    after
-                },
-            ));
-        } else if k == end {
-            all.push((
-                mm,
-                1e3 * if before < 1e-4 * length {
-                    width(s)
-                } else {
-                    before
-                },
-            ));
-        } else if jump {
-            all.extend([(mm, 1e3 * before), (mm, 1e3 * after)]);
-        } else {
-            all.push((mm, 1e3 * width(s)));
-        }
-    }
-    all
-}
-
-/// Borders of the cells around nodes that are deeper than the surface.
-fn traced(grid: &DepthGrid) -> Vec<Vec<[f64; 2]>> {
-    let (columns, rows) = (grid.columns as i64, grid.rows as i64);
-    let damaged = |c: i64, r: i64| {
-        (0..columns).contains(&c)
-            && (0..rows).contains(&r)
-            && grid.depth_um[(r * columns + c) as usize] > 0.0
-    };
-    // Directed edges with the damage to their left.
-    let mut next: BTreeMap<(i64, i64), Vec<(i64, i64)>> = BTreeMap::new();
-    for r in 0..rows {
-        for c in (0..columns).filter(|c| damaged(*c, r)) {
-            for (outside, from, to) in [
-                ((c, r - 1), (c, r), (c + 1, r)),
-                ((c + 1, r), (c + 1, r), (c + 1, r + 1)),
-                ((c, r + 1), (c + 1, r + 1), (c, r + 1)),
-                ((c - 1, r), (c, r + 1), (c, r)),
-            ] {
-                if !damaged(outside.0, outside.1) {
-                    next.entry(from).or_default().push(to);
-                }
-            }
-        }
-    }
-    let place = |(c, r): (i64, i64)| {
-        [
-            grid.s0_mm + grid.ds_mm * (c as f64 - 0.5),
-            grid.z0_mm + grid.dz_mm * (r as f64 - 0.5),
-        ]
-    };
-    let mut polygons = Vec::new();
-    while let Some((&start, _)) = next.first_key_value() {
-        let mut corners: Vec<(i64, i64)> = Vec::new();
-        let (mut at, mut heading) = (start, (0, 0));
-        while let Some(ways) = next.get_mut(&at) {
-            let turn = |to: &(i64, i64)| heading.0 * (to.1 - at.1) - heading.1 * (to.0 - at.0);
-            // Where two cells touch at a corner, left stays with the same one.
-            let best = (0..ways.len()).max_by_key(|k| turn(&ways[*k])).unwrap_or(0);
-            let to = ways.swap_remove(best);
-            if ways.is_empty() {
-                next.remove(&at);
-            }
-            let ahead = (to.0 - at.0, to.1 - at.1);
-            if ahead != heading {
-                corners.push(at);
-            }
-            (at, heading) = (to, ahead);
-            if at == start {
-                break;
-            }
-        }
-        polygons.push(corners.into_iter().map(place).collect());
-    }
-    polygons
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn analytic_a_traced_grid_keeps_its_area_its_hole_and_its_corners_apart() {
-        let mut depth_um = vec![0.0; 36];
-        for (c, r) in [
-            (1, 1),
-            (2, 1),
-            (3, 1),
-            (1, 2),
-            (3, 2),
-            (1, 3),
-            (2, 3),
-            (3, 3),
-            (4, 4),
-        ] {
-            depth_um[r * 6 + c] = 5.0;
-        }
-        let grid = DepthGrid {
-            s0_mm: 0.0,
-            z0_mm: 0.0,
-            ds_mm: 0.5,
-            dz_mm: 0.5,
-            columns: 6,
-            rows: 6,
-            depth_um,
-        };
-        let polygons = traced(&grid);
-        assert_eq!(polygons.len(), 3);
-        assert!(polygons.iter().all(|p| p.len() == 4), "{polygons:?}");
-        let shape = Shape::new(
-            &scenario::Shape::Outline {
-                polygons_mm: polygons,
-            },
-            5e-6,
-        )
-        .unwrap();
-        assert!((1e6 * shape.area() - 9.0 * 0.25).abs() < 1e-9);
-    }
 }

@@ -7,6 +7,7 @@ use crate::args::{
 use crate::damage::{self, Damage};
 use crate::failure::Failure;
 use crate::files;
+use crate::plan::{self, Contour};
 use crate::run::{make_folder, safe_name};
 use crate::say::{say, short};
 use brinell::defect::Shape;
@@ -65,6 +66,17 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     }
     let all =
         damage::all(s, args.ring_thickness_mm).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let previewed = |index: usize| args.defect.is_none_or(|n| n == index + 1);
+    for (index, damage) in all.iter().enumerate().filter(|(k, _)| previewed(*k)) {
+        let deepest_mm = 1e-3 * damage.measures.deepest_um;
+        if let Some(x) = args.ring_thickness_mm.filter(|x| *x <= deepest_mm) {
+            return Err(Failure::Usage(format!(
+                "--ring-thickness-mm {x}: defect {} is {} mm deep; expected a thicker ring, in mm",
+                index + 1,
+                short(deepest_mm, 4)
+            )));
+        }
+    }
     let folder = args
         .output
         .clone()
@@ -73,7 +85,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let mut written = Vec::new();
     let mut entries = Vec::new();
     for (index, damage) in all.iter().enumerate() {
-        if args.defect.is_some_and(|n| n != index + 1) {
+        if !previewed(index) {
             continue;
         }
         tell(damage);
@@ -126,7 +138,8 @@ fn tell(damage: &Damage) {
             fact.note.replace('μ', "u")
         );
     }
-    say!("  Passage: {}", view.passage_note);
+    let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
+    say!("  Passage: {plain}");
     say!("  Section: {}", view.section_note);
     say!("");
 }
@@ -217,7 +230,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage_note,
+        "passage_note": view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n"),
         "passage": curves("angle_deg", &view.angle_deg, &view.passage),
         "section_note": view.section_note,
         "section": curves("s_mm", &view.section_s_mm, &view.section),
@@ -270,9 +283,23 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let real = shape(of)?;
     let extent = Extent::of(&real, 1e-6 * of.depth_um);
     let points = checked_points(args.points, 8)?;
+    if extent.area <= 0.0 && args.to == Written::Outline {
+        return Err(Failure::Usage(format!(
+            "defect {} damages nothing: its width is 0 all along; an outline needs an area",
+            args.defect
+        )));
+    }
+    let grid = plan::depth_grid(of).filter(|_| args.to == Written::Outline);
+    if grid.is_none() && (args.level_um.is_some() || args.tolerance_mm.is_some()) {
+        return Err(Failure::Usage(
+            "--level-um and --tolerance-mm belong to the outline of a depth map or a random spall"
+                .into(),
+        ));
+    }
+    let mut remarks = Vec::new();
     let (shape, depth_um) = match args.to {
         Written::Profile => {
-            let course = damage::course(&real, points);
+            let course = plan::course(&real, points);
             let has_depths = real.own_depth(extent.middle).is_some();
             let depth = |mm: &f64| 1e6 * real.own_depth(1e-3 * mm).unwrap_or(0.0).max(0.0);
             let arc_mm: Vec<f64> = course.iter().map(|p| p.0).collect();
@@ -287,12 +314,30 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
                 of.depth_um,
             )
         }
-        Written::Outline => (
-            scenario::Shape::Outline {
-                polygons_mm: damage::polygons_mm(of, &real, points),
-            },
-            1e6 * extent.depth,
-        ),
+        Written::Outline => match grid {
+            Some(grid) => {
+                let usual = Contour::of(&grid, &real).map_err(refused)?;
+                let level_um = args.level_um.unwrap_or(usual.level_um);
+                let tolerance_mm = args.tolerance_mm.unwrap_or(usual.tolerance_mm);
+                let outline = grid.outline(level_um, tolerance_mm).map_err(refused)?;
+                let volume = extent.area * extent.depth;
+                let depth_um = 1e12 * volume / outline.area_mm2();
+                remarks.push(format!(
+                    "what is deeper than {} um, to {} mm; {} um deep, so that it holds as much volume",
+                    short(level_um, 3),
+                    short(tolerance_mm, 3),
+                    short(depth_um, 4)
+                ));
+                let polygons_mm = outline.polygons_mm;
+                (scenario::Shape::Outline { polygons_mm }, depth_um)
+            }
+            None => (
+                scenario::Shape::Outline {
+                    polygons_mm: plan::polygons_mm(of, &real, points),
+                },
+                1e6 * extent.depth,
+            ),
+        },
     };
     let defect = scenario::Defect {
         shape,
@@ -300,13 +345,22 @@ fn convert(args: &ConvertArgs) -> Result<(), Failure> {
         ..of.clone()
     };
     let new = self::shape(&defect)?;
-    let remark = format!(
+    remarks.push(format!(
         "area {} mm^2; the shape it was written from has {} mm^2",
         short(1e6 * new.area(), 5),
         short(1e6 * extent.area, 5)
-    );
-    print(s, defect, &[remark]);
+    ));
+    print(s, defect, &remarks);
     Ok(())
+}
+
+/// An outline that cannot be drawn, with the options by their names.
+fn refused(error: brinell_damage::DamageError) -> Failure {
+    let text = error.to_string();
+    Failure::Usage(
+        text.replace("`level_um`", "--level-um")
+            .replace("`tolerance_mm`", "--tolerance-mm"),
+    )
 }
 
 fn simple(args: &SimplifyArgs) -> Result<(), Failure> {

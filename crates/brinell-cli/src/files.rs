@@ -3,7 +3,7 @@
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::say::complain;
-use brinell::document::{Loaded, Problem, Severity, read_bytes};
+use brinell::document::{Loaded, Place, Problem, Severity, locate, read_bytes};
 use std::io::Read;
 use std::path::Path;
 
@@ -35,13 +35,14 @@ pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failu
             if !quiet && !loaded.warnings.is_empty() {
                 print_problems(&name, &String::from_utf8_lossy(&bytes), &loaded.warnings);
             }
-            read_damage(&mut loaded, &args.scenario, quiet).map_err(|problems| {
-                Failure::Scenario {
+            let text = String::from_utf8_lossy(&bytes);
+            read_damage(&mut loaded, &args.scenario, &text, &overrides, quiet).map_err(
+                |problems| Failure::Scenario {
                     name,
-                    text: String::new(),
+                    text: text.to_string(),
                     problems,
-                }
-            })?;
+                },
+            )?;
             Ok(loaded)
         }
         Err(problems) => Err(Failure::Scenario {
@@ -65,7 +66,13 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
 }
 
 /// Reads the files of damage that the scenario names, from its own folder.
-fn read_damage(loaded: &mut Loaded, path: &Path, quiet: bool) -> Result<(), Vec<Problem>> {
+fn read_damage(
+    loaded: &mut Loaded,
+    path: &Path,
+    text: &str,
+    overrides: &[(String, String)],
+    quiet: bool,
+) -> Result<(), Vec<Problem>> {
     let folder = match path.parent() {
         Some(folder) if !is_stdin(path) => folder,
         _ => Path::new(""),
@@ -76,8 +83,15 @@ fn read_damage(loaded: &mut Loaded, path: &Path, quiet: bool) -> Result<(), Vec<
         .iter()
         .map(|d| d.shape.file().map(str::to_owned))
         .collect();
-    let warnings = brinell_damage::resolve(&mut loaded.scenario, folder)
-        .map_err(|errors| errors.into_iter().map(problem).collect::<Vec<_>>())?;
+    let warnings = brinell_damage::resolve(&mut loaded.scenario, folder).map_err(|errors| {
+        let placed = |error: brinell_damage::Unresolved| {
+            // What `--set` gave stands nowhere in the file.
+            let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
+            let place = locate(text, &error.key).filter(|_| !given);
+            problem(error, place)
+        };
+        errors.into_iter().map(placed).collect::<Vec<_>>()
+    })?;
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {
             loaded.read_from(defect, file);
@@ -91,7 +105,7 @@ fn read_damage(loaded: &mut Loaded, path: &Path, quiet: bool) -> Result<(), Vec<
     Ok(())
 }
 
-fn problem(error: brinell_damage::Unresolved) -> Problem {
+fn problem(error: brinell_damage::Unresolved, place: Option<Place>) -> Problem {
     Problem {
         severity: Severity::Error,
         key: error.key,
@@ -99,9 +113,9 @@ fn problem(error: brinell_damage::Unresolved) -> Problem {
         value: Some(format!("\"{}\"", error.file)),
         allowed: None,
         unit: None,
-        line: None,
-        column: None,
-        span: None,
+        line: place.as_ref().map(|p| p.line),
+        column: place.as_ref().map(|p| p.column),
+        span: place.map(|p| p.span),
         also: Vec::new(),
     }
 }

@@ -7,7 +7,7 @@ use brinell::defect::Side;
 use brinell::observe::load_zone::StaticLoadZone;
 use brinell::observe::passes::{Pass, place};
 use brinell::observe::{ChannelStatistics, Kind};
-use brinell::scenario::{Accuracy, ModelKind, Scenario, Speed, Surface};
+use brinell::scenario::{Accuracy, ModelKind, Scenario, Speed};
 use brinell::signal::Indicator;
 use brinell::simulate::End;
 use brinell::summary::Parts;
@@ -32,6 +32,10 @@ const COLUMNS: [(Indicator, &str); 5] = [
 /// The page's data.
 pub(crate) fn report(parts: &Parts) -> Report {
     let scenario = &parts.loaded.scenario;
+    let (damage, undrawn_damage) = match crate::damage::all(scenario, None) {
+        Ok(all) => (all.into_iter().map(|d| d.view).collect(), None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
     Report {
         title: scenario.name.clone(),
         subtitle: subtitle(scenario),
@@ -46,11 +50,8 @@ pub(crate) fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         envelope_spectrum: envelope_spectrum(parts),
         markers: markers(parts),
-        damage: crate::damage::all(scenario, None)
-            .unwrap_or_default()
-            .into_iter()
-            .map(|d| d.view)
-            .collect(),
+        damage,
+        undrawn_damage,
         passes: parts
             .findings
             .passes
@@ -265,35 +266,23 @@ fn markers(parts: &Parts) -> Vec<Marker> {
     };
     let model = parts.simulation.model();
     let k: Kinematics = model.kinematics(model.rotation.at(0.0).0);
-    let damaged = |test: fn(Surface) -> bool| scenario.defects.iter().any(|d| test(d.on));
-    let marker = |label: &str, meaning: &str, frequency_hz: f64, present: bool| Marker {
-        label: label.into(),
-        meaning: meaning.into(),
-        frequency_hz,
-        harmonics: HARMONICS,
-        present,
-    };
-    vec![
-        marker(
-            "BPFO",
-            "rollers passing a point of the outer raceway",
-            k.bpfo,
-            damaged(|s| s == Surface::OuterRaceway),
-        ),
-        marker(
-            "BPFI",
-            "rollers passing a point of the inner raceway",
-            k.bpfi,
-            damaged(|s| s == Surface::InnerRaceway),
-        ),
-        marker(
-            "2 BSF",
-            "a damaged roller striking either raceway",
-            2.0 * k.bsf,
-            damaged(|s| matches!(s, Surface::Roller(_))),
-        ),
-        marker("FTF", "turns of the cage", k.ftf, false),
-    ]
+    let damaged: Vec<&str> = scenario
+        .defects
+        .iter()
+        .map(|d| k.struck_by(d.on).0)
+        .collect();
+    // Strikes first, then what modulates them.
+    ["BPFO", "BPFI", "2 BSF", "FTF"]
+        .into_iter()
+        .filter_map(|name| k.table(0.0).into_iter().find(|row| row.0 == name))
+        .map(|(name, frequency_hz, meaning)| Marker {
+            label: name.into(),
+            meaning: meaning.into(),
+            frequency_hz,
+            harmonics: HARMONICS,
+            present: damaged.contains(&name),
+        })
+        .collect()
 }
 
 fn pass(parts: &Parts, pass: &Pass) -> brinell_report::Pass {

@@ -79,3 +79,71 @@ fn regress_a_bad_file_ends_with_2_and_names_key_and_file() {
         );
     }
 }
+
+#[test]
+fn regress_a_file_that_is_no_damage_is_told_with_its_line_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("empty.png"), "").unwrap();
+    std::fs::write(
+        at("drawing.png"),
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"/>",
+    )
+    .unwrap();
+    std::fs::write(at("ragged.csv"), "1,2,3\n1,2\n1,2,3\n").unwrap();
+    let holes = ["nan,1,nan,nan"; 4].join("\n");
+    std::fs::write(at("holes.csv"), holes).unwrap();
+    let photo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/photo-spall.png");
+    std::fs::copy(photo, at("spall.png")).unwrap();
+    let image =
+        |file: &str, scale: f64| format!("image = {{ file = \"{file}\", mm_per_pixel = {scale} }}");
+    let scan =
+        |file: &str| format!("depth_map = {{ file = \"{file}\", ds_mm = 0.1, dz_mm = 0.1 }}");
+    for (shape, words) in [
+        (image("empty.png", 0.02), "the file is empty"),
+        (
+            image("drawing.png", 0.02),
+            "should be PNG, but its content is SVG",
+        ),
+        (image("nowhere.png", 0.02), "cannot read"),
+        (
+            image("spall.png", 5.0),
+            "its size follows from mm_per_pixel = 5",
+        ),
+        (image("spall.png", 1e-6), "check `mm_per_pixel` = 0.000001"),
+        (
+            scan("ragged.csv"),
+            "line 2 has 2 values where the first row has 3",
+        ),
+        (scan("holes.csv"), "12 of 16 points are missing"),
+    ] {
+        let depth = if shape.starts_with("image") {
+            "depth_um = 8\n"
+        } else {
+            ""
+        };
+        let text = format!(
+            "name = \"t\"\n[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800.0\nload_n = [300.0, 0.0]\n\
+             [[defects]]\non = \"outer-raceway\"\n{depth}shape = {{ {shape} }}\n[simulation]\nduration_s = 0.1\n"
+        );
+        let path = at("bad.toml");
+        std::fs::write(&path, &text).unwrap();
+        let line = text.lines().position(|l| l.starts_with("shape")).unwrap() + 1;
+        let to = at("out");
+        for command in [&["defect", "preview"][..], &["run"]] {
+            let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
+                .args(command)
+                .args([&path, Path::new("-o"), &to])
+                .output()
+                .unwrap();
+            let error = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{shape}: {error}");
+            let place = format!("error, line {line}: defects.0.shape.");
+            assert!(
+                error.contains(words) && error.contains(&place),
+                "{shape}: {error}"
+            );
+            assert!(!to.exists(), "{shape}");
+        }
+    }
+}

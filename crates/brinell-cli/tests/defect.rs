@@ -99,6 +99,37 @@ fn analytic_preview_measures_closed_forms() {
 }
 
 #[test]
+fn analytic_a_rollers_preview_holds_both_contacts() {
+    let folder = tempfile::tempdir().unwrap();
+    let json = preview(folder.path(), &example("roller.toml"));
+    let passage = &json["defects"][0]["passage"];
+    let curve = |name: &str| -> Vec<f64> {
+        let values = passage[name].as_array().unwrap_or_else(|| panic!("{name}"));
+        values.iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    // 1 mm of a roller of 3 mm radius; the envelope's parabola has the contact's relative radius.
+    let angle = curve("angle_deg");
+    for (side, curvature) in [
+        ("outer", 1.0 / 3.0 - 1.0 / 27.5),
+        ("inner", 1.0 / 3.0 + 1.0 / 21.5),
+    ] {
+        let depth = curve(&format!("depth_h_s_envelope_{side}_contact_um"));
+        for (u, h) in angle.iter().zip(depth) {
+            let from_edge = (0.5 - 3.0 * u.to_radians().abs()).max(0.0);
+            let exact = (0.5e3 * from_edge * from_edge * curvature).min(20.0);
+            assert!((h - exact).abs() < 1e-6, "{side} at {u}: {h} {exact}");
+        }
+        // Below the floor two of six millimetres carry.
+        let k = curve(&format!("k_{side}_contact_ecl_point_n_m_10_9"));
+        let least = k.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!((least / k[0] - (2.0f64 / 6.0).powf(8.0 / 9.0)).abs() < 1e-9);
+    }
+    assert!((curve("k_outer_contact_ecl_point_n_m_10_9")[0] / 1.898e8 - 1.0).abs() < 1e-9);
+    assert!((curve("k_inner_contact_ecl_point_n_m_10_9")[0] / 1.828e8 - 1.0).abs() < 1e-9);
+    assert!(!folder.path().join("preview/damage-1-section.svg").exists());
+}
+
+#[test]
 fn prop_what_is_printed_reads_back_with_the_same_area() {
     let folder = tempfile::tempdir().unwrap();
     let spall = out(&[
@@ -175,6 +206,7 @@ fn lit_the_fit_is_the_papers_six_segments_and_states_its_error() {
 fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
     let irregular = example("irregular.toml");
     let healthy = example("healthy.toml");
+    let scan = example("scan.toml");
     for (args, words) in [
         (
             &["preview", &irregular, "--defect", "0"][..],
@@ -186,6 +218,10 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
             "above 0",
         ),
         (
+            &["preview", &irregular, "--ring-thickness-mm", "0.001"],
+            "defect 1 is 0.02000 mm deep; expected a thicker ring",
+        ),
+        (
             &["convert", &irregular, "--to", "profile", "--points", "1"],
             "expected 8 to",
         ),
@@ -194,6 +230,18 @@ fn regress_bad_input_ends_with_two_and_says_what_is_allowed() {
             "an order of at most 20",
         ),
         (&["fit", &irregular, "--segments", "0"], "expected 1 to"),
+        (
+            &["convert", &irregular, "--to", "outline", "--level-um", "3"],
+            "belong to the outline of a depth map",
+        ),
+        (
+            &["convert", &scan, "--to", "outline", "--level-um", "90"],
+            "no depth is above --level-um = 90; the deepest is",
+        ),
+        (
+            &["convert", &scan, "--to", "outline", "--tolerance-mm", "-1"],
+            "--tolerance-mm is -1; it must be",
+        ),
         (
             &[
                 "random",

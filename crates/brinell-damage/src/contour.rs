@@ -12,11 +12,13 @@ use crate::geometry::signed_area;
 const MAX_POINTS: usize = 2_000_000;
 
 /// A grid and the level above which it is damage.
-pub(crate) struct Field<'a> {
+pub(crate) struct Field<'a, T> {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    pub(crate) values: &'a [u16],
+    pub(crate) values: &'a [T],
     pub(crate) level: f64,
+    /// How far beyond the outermost pixels' centres the grid's edge lies, in pixels: 0.5 for pixels, 0 for nodes.
+    pub(crate) rim: f64,
     /// Outlines cross between pixel centres; else they run along pixel edges.
     pub(crate) sub_pixel: bool,
 }
@@ -28,6 +30,8 @@ pub(crate) struct Outlines {
     pub(crate) rings: Vec<Vec<[f64; 2]>>,
     /// Outer rings smaller than the smallest area.
     pub(crate) specks: usize,
+    /// What the largest of them encloses, pixels.
+    pub(crate) largest_speck: f64,
     /// Holes smaller than the smallest area, now filled.
     pub(crate) filled: usize,
 }
@@ -38,7 +42,7 @@ const STEP: [[isize; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 /// The pixel to the right of a crack that leaves a corner, relative to the corner; to its left: the one before.
 const RIGHT_PIXEL: [[isize; 2]; 4] = [[0, 0], [-1, 0], [-1, -1], [0, -1]];
 
-impl Field<'_> {
+impl<T: Copy + Into<f64>> Field<'_, T> {
     /// All outlines whose ring encloses at least `smallest` pixels.
     pub(crate) fn outlines(&self, smallest: f64) -> Result<Outlines, DamageError> {
         let mut found = Outlines::default();
@@ -60,6 +64,7 @@ impl Field<'_> {
                 let area = signed_area(&ring);
                 if area.abs() < smallest || ring.len() < 3 || area == 0.0 {
                     found.specks += usize::from(area >= 0.0);
+                    found.largest_speck = found.largest_speck.max(area);
                     found.filled += usize::from(area < 0.0);
                     continue;
                 }
@@ -146,7 +151,7 @@ impl Field<'_> {
         let outside = Self::beside(corner, (heading + 3) % 4);
         let share = match (self.value(inside), self.value(outside)) {
             (Some(high), Some(low)) => (high - self.level) / (high - low),
-            _ => 0.5,
+            _ => self.rim,
         };
         let between = |i: usize| inside[i] as f64 + 0.5 + share * (outside[i] - inside[i]) as f64;
         [between(0), between(1)]
@@ -155,7 +160,7 @@ impl Field<'_> {
     fn value(&self, [x, y]: [isize; 2]) -> Option<f64> {
         let x = usize::try_from(x).ok().filter(|&x| x < self.width)?;
         let y = usize::try_from(y).ok().filter(|&y| y < self.height)?;
-        Some(f64::from(self.values[y * self.width + x]))
+        Some(self.values[y * self.width + x].into())
     }
 
     fn damaged(&self, pixel: [isize; 2]) -> bool {

@@ -91,6 +91,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
         height: pixels.height,
         values: &pixels.values,
         level,
+        rim: 0.5,
         sub_pixel: options.smooth != Smooth::PixelEdges,
     };
     all_or_nothing(&pixels, level)?;
@@ -107,9 +108,11 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
     if outlines.rings.is_empty() {
         return Err(DamageError::NothingDamaged {
             why: format!(
-                "its {} all enclose less than `speck_mm2` = {} mm^2",
-                counted(outlines.specks, "dark spot"),
-                options.speck_mm2
+                "the largest of {} encloses {:.3e} mm^2, less than `speck_mm2` = {}; check `mm_per_pixel` = {}",
+                counted(outlines.specks, "spot"),
+                outlines.largest_speck * pixel_mm2,
+                options.speck_mm2,
+                options.mm_per_pixel
             ),
         });
     }

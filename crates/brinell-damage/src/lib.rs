@@ -3,8 +3,9 @@
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
 //! - [`read_depth_map`]: a profilometer's grid, CSV, NPY or PNG -> [`DepthGrid`]
-//! - [`resolve`]: every file that a scenario names -> the scenario with geometry in its place. For this alone the crate
+//! - [`resolve`]: every file that a scenario names -> the scenario with geometry in its place. For this the crate
 //!   uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers know no bearing.
+//! - [`DepthGrid::outline`]: the line along which a grid has one depth -> [`Polygons`]
 //!
 //! Frame. `s` runs along the rolling direction, `z` along the axis, both in mm, right-handed as seen by someone
 //! who looks at the damaged surface from the roller's side: with the rolling direction to the right, `z` points up.
@@ -26,6 +27,7 @@
 //! # Ok::<(), brinell_damage::DamageError>(())
 //! ```
 
+mod contour;
 mod depth;
 mod depth_csv;
 mod depth_npy;
@@ -37,12 +39,11 @@ mod form_fit;
 mod geometry;
 mod holes;
 mod kind;
+mod outline;
 mod resolve;
 
 #[cfg(feature = "image")]
 mod blur;
-#[cfg(feature = "image")]
-mod contour;
 #[cfg(feature = "image")]
 mod image;
 #[cfg(feature = "image")]

@@ -104,7 +104,15 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
         };
         // What no defect is named for (memory of slices, for one) has come with the files all the same.
         let (defect, key, file) = files.iter().find(of).unwrap_or(&files[0]);
-        let message = words(&problem);
+        let mut message = words(&problem);
+        // Against the bearing it is the size that does not fit.
+        if problem
+            .also
+            .iter()
+            .any(|(key, _)| key.starts_with("bearing."))
+        {
+            message += &scale(&scenario.defects[*defect].shape);
+        }
         match problem.severity {
             Severity::Warning => warnings.push(format!("{key} = \"{file}\": {message}")),
             Severity::Error => errors.push(Unresolved {
@@ -135,6 +143,28 @@ fn words(problem: &Problem) -> String {
     text
 }
 
+/// What the size of a file's damage follows from.
+fn scale(shape: &Shape) -> String {
+    match shape {
+        Shape::Image(image) => format!(
+            "; its size follows from mm_per_pixel = {}",
+            image.mm_per_pixel
+        ),
+        Shape::Svg(SvgFile {
+            mm_per_unit: Some(scale),
+            ..
+        }) => {
+            format!("; its size follows from mm_per_unit = {scale}")
+        }
+        Shape::Svg(_) => "; its size is the drawing's own, or give mm_per_unit".into(),
+        Shape::Scan(scan) => format!(
+            "; its size follows from ds_mm = {} and dz_mm = {}",
+            scan.ds_mm, scan.dz_mm
+        ),
+        _ => String::new(),
+    }
+}
+
 /// Reads the file of one shape; a shape without a file comes back as it is. Gives the shape and warnings.
 ///
 /// # Errors
@@ -144,6 +174,9 @@ pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), 
         return Ok((shape.clone(), Vec::new()));
     };
     let bytes = bytes(&folder.join(file))?;
+    if bytes.is_empty() {
+        return Err("the file is empty".into());
+    }
     let kind = FileKind::check(file, &bytes).map_err(|e| e.to_string())?;
     let read = match shape {
         Shape::Image(image) => read_outline(&bytes, image),

@@ -359,7 +359,7 @@ fn prop_unusable_images_are_refused_in_words() {
     assert!(refuse(&flat, &at(0.4)).starts_with("there is no damage in it"));
     assert!(refuse(&flat, &at(0.6)).starts_with("all of it would be damage"));
     let dot = grey_png(20, 20, |x, y| if (x, y) == (4, 4) { 0.0 } else { 1.0 });
-    assert!(refuse(&dot, &default).contains("its 1 dark spot all enclose less than"));
+    assert!(refuse(&dot, &default).contains("the largest of 1 spot encloses"));
     for (options, words) in [
         (
             at(1.0),

@@ -122,6 +122,7 @@ fn demo(duration: f64) -> Report {
         })
         .to_vec(),
         damage: vec![],
+        undrawn_damage: None,
         passes: vec![rectangle_pass()],
         load_distribution: (1..=2).map(row_load).collect(),
         indicators: indicators(),

@@ -234,7 +234,11 @@ fn ticks(domain: Domain, target: usize) -> (Vec<f64>, Vec<String>, i32) {
             .collect();
         return (ticks, labels, 0);
     }
-    let ticks = linear_ticks(domain.lo, domain.hi, target);
+    // Two numbers are hardly a scale: somewhat closer ones, where that gives more.
+    let ticks = (target..=target + 2)
+        .map(|target| linear_ticks(domain.lo, domain.hi, target))
+        .find(|ticks| ticks.len() > 2)
+        .unwrap_or_else(|| linear_ticks(domain.lo, domain.hi, target));
     let (labels, power) = tick_labels(&ticks);
     (ticks, labels, power)
 }

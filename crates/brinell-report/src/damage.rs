@@ -14,6 +14,14 @@ use crate::plots::{Layout, legend};
 pub struct DamageView {
     /// "Defect 1: outer raceway, row 1".
     pub title: String,
+    /// "outer raceway".
+    pub surface: String,
+    /// What the view from above shows, as the picture's heading.
+    pub plan_title: String,
+    /// What the curves over the angle show.
+    pub passage_title: String,
+    /// What the section's curves show.
+    pub section_title: String,
     /// Numbers: length, area, time to pass.
     pub facts: Vec<Fact>,
     /// Seen from above, (s, z) in mm from the defect's centre; a polygon within another is a hole.
@@ -24,6 +32,9 @@ pub struct DamageView {
     pub roller_length_mm: f64,
     /// d of the roller.
     pub roller_diameter_mm: f64,
+    /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage half a turn after the
+    /// other.
+    pub half_turn_mm: Option<f64>,
     /// s of the load zone's ends, where the surface stands still in it.
     pub load_zone_mm: Option<[f64; 2]>,
     /// Angle of a roller from the defect's centre.
@@ -93,8 +104,8 @@ const CELL: f64 = 1.4;
 /// Less than this share of the largest depth is round-off.
 const LEAST: f64 = 1e-3;
 
-/// The raceway unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller as it comes onto the damage, and
-/// the load zone.
+/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller as it comes onto the damage, and
+/// the load zone. Of a roller the whole circumference, with both lines of contact.
 pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
     let positive = |x: f64, or: f64| if x.is_finite() && x > 0.0 { x } else { or };
@@ -103,7 +114,19 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let extent = extent(view).unwrap_or([0.0, 0.0, 0.0, 0.0]);
     let [first, last, lowest, highest] = extent;
     let tall = 1.08 * length.max(2.0 * lowest.abs()).max(2.0 * highest.abs());
-    let wanted = 1.04 * (last - first + 2.0 * radius);
+    let half_turn = view.half_turn_mm.filter(|x| x.is_finite() && *x > 0.0);
+    let wanted = match half_turn {
+        Some(half) => 1.04 * (2.0 * half).max(last - first),
+        None => 1.04 * (last - first + 2.0 * radius),
+    };
+    let middle = half_turn.map_or(0.5 * (first + last), |_| 0.0);
+    let along = if half_turn.is_some() {
+        "Around the roller, rolling direction".to_owned()
+    } else if view.surface.is_empty() {
+        "Along the raceway, rolling direction".to_owned()
+    } else {
+        format!("Along the {}, rolling direction", view.surface)
+    };
     // From the room between the margins follows the scale, from the scale the height.
     let spec = |height: f64, left: f64, half: f64| Spec {
         name: format!("damage-{}", index + 1),
@@ -113,9 +136,9 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
             height,
             font,
         },
-        x: Domain::exact(0.5 * (first + last) - half, 0.5 * (first + last) + half),
+        x: Domain::exact(middle - half, middle + half),
         y: Domain::exact(-0.5 * tall, 0.5 * tall),
-        x_label: "Along the raceway, rolling direction".into(),
+        x_label: along.clone(),
         x_unit: "mm".into(),
         y_label: "Across".into(),
         y_unit: "mm".into(),
@@ -140,15 +163,19 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
         clip: Some(frame),
     };
     let track = [0.5 * length, -0.5 * length].map(|z| y.at(z));
+    let ends = match half_turn {
+        Some(half) => [x.at(-half), x.at(half)],
+        None => [frame.left, frame.right],
+    };
     // Under the grid, so that it stays visible.
     chart.picture.shapes.insert(
         0,
         clipped(
             vec![vec![
-                (frame.left, track[0]),
-                (frame.right, track[0]),
-                (frame.right, track[1]),
-                (frame.left, track[1]),
+                (ends[0], track[0]),
+                (ends[1], track[0]),
+                (ends[1], track[1]),
+                (ends[0], track[1]),
             ]],
             true,
             Paint::fill(TRACK, 1.0),
@@ -173,35 +200,69 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     }
     for z in track {
         chart.picture.shapes.push(clipped(
-            vec![vec![(frame.left, z), (frame.right, z)]],
+            vec![vec![(ends[0], z), (ends[1], z)]],
             false,
             Paint::line(ink::FRAME, 1.0),
         ));
     }
-    let hint = Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]);
+    if half_turn.is_some() {
+        chart.picture.shapes.push(clipped(
+            ends.iter()
+                .map(|&end| vec![(end, track[0]), (end, track[1])])
+                .collect(),
+            false,
+            Paint::line(ink::FRAME, 1.0),
+        ));
+    }
     let line = Paint::line(ink::BLUE, 2.4);
-    let (from, to) = (x.at(first - radius), x.at(first + radius));
-    chart.picture.shapes.push(clipped(
-        vec![vec![
-            (from, track[0]),
-            (to, track[0]),
-            (to, track[1]),
-            (from, track[1]),
-        ]],
-        true,
-        hint,
-    ));
-    let at = x.at(first);
-    chart.picture.shapes.push(clipped(
-        vec![vec![(at, track[0]), (at, track[1])]],
-        false,
-        line,
-    ));
+    let hint = match half_turn {
+        Some(_) => Paint::line(ink::BLUE, 2.0).dashed(&[5.0, 4.0]),
+        None => Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]),
+    };
     let zone_paint = Paint::line(ink::GREEN, 5.0);
-    let mut entries = vec![
-        ("line of contact as the roller comes on", line),
-        ("the roller above it", hint),
-    ];
+    let mut upright = |s: f64, paint: Paint| {
+        let at = x.at(s);
+        chart.picture.shapes.push(clipped(
+            vec![vec![(at, track[0]), (at, track[1])]],
+            false,
+            paint,
+        ));
+    };
+    let mut entries = match half_turn {
+        Some(half) => {
+            upright(
+                if first > 0.0 {
+                    first - half
+                } else {
+                    first + half
+                },
+                hint,
+            );
+            upright(first, line);
+            vec![
+                ("line of contact as the damage comes to it", line),
+                ("the contact with the other raceway then", hint),
+            ]
+        }
+        None => {
+            let (from, to) = (x.at(first - radius), x.at(first + radius));
+            upright(first, line);
+            chart.picture.shapes.push(clipped(
+                vec![vec![
+                    (from, track[0]),
+                    (to, track[0]),
+                    (to, track[1]),
+                    (from, track[1]),
+                ]],
+                true,
+                hint,
+            ));
+            vec![
+                ("line of contact as the roller comes on", line),
+                ("the roller above it", hint),
+            ]
+        }
+    };
     let mut zone_words = String::new();
     if let Some([from, to]) = view
         .load_zone_mm
@@ -238,9 +299,11 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     }
     let plan = chart.finish();
     let mut picture = Picture::new(&plan.name, &plan.title, width, 0.0);
-    let mut top = legend(&mut picture, &entries, left, width, 2.0, font);
+    let mut top = heading(&mut picture, &view.plan_title, left, width, font);
+    top += legend(&mut picture, &entries, left, width, top, font);
     if let Some(deepest) = deepest {
-        top += colour_bar(&mut picture, deepest, raised(view), left, top + 2.0, font);
+        let room = (left, width);
+        top += colour_bar(&mut picture, deepest, raised(view), room, top + 2.0, font);
     }
     picture.place(plan, 0.0, top);
     picture.height = top + height;
@@ -261,9 +324,37 @@ fn extent(view: &DamageView) -> Option<[f64; 4]> {
     Some([first, last, low, high].map(|x| x.clamp(-1e6, 1e6)))
 }
 
-fn raised(view: &DamageView) -> bool {
+/// Height of the highest raised edge, um; `None` where none is.
+fn raised(view: &DamageView) -> Option<f64> {
     let depths = || view.depths.iter().flat_map(|p| p.depth_um.iter().copied());
-    range(depths()).is_some_and(|(highest, deepest)| highest < -LEAST * deepest.max(-highest))
+    let (highest, deepest) = range(depths())?;
+    (highest < -LEAST * deepest.max(-highest)).then_some(-highest)
+}
+
+/// What a picture shows, above it, in as many lines as that takes; returns the height used.
+fn heading(picture: &mut Picture, words: &str, left: f64, right: f64, font: f64) -> f64 {
+    let mut top = 2.0;
+    let mut line = String::new();
+    let mut put = |line: &mut String, top: &mut f64| {
+        let text = font::fitted(line, font, true, right - left);
+        picture.text(Text::new(left, *top + font, font, Anchor::Start, &text).bold());
+        *top += 1.5 * font;
+        line.clear();
+    };
+    for word in words.split_whitespace() {
+        let longer = format!("{line}{}{word}", if line.is_empty() { "" } else { " " });
+        if !line.is_empty() && font::width(&longer, font, true) > right - left {
+            put(&mut line, &mut top);
+            line = word.to_owned();
+        } else {
+            line = longer;
+        }
+    }
+    if !line.is_empty() {
+        put(&mut line, &mut top);
+        top += 0.4 * font;
+    }
+    top
 }
 
 /// Points closer together than a picture can show are left out.
@@ -390,15 +481,15 @@ fn shade(
 fn colour_bar(
     picture: &mut Picture,
     deepest: f64,
-    raised: bool,
-    left: f64,
+    raised: Option<f64>,
+    (left, right_end): (f64, f64),
     top: f64,
     font: f64,
 ) -> f64 {
     let swatch = 1.5 * font;
-    let base = top + font;
-    let text = |x: f64, words: &str| Text::new(x, base, font, Anchor::Start, words);
-    picture.text(text(left, "depth 0"));
+    let mut base = top + font;
+    let text = |x: f64, base: f64, words: &str| Text::new(x, base, font, Anchor::Start, words);
+    picture.text(text(left, base, "depth 0"));
     let mut x = left + font::width("depth 0", font, false) + 6.0;
     for color in SHADES {
         let (right, bottom) = (x + swatch, base + 1.0);
@@ -412,9 +503,14 @@ fn colour_bar(
         x = right;
     }
     let words = format!("{} μm", significant(deepest, 3));
-    picture.text(text(x + 6.0, &words));
+    picture.text(text(x + 6.0, base, &words));
     x += font::width(&words, font, false) + 30.0;
-    if raised {
+    if let Some(height) = raised {
+        let words = format!("raised, up to {} μm", significant(height, 3));
+        if x + swatch + 6.0 + font::width(&words, font, false) > right_end {
+            x = left;
+            base += 1.6 * font;
+        }
         let rect = Rect {
             left: x,
             top: base - 0.8 * font,
@@ -422,17 +518,24 @@ fn colour_bar(
             bottom: base + 1.0,
         };
         picture.rect(rect, Paint::fill(RAISED, 1.0));
-        picture.text(text(x + swatch + 6.0, "raised"));
+        picture.text(text(x + swatch + 6.0, base, &words));
     }
-    1.9 * font
+    base - top + 0.9 * font
 }
 
 /// L_s, L_e, depth and stiffness over the angle of a roller that passes the damage.
 pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Picture {
     stack(
         &format!("damage-{}-passage", index + 1),
-        &view.title,
-        ("Angle from the defect’s centre", "°"),
+        [&view.title, &view.passage_title],
+        (
+            if view.half_turn_mm.is_some() {
+                "Angle on the roller from the defect’s centre"
+            } else {
+                "Angle from the defect’s centre"
+            },
+            "°",
+        ),
         &view.angle_deg,
         &view.passage,
         layout,
@@ -443,8 +546,8 @@ pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Pictur
 pub fn damage_section(view: &DamageView, index: usize, layout: Layout) -> Picture {
     stack(
         &format!("damage-{}-section", index + 1),
-        &view.title,
-        ("Along the damage", "mm"),
+        [&view.title, &view.section_title],
+        ("Along the damage, from its centre", "mm"),
         &view.section_s_mm,
         &view.section,
         layout,
@@ -461,7 +564,7 @@ const LINES: [(&str, f64, &[f64]); 4] = [
 /// Panels over one axis, each with its own legend where it holds several curves.
 fn stack(
     name: &str,
-    title: &str,
+    [title, shown]: [&str; 2],
     (x_label, x_unit): (&str, &str),
     xs: &[f64],
     panels: &[DamagePanel],
@@ -503,7 +606,7 @@ fn stack(
     let left = specs.iter().map(left_margin).fold(0.0, f64::max);
     specs.iter_mut().for_each(|spec| spec.left = left);
     let mut picture = Picture::new(name, title, size.width, 0.0);
-    let mut top = 2.0;
+    let mut top = heading(&mut picture, shown, left, size.width, size.font);
     for (spec, panel) in specs.into_iter().zip(panels) {
         let paint = |k: usize| {
             let (color, width, dash) = LINES[k % LINES.len()];

@@ -29,8 +29,10 @@ pub struct Report {
     pub envelope_spectrum: Spectrum,
     /// The bearing's defect frequencies.
     pub markers: Vec<Marker>,
-    /// The defects, seen from above.
+    /// The defects: seen from above, and what a roller meets on them.
     pub damage: Vec<DamageView>,
+    /// Why there is damage that `damage` does not show; a bearing without both is healthy.
+    pub undrawn_damage: Option<String>,
     /// Rollers passing a defect.
     pub passes: Vec<Pass>,
     /// Contact force around the bearing, a row each.

@@ -1,4 +1,4 @@
-//! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents.
+//! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents, symbols with lowered indices.
 
 /// A number with about `digits` significant digits: "1 800", "0.0123", "1.9×10⁸"; "not available" for NaN.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
@@ -83,24 +83,48 @@ pub(crate) fn superscript(exponent: i32) -> String {
         .collect()
 }
 
-/// A run of text at normal height or raised, as in the unit `N/m^(10/9)`.
+/// Where a run of text stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Height {
+    /// On the line.
+    Line,
+    /// As in the unit `N/m^(10/9)`.
+    Raised,
+    /// As in the symbol `L_e`.
+    Lowered,
+}
+
+/// A run of text at one height.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Run {
     pub(crate) text: String,
-    pub(crate) raised: bool,
+    pub(crate) height: Height,
 }
 
 /// Splits text at `^`: what follows, in brackets or up to the next character that is no letter, digit or sign, is raised.
-/// Squares and cubes become the characters made for them.
+/// Squares and cubes become the characters made for them. At `_` after a single letter, what follows up to the next character that is no
+/// letter or digit is lowered; longer names with `_` are names.
 pub(crate) fn runs(text: &str) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
-    let push = |runs: &mut Vec<Run>, text: &str, raised: bool| match runs.last_mut() {
+    let put = |runs: &mut Vec<Run>, text: &str, height: Height| match runs.last_mut() {
         _ if text.is_empty() => {}
-        Some(last) if last.raised == raised => last.text.push_str(text),
+        Some(last) if last.height == height => last.text.push_str(text),
         _ => runs.push(Run {
             text: text.to_owned(),
-            raised,
+            height,
         }),
+    };
+    let push = |runs: &mut Vec<Run>, text: &str, raised: bool| {
+        if raised {
+            return put(runs, text, Height::Raised);
+        }
+        let mut rest = text;
+        while let Some((line, index, tail)) = symbol(rest) {
+            put(runs, line, Height::Line);
+            put(runs, index, Height::Lowered);
+            rest = tail;
+        }
+        put(runs, rest, Height::Line);
     };
     let mut rest = text;
     while let Some(at) = rest.find('^') {
@@ -128,6 +152,23 @@ pub(crate) fn runs(text: &str) -> Vec<Run> {
     }
     push(&mut runs, rest, false);
     runs
+}
+
+/// The first symbol with an index: the text up to and with its letter, the index, and what follows.
+fn symbol(text: &str) -> Option<(&str, &str, &str)> {
+    text.match_indices('_').find_map(|(at, _)| {
+        let mut before = text[..at].chars().rev();
+        let alone = before.next().is_some_and(|c| c.is_ascii_alphabetic())
+            && before
+                .next()
+                .is_none_or(|c| !c.is_alphanumeric() && c != '_');
+        let after = &text[at + 1..];
+        let end = after
+            .find(|c: char| !c.is_ascii_alphanumeric())
+            .unwrap_or(after.len());
+        let name = after[end..].starts_with('_');
+        (alone && end > 0 && !name).then(|| (&text[..at], &after[..end], &after[end..]))
+    })
 }
 
 /// Round values inside [lo, hi], about `target` of them.
@@ -240,14 +281,23 @@ mod tests {
 
     #[test]
     fn regress_units_are_split_at_exponents() {
-        let plain = |t: &str| Run {
-            text: t.into(),
-            raised: false,
+        let of = |height: Height| {
+            move |t: &str| Run {
+                text: t.into(),
+                height,
+            }
         };
-        let raised = |t: &str| Run {
-            text: t.into(),
-            raised: true,
-        };
+        let (plain, raised, lowered) = (of(Height::Line), of(Height::Raised), of(Height::Lowered));
+        assert_eq!(
+            runs("h_I / h_a^2, measured_ax, a_b_c, x_"),
+            [
+                plain("h"),
+                lowered("I"),
+                plain(" / h"),
+                lowered("a"),
+                plain("², measured_ax, a_b_c, x_")
+            ]
+        );
         assert_eq!(runs("m/s^2"), [plain("m/s²")]);
         assert_eq!(runs("N/m^(10/9)"), [plain("N/m"), raised("10/9")]);
         assert_eq!(

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use crate::chart::{Domain, LANE_HEIGHT, Lane};
-use crate::damage::damage_plan;
+use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::{Estimate, Fact, Report, Value};
 use crate::font;
-use crate::number::{linear_ticks, runs, significant, tick_labels, with_interval};
+use crate::number::{Height, linear_ticks, runs, significant, tick_labels, with_interval};
 use crate::picture::{Picture, escape};
 use crate::plots::{self, Layout};
 
@@ -115,10 +115,11 @@ fn unit_html(unit: &str) -> String {
     runs(unit)
         .iter()
         .map(|run| {
-            if run.raised {
-                format!("<sup>{}</sup>", escape(&run.text))
-            } else {
-                escape(&run.text)
+            let text = escape(&run.text);
+            match run.height {
+                Height::Line => text,
+                Height::Raised => format!("<sup>{text}</sup>"),
+                Height::Lowered => format!("<sub>{text}</sub>"),
             }
         })
         .collect()
@@ -347,24 +348,71 @@ fn envelope(page: &mut String, report: &Report) {
 }
 
 fn damage(page: &mut String, report: &Report) {
+    if let Some(why) = &report.undrawn_damage {
+        let _ = writeln!(
+            page,
+            "<p class=\"partial\" role=\"alert\"><strong>The bearing’s damage could not be drawn.</strong> {}</p>",
+            escape(why)
+        );
+        return;
+    }
     if report.damage.is_empty() {
         return none(page, "The bearing is healthy.");
     }
     for (index, view) in report.damage.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
-        let id = format!("damage{index}");
+        let caption = if view.half_turn_mm.is_some() {
+            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s surface, once around."
+        } else {
+            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s track, as wide as the roller is long."
+        };
         figure(
             page,
-            &id,
+            &format!("damage{index}"),
             |layout| damage_plan(view, index, layout),
-            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s track, as wide as the roller is long.",
+            caption,
         );
         fact_table(page, &view.facts, "Nothing is known of its size.");
+        if !view.passage.is_empty() {
+            figure(
+                page,
+                &format!("damage{index}-passage"),
+                |layout| damage_passage(view, index, layout),
+                &sentence(&view.passage_note),
+            );
+        }
+        if view.section.is_empty() {
+            if !view.section_note.is_empty() {
+                none(page, &sentence(&view.section_note));
+            }
+        } else {
+            figure(
+                page,
+                &format!("damage{index}-section"),
+                |layout| damage_section(view, index, layout),
+                &sentence(&view.section_note),
+            );
+        }
     }
     if report.damage.len() > PASSES {
         let more = report.damage.len() - PASSES;
         none(page, &format!("{more} more defects are not drawn."));
     }
+}
+
+/// A note as a sentence of the page.
+fn sentence(note: &str) -> String {
+    let mut letters = note.chars();
+    let first: String = letters
+        .next()
+        .map(|c| c.to_uppercase().collect())
+        .unwrap_or_default();
+    let end = if note.is_empty() || note.ends_with('.') {
+        ""
+    } else {
+        "."
+    };
+    escape(&format!("{first}{}{end}", letters.as_str()))
 }
 
 fn passes(page: &mut String, report: &Report) {

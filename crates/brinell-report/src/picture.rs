@@ -6,7 +6,7 @@ use tiny_skia as skia;
 use ttf_parser::OutlineBuilder;
 
 use crate::font;
-use crate::number::{Run, runs};
+use crate::number::{Height, Run, runs};
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -123,7 +123,7 @@ impl Text {
     pub(crate) fn new(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
         let plain = vec![Run {
             text: text.to_owned(),
-            raised: false,
+            height: Height::Line,
         }];
         Self {
             x,
@@ -136,7 +136,7 @@ impl Text {
             runs: plain,
         }
     }
-    /// Text that may hold a unit with an exponent.
+    /// Text that may hold a unit with an exponent or a symbol with an index.
     pub(crate) fn with_unit(x: f64, y: f64, size: f64, anchor: Anchor, text: &str) -> Self {
         Self {
             runs: runs(text),
@@ -164,7 +164,19 @@ impl Text {
 }
 
 fn run_size(size: f64, run: &Run) -> f64 {
-    if run.raised { size * 0.72 } else { size }
+    match run.height {
+        Height::Line => size,
+        Height::Raised | Height::Lowered => size * 0.72,
+    }
+}
+
+/// How far below the line a run's baseline lies; `size` is that of text on the line.
+fn run_drop(size: f64, run: &Run) -> f64 {
+    match run.height {
+        Height::Line => 0.0,
+        Height::Raised => -0.45 * run_size(size, run),
+        Height::Lowered => 0.22 * run_size(size, run),
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -511,32 +523,21 @@ fn write_text(svg: &mut String, text: &Text) {
         svg.push_str(" font-weight=\"600\"");
     }
     svg.push('>');
-    let mut raised = false;
+    let mut below = 0.0;
     for run in &text.runs {
         // Firefox knows no baseline-shift: move the baseline and move it back.
-        match (raised, run.raised) {
-            (false, false) => svg.push_str(&escape(&run.text)),
-            (_, true) => {
-                let size = run_size(text.size, run);
-                let _ = write!(
-                    svg,
-                    "<tspan dy=\"-0.45em\" font-size=\"{size:.1}\">{}</tspan>",
-                    escape(&run.text)
-                );
-            }
-            (true, false) => {
-                let back = 0.45
-                    * run_size(
-                        text.size,
-                        &Run {
-                            raised: true,
-                            text: String::new(),
-                        },
-                    );
-                let _ = write!(svg, "<tspan dy=\"{back:.1}\">{}</tspan>", escape(&run.text));
-            }
+        let drop = run_drop(text.size, run);
+        let words = escape(&run.text);
+        if drop == 0.0 && below == 0.0 {
+            svg.push_str(&words);
+        } else {
+            let (dy, size) = (drop - below, run_size(text.size, run));
+            let _ = write!(
+                svg,
+                "<tspan dy=\"{dy:.1}\" font-size=\"{size:.1}\">{words}</tspan>"
+            );
         }
-        raised = run.raised;
+        below = drop;
     }
     svg.push_str("</text>\n");
 }
@@ -616,8 +617,8 @@ fn draw_text(pixels: &mut skia::Pixmap, text: &Text, transform: skia::Transform)
     let mut pen = shift;
     for run in &text.runs {
         let size = run_size(text.size, run);
-        let rise = if run.raised { -0.45 * size } else { 0.0 };
-        pen = font::outline(&run.text, size, text.bold, pen, rise, &mut glyphs);
+        let drop = run_drop(text.size, run);
+        pen = font::outline(&run.text, size, text.bold, pen, drop, &mut glyphs);
     }
     let Some(path) = glyphs.0.finish() else {
         return;
@@ -677,7 +678,7 @@ mod tests {
         assert!(
             svg.contains("<title>a &lt; b</title>")
                 && svg.contains("&lt;b&gt;")
-                && svg.contains("dy=\"-0.45em\"")
+                && svg.contains("dy=\"-3.2\"")
         );
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, left_margin, range, right_margin};
-use crate::damage::damage_plan;
+use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::{EventKind, Marker, MinMax, Pass, Report, RowLoad, Series, Spectrum};
 use crate::font;
 use crate::number::{linear_ticks, significant, tick_labels};
@@ -400,7 +400,8 @@ pub(crate) fn legend(
 ) -> f64 {
     let (mut x, mut y) = (left, top + font);
     for (label, paint) in entries {
-        let width = 26.0 + font::width(label, font, false) + 18.0;
+        let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, label);
+        let width = 26.0 + words.width() + 18.0;
         if x > left && x + width > right + 18.0 {
             x = left;
             y += 1.6 * font;
@@ -422,7 +423,11 @@ pub(crate) fn legend(
                 paint: *paint,
             });
         }
-        picture.text(Text::new(x + 26.0, y, font, Anchor::Start, label));
+        picture.text(Text {
+            x: x + 26.0,
+            y,
+            ..words
+        });
         x += width;
     }
     y - top + 0.6 * font
@@ -671,13 +676,15 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
         spectrum(report, Layout::Wide),
         envelope_spectrum(report, Layout::Wide),
     ];
-    pictures.extend(
-        report
-            .damage
-            .iter()
-            .enumerate()
-            .map(|(i, d)| damage_plan(d, i, Layout::Wide)),
-    );
+    for (index, view) in report.damage.iter().enumerate() {
+        pictures.push(damage_plan(view, index, Layout::Wide));
+        if !view.passage.is_empty() {
+            pictures.push(damage_passage(view, index, Layout::Wide));
+        }
+        if !view.section.is_empty() {
+            pictures.push(damage_section(view, index, Layout::Wide));
+        }
+    }
     pictures.extend(
         report
             .passes

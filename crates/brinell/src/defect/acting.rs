@@ -1,8 +1,11 @@
 //! Force, stiffness and energy of a contact that stands on damage, one defect or several (section 3).
 //!
 //! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` each slice feels the deepest of the depths that damage it;
-//! a defect that leaves a slice alone (h_k = 0) has no say there, so that it does not level another's raised edge.
+//! a defect that leaves a slice alone (h_k = 0) has no say there, so that it does not level another's raised edge. Along an envelope the
+//! roller follows the envelope of that joint surface, neighbouring defects included.
 
+use super::ground::Ground;
+use super::joint::{Rest, Strip, rest};
 use super::{Angles, Defect, Side};
 use crate::contact::{Floor, Hertz};
 use crate::scenario::{Law, Surface};
@@ -16,36 +19,80 @@ pub struct Acting {
     pub floor: Floor,
 }
 
-/// One defect under one side of a roller, cut into slices.
+/// One defect under one side of a roller.
 #[derive(Clone, Copy)]
 struct Cut<'a> {
     defect: &'a Defect,
-    slices: &'a [super::Course],
+    ground: &'a Ground,
     s: f64,
 }
 
-impl Cut<'_> {
+impl<'a> Cut<'a> {
     #[inline]
     fn depth(&self, k: usize) -> f64 {
-        self.slices[k].value(self.s)
+        self.ground.slices[k].value(self.s)
+    }
+
+    /// Slice k of the surface before its envelope.
+    fn strip(&self, k: usize) -> Strip<'a> {
+        let surface = self.ground.surface.as_ref();
+        Strip {
+            lines: surface.map_or(&[], |x| &x.slices[k]),
+            envelope: self.ground.slices.get(k),
+            s: self.s,
+        }
+    }
+
+    /// Distance of the line of contact from the damage, m; 0 on it.
+    #[inline]
+    fn away(&self) -> f64 {
+        let (first, last) = self.ground.arc;
+        (first - self.s).max(self.s - last).max(0.0)
     }
 }
 
-/// The defects that the contact stands on.
+/// The defects that bear on a contact: none where it stands on no damage; along an envelope also those beside it that a roller, resting on the
+/// deepest floor under it, would reach.
+#[inline]
 fn cuts<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
     side: Side,
 ) -> impl Iterator<Item = Cut<'a>> + Clone {
-    defects.filter_map(move |defect| {
+    let angles = *angles;
+    let all = defects.filter_map(move |defect| {
         let ground = defect.ground(side)?;
-        let s = defect.local_angle(angles, side) * defect.radius;
-        (s >= ground.arc.0 && s <= ground.arc.1).then_some(Cut {
-            defect,
-            slices: &ground.slices,
-            s,
+        let s = defect.local_angle(&angles, side) * defect.radius;
+        Some(Cut { defect, ground, s })
+    });
+    let deepest = all
+        .clone()
+        .filter(|cut| cut.away() == 0.0)
+        .map(|cut| cut.ground.surface.as_ref().map_or(0.0, |x| x.extremes.1))
+        .reduce(f64::max);
+    all.filter(move |cut| {
+        let away = cut.away();
+        deepest.is_some_and(|deepest| match &cut.ground.surface {
+            None => away == 0.0,
+            Some(x) => away * away <= 2.0 * x.radius * (deepest - x.extremes.0),
         })
     })
+}
+
+/// Where a roller rests on the joint surface of several defects in slice k; `None` at a point, and where one defect alone bears on the contact.
+fn rest_on<'a>(
+    cuts: impl Iterator<Item = Cut<'a>> + Clone,
+    strip: impl Fn(&Cut<'a>) -> Strip<'a> + Clone,
+) -> Option<Rest> {
+    let surface = cuts.clone().next()?.ground.surface.as_ref()?;
+    cuts.clone().nth(1)?;
+    let lowest = cuts
+        .clone()
+        .filter_map(|cut| cut.ground.surface.as_ref())
+        .map(|x| x.extremes.0)
+        .fold(0.0, f64::min);
+    let strips = cuts.map(move |cut| strip(&cut));
+    Some(rest(strips, lowest, surface.radius))
 }
 
 /// The deeper of two depths of a slice, where each damages it.
@@ -55,6 +102,14 @@ fn deeper(a: f64, b: f64) -> f64 {
         b
     } else {
         a
+    }
+}
+
+/// Depth of slice k under several defects.
+fn depth_of<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, k: usize) -> f64 {
+    match rest_on(cuts.clone(), move |cut| cut.strip(k)) {
+        Some(rest) => rest.depth,
+        None => cuts.fold(0.0, |h, cut| deeper(h, cut.depth(k))),
     }
 }
 
@@ -69,11 +124,11 @@ fn mean<'a>(
     let all = cuts.clone();
     let first = cuts.next()?;
     let several = cuts.next().is_some();
-    let n = first.slices.len();
+    let n = first.ground.slices.len();
     let (mut healthy, mut sum) = (0_usize, 0.0);
     for k in 0..n {
         let h = if several {
-            all.clone().fold(0.0, |h, cut| deeper(h, cut.depth(k)))
+            depth_of(all.clone(), k)
         } else {
             first.depth(k)
         };
@@ -153,12 +208,32 @@ pub fn acting_given<'a>(
         })
 }
 
-fn floors<'a>(
+/// What each defect under a contact leaves of it, under a law that knows one width and one depth.
+///
+/// Along an envelope, where several bear on the contact, the roller follows the envelope of the joint surface of their h_s; no floor is deeper for
+/// that than its own defect is there. Each keeps its own L_s, so that a narrow pit in a wide dent makes the dent no deeper.
+pub fn floors<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
     side: Side,
 ) -> impl Iterator<Item = Floor> + Clone {
-    defects.filter_map(move |d| d.floor(d.local_angle(angles, side), side))
+    let joint = rest_on(cuts(defects.clone(), angles, side), |cut| Strip {
+        lines: cut.ground.surface.as_ref().map_or(&[], |x| &x.floor),
+        envelope: cut.ground.floor.as_ref(),
+        s: cut.s,
+    });
+    let angles = *angles;
+    defects.filter_map(move |d| {
+        let u = d.local_angle(&angles, side);
+        let floor = d.floor(u, side)?;
+        Some(match &joint {
+            None => floor,
+            Some(rest) => Floor {
+                depth: d.depth_at(u * d.radius).min(rest.depth).max(0.0),
+                ..floor
+            },
+        })
+    })
 }
 
 /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
@@ -230,7 +305,7 @@ pub struct EdgeGradient {
     pub ring: f64,
 }
 
-/// The derivatives under `sliced`; each slice counts for the defect that acts in it.
+/// The derivatives under `sliced`; each slice counts for the defect that acts in it, or for those that the roller rests on.
 pub fn edge_gradient<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
@@ -243,8 +318,28 @@ pub fn edge_gradient<'a>(
     let Some(first) = cuts.clone().next() else {
         return gradient;
     };
-    let n = first.slices.len();
+    let n = first.ground.slices.len();
+    let mut add = |slope: f64, cut: Cut| {
+        gradient.orbit += slope;
+        match cut.defect.surface {
+            Surface::OuterRaceway => {}
+            Surface::InnerRaceway => gradient.ring -= slope,
+            Surface::Roller(_) => gradient.spin -= slope,
+        }
+    };
     for k in 0..n {
+        // dE over an arc of the damage, N.
+        let push = |h: f64| -law.healthy(delta - h) / n as f64;
+        if let Some(rest) = rest_on(cuts.clone(), move |cut| cut.strip(k)) {
+            if rest.depth != 0.0 {
+                for (strip, slope) in rest.slopes {
+                    if let Some(cut) = cuts.clone().nth(strip) {
+                        add(push(rest.depth) * slope * cut.defect.radius, cut);
+                    }
+                }
+            }
+            continue;
+        }
         let (h, cut) = cuts.clone().fold((0.0, first), |(h, acting), cut| {
             let own = cut.depth(k);
             if deeper(h, own) == h {
@@ -253,16 +348,9 @@ pub fn edge_gradient<'a>(
                 (own, cut)
             }
         });
-        if h == 0.0 {
-            continue;
-        }
-        let push = law.healthy(delta - h) / n as f64;
-        let slope = -push * cut.slices[k].slope(cut.s) * cut.defect.radius;
-        gradient.orbit += slope;
-        match cut.defect.surface {
-            Surface::OuterRaceway => {}
-            Surface::InnerRaceway => gradient.ring -= slope,
-            Surface::Roller(_) => gradient.spin -= slope,
+        if h != 0.0 {
+            let slope = cut.ground.slices[k].slope(cut.s);
+            add(push(h) * slope * cut.defect.radius, cut);
         }
     }
     gradient

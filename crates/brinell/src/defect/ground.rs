@@ -53,32 +53,81 @@ pub struct Ground {
     pub(super) floor: Option<Course>,
     /// h_k of each slice; empty under `ecl`.
     pub(super) slices: Vec<Course>,
+    /// What the envelopes were made of, for the joint surface of several defects; `None` where the path is the point.
+    pub(super) surface: Option<Surface>,
+}
+
+/// Depths before their envelope, as straight pieces.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Surface {
+    /// R_eq, m.
+    pub(super) radius: f64,
+    /// h_s.
+    pub(super) floor: Vec<Line>,
+    /// h_k of each slice; empty under `ecl`.
+    pub(super) slices: Vec<Vec<Line>>,
+    /// Lowest (0 or less) and deepest of what the law uses, m.
+    pub(super) extremes: (f64, f64),
 }
 
 impl Ground {
     /// For a roller of length `length` that meets the damage with the relative radius R_eq (m); `depth` (m) is the defect's.
     pub(super) fn new(shape: &Shape, depth: f64, length: f64, radius: f64, rules: &Rules) -> Self {
-        let course = |lines: &[Line]| match rules.path {
-            RollerPath::Point => Course::of_lines(lines),
-            RollerPath::Envelope => envelope(lines, radius),
-        };
-        let slices: Vec<Course> = match rules.law {
+        let slices: Vec<Vec<Line>> = match rules.law {
             Law::Ecl => Vec::new(),
             Law::Sliced => (0..rules.slices)
                 .map(|k| {
                     let z = slice_position(k, rules.slices, length);
-                    course(&shape.along(z, SLACK * length, depth))
+                    shape.along(z, SLACK * length, depth)
                 })
                 .collect(),
         };
-        let floor =
-            (rules.path == RollerPath::Envelope).then(|| envelope(&shape.depths(depth), radius));
-        let arc = slices
+        let along_envelope = rules.path == RollerPath::Envelope;
+        let courses: Vec<Course> = slices
+            .iter()
+            .map(|lines| match rules.path {
+                RollerPath::Point => Course::of_lines(lines),
+                RollerPath::Envelope => envelope(lines, radius),
+            })
+            .collect();
+        let arc = courses
             .iter()
             .filter(|c| !c.is_zero())
             .map(Course::span)
             .fold(shape.arc(), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        Self { arc, floor, slices }
+        let depths = along_envelope.then(|| shape.depths(depth));
+        Self {
+            arc,
+            floor: depths.as_ref().map(|lines| envelope(lines, radius)),
+            slices: courses,
+            surface: depths.map(|floor| Surface::new(floor, slices, radius)),
+        }
+    }
+}
+
+impl Surface {
+    fn new(floor: Vec<Line>, slices: Vec<Vec<Line>>, radius: f64) -> Self {
+        let solid = |mut lines: Vec<Line>| {
+            lines.retain(|l| l.to > l.from);
+            lines
+        };
+        let floor = solid(floor);
+        let slices: Vec<Vec<Line>> = slices.into_iter().map(solid).collect();
+        let used = slices
+            .iter()
+            .flatten()
+            .chain(slices.is_empty().then_some(&floor).into_iter().flatten());
+        let extremes = used
+            .flat_map(|l| [l.at_from, l.at_to])
+            .fold((0.0_f64, 0.0_f64), |(low, high), h| {
+                (low.min(h), high.max(h))
+            });
+        Self {
+            radius,
+            floor,
+            slices,
+            extremes,
+        }
     }
 }
 

@@ -9,6 +9,7 @@ mod envelope;
 pub mod fit;
 mod grid;
 mod ground;
+mod joint;
 mod outline;
 mod profile;
 mod random;
@@ -16,7 +17,9 @@ pub mod section;
 mod shape;
 pub mod simplify;
 
-pub use acting::{Acting, EdgeGradient, acting, acting_given, edge_gradient, energy, tangent};
+pub use acting::{
+    Acting, EdgeGradient, acting, acting_given, edge_gradient, energy, floors, tangent,
+};
 pub use course::{Course, Line};
 pub use envelope::envelope;
 pub use grid::Grid;
@@ -189,6 +192,12 @@ impl Defect {
         self.shape.damaged_length(s).clamp(0.0, self.roller_length)
     }
 
+    /// h_s at the arc coordinate s (m) on the damage, before any envelope.
+    #[inline]
+    pub fn depth_at(&self, s: f64) -> f64 {
+        self.shape.own_depth(s).unwrap_or(self.depth)
+    }
+
     /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its arc.
     ///
     /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which comes up to 0
@@ -206,7 +215,7 @@ impl Defect {
             share: remaining_share(self.roller_length, damaged_length),
             depth: match along_envelope {
                 Some(floor) => floor.value(s).max(0.0),
-                None => self.shape.own_depth(s).unwrap_or(self.depth),
+                None => self.depth_at(s),
             },
             damaged_length,
         })

@@ -196,15 +196,7 @@ impl Shape {
                 .filter(|w| outline.width().value(0.5 * (w[0] + w[1])) > 0.0)
                 .map(|w| Line::flat(w[0], w[1], depth))
                 .collect(),
-            Self::DepthMap(grid) => grid
-                .mean_lines()
-                .iter()
-                .map(|l| Line {
-                    at_from: l.at_from.max(0.0),
-                    at_to: l.at_to.max(0.0),
-                    ..*l
-                })
-                .collect(),
+            Self::DepthMap(grid) => grid.mean_lines().iter().flat_map(sunk).collect(),
             _ => {
                 let (first, last) = self.arc();
                 vec![Line::flat(first, last, depth)]
@@ -275,6 +267,29 @@ impl Shape {
             .map(|k| self.damaged_length(first + (f64::from(k) + 0.5) * ds) * ds)
             .sum()
     }
+}
+
+/// The parts of a straight piece that are 0 or deeper: what is raised counts as 0, up to where the piece sinks below.
+fn sunk(line: &Line) -> impl Iterator<Item = Line> + use<> {
+    let (a, b) = (line.at_from, line.at_to);
+    let zero = line.from + (line.to - line.from) * (a / (a - b)).clamp(0.0, 1.0);
+    let part = |from: f64, to: f64, at_from: f64, at_to: f64| {
+        (to > from).then_some(Line {
+            from,
+            to,
+            at_from,
+            at_to,
+        })
+    };
+    let parts = if a * b < 0.0 {
+        [
+            part(line.from, zero, a.max(0.0), 0.0),
+            part(zero, line.to, 0.0, b.max(0.0)),
+        ]
+    } else {
+        [part(line.from, line.to, a.max(0.0), b.max(0.0)), None]
+    };
+    parts.into_iter().flatten()
 }
 
 fn outline(polygons_mm: &[Vec<[f64; 2]>]) -> Option<Outline> {

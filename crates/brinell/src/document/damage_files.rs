@@ -1,16 +1,46 @@
 //! Every key of a shape that stands in a file of its own: an image, a drawing, a scan.
 
 use super::keys::Fallback::Required;
-use super::keys::{Keys, Spec, assumed, key, stated};
+use super::keys::{Fallback, Keys, Spec, assumed, key, stated};
+use super::leaf::Leaf;
 use crate::scenario::*;
 
 pub(super) const FILE: Spec = key("file", "path, from the scenario's folder");
-const CENTER: Spec = key(
-    "center",
-    "the damage's bounding box at the defect's centre; false: the middle of the picture",
-);
-const DIRECTION: Spec = key("rolling_direction", "where the roller passes to");
-const SPECK: Spec = key("speck_mm2", "spots smaller than this are left out").from(0.0);
+/// What the keys of a scan need; a `depth_map` may hold its numbers instead.
+const FILED: &str = "there is a `file`";
+
+/// A key that every file of damage has: of a scan only where there is one (`filed`), of an image or a drawing always (`None`).
+fn shared<K: Keys, T: Leaf>(
+    k: &mut K,
+    filed: Option<bool>,
+    spec: Spec,
+    fallback: Fallback<T>,
+    value: &mut T,
+) {
+    match filed {
+        None => k.key(spec, fallback, value),
+        Some(wanted) => k.key_where(spec, (wanted, FILED), fallback, value),
+    }
+}
+
+fn center<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut bool) {
+    let spec = key(
+        "center",
+        "the damage's bounding box at the defect's centre; false: the middle of the picture",
+    );
+    shared(k, filed, spec, stated(true, "centred"), value);
+}
+
+fn direction<K: Keys>(k: &mut K, filed: Option<bool>, value: &mut RollingDirection) {
+    let spec = key("rolling_direction", "where the roller passes to");
+    let fallback = assumed(RollingDirection::Right, "along the rows");
+    shared(k, filed, spec, fallback, value);
+}
+
+fn speck<K: Keys>(k: &mut K, filed: Option<bool>, fallback: Fallback<f64>, value: &mut f64) {
+    let spec = key("speck_mm2", "spots smaller than this are left out").from(0.0);
+    shared(k, filed, spec, fallback, value);
+}
 
 pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     k.key(FILE, Required, &mut i.file);
@@ -31,8 +61,8 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
         stated(false, "damage is darker"),
         &mut i.invert,
     );
-    direction(k, &mut i.rolling_direction);
-    k.key(CENTER, stated(true, "centred"), &mut i.center);
+    direction(k, None, &mut i.rolling_direction);
+    center(k, None, &mut i.center);
     k.key(
         key("edges", "how the outline runs between pixels"),
         stated(ImageEdges::SubPixel, "a photo"),
@@ -47,11 +77,8 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
         &mut blur_px,
     );
     i.blur_px = (i.edges == ImageEdges::SubPixel).then_some(blur_px);
-    k.key(
-        SPECK,
-        assumed(0.02, "dirt and grinding marks"),
-        &mut i.speck_mm2,
-    );
+    let dirt = assumed(0.02, "dirt and grinding marks");
+    speck(k, None, dirt, &mut i.speck_mm2);
 }
 
 pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
@@ -66,12 +93,12 @@ pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {
         stated(0.001, "far below what is felt"),
         &mut d.tolerance_mm,
     );
-    k.key(CENTER, stated(true, "centred"), &mut d.center);
+    center(k, None, &mut d.center);
 }
 
 /// The keys of a scan beside its file and spacing.
 pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
-    let filed = (wanted, "there is a `file`");
+    let filed = (wanted, FILED);
     k.key_where(
         key("unit", "what the numbers count"),
         filed,
@@ -142,12 +169,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
         stated(FirstRow::Top, "as in print"),
         &mut s.first_row,
     );
-    k.key_where(
-        DIRECTION,
-        filed,
-        assumed(RollingDirection::Right, "along the rows"),
-        &mut s.rolling_direction,
-    );
+    direction(k, Some(wanted), &mut s.rolling_direction);
     k.key_where(
         key("threshold_um", "shallower is undamaged")
             .from(0.0)
@@ -156,14 +178,6 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
         assumed(1.0, "noise and roughness"),
         &mut s.threshold_um,
     );
-    k.key_where(SPECK, filed, stated(0.0, "all count"), &mut s.speck_mm2);
-    k.key_where(CENTER, filed, stated(true, "centred"), &mut s.center);
-}
-
-fn direction<K: Keys>(k: &mut K, value: &mut RollingDirection) {
-    k.key(
-        DIRECTION,
-        assumed(RollingDirection::Right, "along the rows"),
-        value,
-    );
+    speck(k, Some(wanted), stated(0.0, "all count"), &mut s.speck_mm2);
+    center(k, Some(wanted), &mut s.center);
 }

@@ -27,3 +27,4 @@ pub use load::{Loaded, read, read_bytes};
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
+pub use source::locate;

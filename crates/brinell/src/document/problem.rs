@@ -148,7 +148,9 @@ impl fmt::Display for Problem {
         write!(f, "{}", self.message)?;
         if let Some(allowed) = &self.allowed {
             write!(f, "\n  allowed: {allowed}")?;
-            match self.unit {
+            // The words may hold the unit already.
+            let said = |unit: &&str| allowed.split([' ', ',', ';']).any(|word| word == *unit);
+            match self.unit.filter(|unit| !said(unit)) {
                 Some(unit) if allowed.starts_with(char::is_alphabetic) => write!(f, ", in {unit}")?,
                 Some(unit) => write!(f, " {unit}")?,
                 None => {}

@@ -202,6 +202,30 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
     }
 }
 
+/// Where a key stands in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.
+pub fn locate(text: &str, key: &str) -> Option<Place> {
+    let mut table = Some(parse(text, &[]).ok()?);
+    let mut items: Vec<Node> = Vec::new();
+    let mut span = None;
+    for step in key.split('.') {
+        let node = match table.take() {
+            Some(mut table) => table.remove(step)?.node,
+            None => {
+                let k: usize = step.parse().ok()?;
+                items.into_iter().nth(k)?
+            }
+        };
+        span = node.span;
+        items = Vec::new();
+        match node.value {
+            Value::Table(inner) => table = Some(inner),
+            Value::Array(inner) => items = inner,
+            _ => {}
+        }
+    }
+    Some(Place::new(text, span?))
+}
+
 fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {
     let wrong = |message: String| Box::new(Problem::error(path, message).value(brief_text(text)));
     let value = override_value(text).map_err(wrong)?;

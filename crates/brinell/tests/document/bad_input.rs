@@ -342,3 +342,23 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             .all(|w| !w.message.contains("overlaps"))
     );
 }
+
+#[test]
+fn regress_a_key_is_found_where_it_stands() {
+    let text =
+        "a = 1\n[[defects]]\nrow = 1\n[[defects]]\nshape = { image = { file = \"x.png\" } }\n";
+    let place = brinell::document::locate(text, "defects.1.shape.image.file").unwrap();
+    assert_eq!((place.line, place.column), (5, 28));
+    assert_eq!(&text[place.span], "\"x.png\"");
+    for missing in [
+        "defects.2.row",
+        "defects.x",
+        "defects.0.shape.image",
+        "b",
+        "a.b",
+        "",
+    ] {
+        assert_eq!(brinell::document::locate(text, missing), None, "{missing}");
+    }
+    assert_eq!(brinell::document::locate("a = [", "a"), None);
+}

@@ -198,6 +198,17 @@ impl Checker<'_> {
                 allowed,
                 also,
             );
+        } else if last - first > 1e-3 * half_circle {
+            self.warn(
+                &format!("defects.{i}.shape.{key}"),
+                format!(
+                    "the defect covers {} of {} mm around the {surface}, more than half: check its scale",
+                    short(1e3 * (last - first)),
+                    short(2.0 * half_circle)
+                ),
+                String::new(),
+                also,
+            );
         }
     }
 }

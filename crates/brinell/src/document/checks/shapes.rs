@@ -7,7 +7,7 @@ use crate::scenario::{
 };
 
 const LENGTH: &str = "bearing.roller_length_mm";
-/// Numbers that the slices of one depth map may take: 160 MB.
+/// Pieces that the slices of one depth map may take: 160 MB, and as much again along an envelope.
 const MOST_PIECES: f64 = 5e6;
 /// A corner less than this beyond the roller's end, mm, is round-off.
 const EDGE_SLACK: f64 = 1e-6;
@@ -206,7 +206,7 @@ impl Checker<'_> {
             self.error(
                 &key,
                 format!("{count} depths for {columns} columns and {rows} rows"),
-                format!("{} numbers", columns.saturating_mul(rows)),
+                format!("a list of {} numbers", columns.saturating_mul(rows)),
                 &also,
             );
             return;
@@ -387,9 +387,15 @@ impl Checker<'_> {
                     Law::Sliced => "each slice takes the deeper of the two",
                     Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
                 };
+                let path = match s.contact.roller_path {
+                    RollerPath::Point => "",
+                    RollerPath::Envelope => {
+                        "; the path is the envelope of both together, the deeper point of each"
+                    }
+                };
                 self.warn(
                     &format!("defects.{i}"),
-                    format!("overlaps defects.{j} along the rolling direction; {rule}"),
+                    format!("overlaps defects.{j} along the rolling direction; {rule}{path}"),
                     String::new(),
                     &[&format!("defects.{j}")],
                 );

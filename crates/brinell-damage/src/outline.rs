@@ -1,0 +1,146 @@
+//! The line along which a grid has one depth, as polygons.
+
+use crate::contour::Field;
+use crate::error::{DamageError, check_range};
+use crate::geometry::{DepthGrid, Polygons, signed_area};
+use brinell::defect::{Fault, faults};
+
+impl DepthGrid {
+    /// What is deeper than `level_um`, its border found between nodes by straight interpolation (marching squares) and then freed of the
+    /// corners that lie within `tolerance_mm` of it; along the grid's edge where damage reaches that.
+    ///
+    /// Polygons as elsewhere: outer rings counter-clockwise, holes clockwise, none crossing itself or another.
+    ///
+    /// # Errors
+    ///
+    /// A level below 0 or a tolerance below 0; nothing deeper than the level; a border of more than two million points.
+    pub fn outline(&self, level_um: f64, tolerance_mm: f64) -> Result<Polygons, DamageError> {
+        check_range(
+            "level_um",
+            level_um,
+            -f64::MIN_POSITIVE,
+            f64::MAX,
+            "a depth of 0 um or more",
+        )?;
+        check_range(
+            "tolerance_mm",
+            tolerance_mm,
+            -f64::MIN_POSITIVE,
+            f64::MAX,
+            "a distance of 0 mm or more",
+        )?;
+        let mut rings = self.field(level_um).outlines(0.0)?.rings;
+        if rings.is_empty() {
+            return Err(DamageError::NothingDamaged {
+                why: format!(
+                    "no depth is above `level_um` = {level_um}; the deepest is {} um",
+                    self.depth_um.iter().copied().fold(0.0, f64::max)
+                ),
+            });
+        }
+        for point in rings.iter_mut().flatten() {
+            // Node (0, 0) is the middle of pixel (0, 0).
+            *point = [
+                self.s0_mm + (point[0] - 0.5) * self.ds_mm,
+                self.z0_mm + (point[1] - 0.5) * self.dz_mm,
+            ];
+        }
+        Ok(Polygons {
+            polygons_mm: simplified(rings, tolerance_mm),
+            warnings: Vec::new(),
+        })
+    }
+
+    /// The level, um, at which [`DepthGrid::outline`] encloses `area_mm2`; 0 where even that encloses less.
+    ///
+    /// # Errors
+    ///
+    /// Outlines of more than two million points.
+    pub fn level_of_area(&self, area_mm2: f64) -> Result<f64, DamageError> {
+        /// Halvings of the deepest depth: to a part in a million.
+        const HALVINGS: u32 = 20;
+        let cell = self.ds_mm * self.dz_mm;
+        let (mut low, mut high) = (0.0, self.depth_um.iter().copied().fold(0.0, f64::max));
+        for _ in 0..HALVINGS {
+            let level = 0.5 * (low + high);
+            let rings = self.field(level).outlines(0.0)?.rings;
+            let area: f64 = rings.iter().map(|ring| cell * signed_area(ring)).sum();
+            if area > area_mm2 {
+                low = level;
+            } else {
+                high = level;
+            }
+        }
+        Ok(high)
+    }
+
+    fn field(&self, level: f64) -> Field<'_, f64> {
+        Field {
+            width: self.columns,
+            height: self.rows,
+            values: &self.depth_um,
+            level,
+            rim: 0.0,
+            sub_pixel: true,
+        }
+    }
+}
+
+/// The rings with fewer corners; a tolerance under which they would cross is halved.
+fn simplified(rings: Vec<Vec<[f64; 2]>>, mut tolerance: f64) -> Vec<Vec<[f64; 2]>> {
+    /// A tolerance of less than a thousandth of what was asked for changes next to nothing.
+    const HALVINGS: u32 = 10;
+    for _ in 0..HALVINGS {
+        let fewer: Vec<Vec<[f64; 2]>> = rings
+            .iter()
+            .map(|ring| without_close_corners(ring, tolerance))
+            .filter(|ring| ring.len() > 2 && signed_area(ring) != 0.0)
+            .collect();
+        let cross = |f: &Fault| matches!(f, Fault::CrossesItself { .. } | Fault::Cross { .. });
+        if !fewer.is_empty() && !faults(&fewer).iter().any(cross) {
+            return fewer;
+        }
+        tolerance *= 0.5;
+    }
+    rings
+}
+
+/// Douglas and Peucker's choice of corners on a closed ring: no corner left out lies farther than `tolerance` from the side in its place.
+fn without_close_corners(ring: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+    let squared = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+    let farthest = |from: usize| {
+        let distance = |k: &usize| squared(ring[*k], ring[from]);
+        (0..ring.len()).max_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    // Two corners that stay: the one farthest from the first, and the one farthest from that.
+    let (Some(a), Some(b)) = (farthest(0), farthest(0).and_then(farthest)) else {
+        return Vec::new();
+    };
+    let (low, high) = (a.min(b), a.max(b));
+    let at = |k: usize| ring[k % ring.len()];
+    let mut kept = vec![low, high];
+    let mut open = vec![(low, high), (high, low + ring.len())];
+    while let Some((from, to)) = open.pop() {
+        let off = |k: usize| from_side(at(k), at(from), at(to));
+        let worst = (from + 1..to).max_by(|x, y| off(*x).total_cmp(&off(*y)));
+        if let Some(k) = worst.filter(|k| off(*k) > tolerance) {
+            kept.push(k % ring.len());
+            open.extend([(from, k), (k, to)]);
+        }
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(at).collect()
+}
+
+/// Distance of a point from the side between two others.
+fn from_side(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let length = along[0] * along[0] + along[1] * along[1];
+    let share = if length > 0.0 {
+        ((to[0] * along[0] + to[1] * along[1]) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (to[0] - share * along[0]).hypot(to[1] - share * along[1])
+}
