@@ -5,7 +5,7 @@
 
 use super::{Model, Power, Workspace, series_stiffness};
 use crate::contact::{Floor, Hertz};
-use crate::defect::{Angles, SIDES, Side};
+use crate::defect::{Angles, SIDES, Side, floors};
 
 /// One roller's series contact: law, and the depth that full-width damage takes from the approach.
 #[derive(Clone, Copy)]
@@ -32,9 +32,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         on_damage: [false; 2],
     };
     let acting = SIDES.map(|side| {
-        model
-            .defects_of(slot, side)
-            .filter_map(|d| d.floor(d.local_angle(angles, side), side))
+        floors(model.defects_of(slot, side), angles, side)
             .map(|floor| {
                 (
                     with_floors(model, &healthy, &[(side, floor)]).elastic(delta),
