@@ -18,9 +18,9 @@
 //! bits; decimated channels and indicators use plain arithmetic and do not.
 
 pub mod decimate;
-//pub mod diagnosis;
+pub mod diagnosis;
 pub mod distribution;
-//pub mod double_impulse;
+pub mod double_impulse;
 pub mod envelope;
 mod error;
 pub mod filter;
@@ -30,7 +30,7 @@ pub mod indicators;
 pub mod integrate;
 pub mod kurtogram;
 pub mod lines;
-//pub mod order;
+pub mod order;
 pub mod psd;
 pub mod spectrogram;
 pub mod spectrum;
@@ -41,8 +41,10 @@ pub mod window;
 mod test_signals;
 
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
-//pub use diagnosis::{Candidate, Diagnosis, Evidence, diagnose};
-//pub use double_impulse::{DefectLength, Separation, SeparationSearch, defect_length};
+pub use diagnosis::{Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose};
+pub use double_impulse::{
+    DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
+};
 pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband};
@@ -52,7 +54,7 @@ pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_q
 pub use integrate::{velocity, velocity_trapezoid};
 pub use kurtogram::{Kurtogram, kurtogram};
 pub use lines::{Line, LineSet, harmonics, sidebands};
-//pub use order::{Angular, Rotation, resample};
+pub use order::{Angular, Rotation, resample};
 pub use psd::{Detrend, Segments, density_interval, psd};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};

@@ -1,0 +1,339 @@
+//! Which of several candidate frequencies stand out of a spectrum, and how likely noise alone would show as much.
+//!
+//! A candidate is a repetition frequency known to within a tolerance, such as a defect frequency whose slip is unknown.
+//! Its lines are harmonics of one common frequency f, so they are judged together: with p_h the chance that noise shows
+//! as much at harmonic h f (see [`lines`](super::lines)), Fisher's statistic
+//!
+//! S(f) = -2 sum over h of ln max(p_h, 1e-5)
+//!
+//! follows chi-square with twice as many degrees of freedom as harmonics if there is only noise, or lies below it
+//! (R. A. Fisher, "Statistical methods for research workers", section 21.1). The cap keeps one strong line, which
+//! may be anybody's, from making a family. The largest S over the tolerance counts; its chance times the number of
+//! distinct places tried times the number of candidates is the false-alarm probability (Bonferroni), an upper bound.
+//!
+//! What it means: where the spectrum is that of noise whose level changes little over 80 bins, the chance that *any*
+//! candidate of the list is said to stand is at most the level chosen. It does not say that a candidate that stands is
+//! the cause: other sources make lines too. Candidates that claim the same lines are therefore named with each other.
+
+use super::distribution::chi_square_tail;
+use super::error::{SignalError, require};
+use super::lines::{Floor, Line, LineSet, harmonics, sidebands};
+use super::spectrum::Spectrum;
+
+/// Smallest chance that a single line contributes.
+const CAP: f64 = 1e-5;
+/// A single line stands where noise would show as much less often than this.
+const LINE_LEVEL: f64 = 1e-3;
+/// Lines closer than this, in bins, are one.
+const SAME_LINE: f64 = 2.0;
+/// Sidebands are told from their carrier from this many bins on.
+const CLOSEST_SIDEBAND: f64 = 5.0;
+
+/// A frequency to look for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Name, for the reader.
+    pub name: String,
+    /// Expected repetition frequency, Hz.
+    pub frequency: f64,
+    /// Half the range that it may lie in, Hz; below half the frequency.
+    pub tolerance: f64,
+    /// Distance of the sidebands that would come with it, Hz: the speed at which the source passes through the load or the
+    /// transmission path.
+    pub sideband_spacing: Option<f64>,
+}
+
+/// What to look for about each candidate, and how sure to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiagnosisOptions {
+    /// Harmonics of each candidate, the fundamental included; 2 or more.
+    pub harmonics: usize,
+    /// Sidebands to either side of each harmonic.
+    pub sidebands: usize,
+    /// Largest false-alarm probability, over all candidates, at which one is said to stand; above 0 to below 1.
+    pub level: f64,
+}
+
+impl Default for DiagnosisOptions {
+    /// Five harmonics, two sidebands to either side, 1 %.
+    fn default() -> Self {
+        DiagnosisOptions {
+            harmonics: 5,
+            sidebands: 2,
+            level: 0.01,
+        }
+    }
+}
+
+/// Sidebands of a candidate's harmonics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SidebandEvidence {
+    /// Distance, Hz.
+    pub spacing: f64,
+    /// About each harmonic in turn; those that fall on the candidate's own harmonics are left out.
+    pub lines: Vec<Line>,
+    /// How many stand by themselves (chance under noise below 1e-3).
+    pub standing: usize,
+    /// Chance that noise shows as much in all of them together, for any candidate of the list.
+    pub false_alarm: f64,
+}
+
+/// What speaks for a candidate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// Index in the list of candidates.
+    pub candidate: usize,
+    /// Frequency at which its harmonics stand highest together, Hz.
+    pub frequency: f64,
+    /// Its harmonics there.
+    pub harmonics: LineSet,
+    /// How many of them stand by themselves (chance under noise below 1e-3).
+    pub standing: usize,
+    /// Upper bound of the chance that noise alone shows such harmonics for any candidate of the list; 1 where none of its
+    /// lines lies within the spectrum. Its complement is the confidence that there is more than noise.
+    pub false_alarm: f64,
+    /// Its sidebands, where it has a spacing wide enough to resolve.
+    pub sidebands: Option<SidebandEvidence>,
+    /// Whether it stands: false alarm at most the level, and at least two harmonics stand by themselves.
+    pub stands: bool,
+    /// Other candidates that stand and claim lines of this one as harmonics or sidebands: index, and how many of this
+    /// one's standing harmonics.
+    pub alternatives: Vec<(usize, usize)>,
+    /// A candidate of better rank that claims every standing harmonic of this one: there is no need for this one.
+    pub explained_by: Option<usize>,
+}
+
+impl Evidence {
+    /// Sum of ln(power over noise) over its standing harmonics: number and strength in one, for ranking.
+    fn weight(&self) -> f64 {
+        (self.harmonics.standing(LINE_LEVEL))
+            .map(|l| l.snr_db * 0.1 * std::f64::consts::LN_10)
+            .sum()
+    }
+}
+
+/// The outcome.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// The level asked for.
+    pub level: f64,
+    /// Of every candidate, in the order given.
+    pub evidence: Vec<Evidence>,
+    /// Candidates that stand, the best first: by number and strength of their lines.
+    pub ranking: Vec<usize>,
+}
+
+impl Diagnosis {
+    /// Whether no candidate stands.
+    pub fn nothing_stands_out(&self) -> bool {
+        self.ranking.is_empty()
+    }
+
+    /// Candidates that stand and that no better one explains, the best first.
+    pub fn causes(&self) -> impl Iterator<Item = &Evidence> {
+        (self.ranking.iter())
+            .map(|i| &self.evidence[*i])
+            .filter(|e| e.explained_by.is_none())
+    }
+}
+
+/// Looks for every candidate in a spectrum: an envelope spectrum, for damage.
+///
+/// The bins should be finer than a third of the closest distance between lines that matter (a cage's sidebands), but not
+/// so fine that slip smears a line over several bins.
+///
+/// # Errors
+/// [`SignalError::OutOfRange`] where a frequency, tolerance, spacing, level or number of harmonics is out of range, or the
+/// spectrum has fewer than 23 bins.
+pub fn diagnose(
+    spectrum: &Spectrum,
+    candidates: &[Candidate],
+    options: &DiagnosisOptions,
+) -> Result<Diagnosis, SignalError> {
+    require(
+        options.level > 0.0 && options.level < 1.0,
+        "level",
+        options.level,
+        "above 0 to below 1",
+    )?;
+    require(
+        (2..=100).contains(&options.harmonics),
+        "number of harmonics",
+        options.harmonics as f64,
+        "2 to 100",
+    )?;
+    let floor = Floor::new(spectrum)?;
+    let count = candidates.len() as f64;
+    let mut evidence = Vec::with_capacity(candidates.len());
+    for (index, candidate) in candidates.iter().enumerate() {
+        // Checks the candidate, too.
+        harmonics(spectrum, candidate.frequency, candidate.tolerance, 1)?;
+        evidence.push(examine(spectrum, &floor, index, candidate, options, count)?);
+    }
+    let mut ranking: Vec<usize> = (0..evidence.len())
+        .filter(|i| evidence[*i].stands)
+        .collect();
+    ranking.sort_by(|a, b| evidence[*b].weight().total_cmp(&evidence[*a].weight()));
+
+    let width = SAME_LINE * spectrum.frequency_step;
+    for (rank, &i) in ranking.iter().enumerate() {
+        let mine: Vec<f64> = (evidence[i].harmonics.standing(LINE_LEVEL))
+            .map(|l| l.frequency)
+            .collect();
+        let mut alternatives = Vec::new();
+        for (other_rank, &j) in ranking.iter().enumerate() {
+            let claimed = mine
+                .iter()
+                .filter(|f| claims(&evidence[j], **f, width))
+                .count();
+            if i == j || claimed == 0 {
+                continue;
+            }
+            alternatives.push((j, claimed));
+            if other_rank < rank && claimed == mine.len() && evidence[i].explained_by.is_none() {
+                evidence[i].explained_by = Some(j);
+            }
+        }
+        evidence[i].alternatives = alternatives;
+    }
+    Ok(Diagnosis {
+        level: options.level,
+        evidence,
+        ranking,
+    })
+}
+
+/// Whether a standing harmonic or sideband lies within `width` of `frequency`.
+fn claims(evidence: &Evidence, frequency: f64, width: f64) -> bool {
+    let sidebands = evidence.sidebands.iter().flat_map(|s| &s.lines);
+    (evidence.harmonics.lines.iter().chain(sidebands))
+        .any(|l| l.false_alarm <= LINE_LEVEL && (l.frequency - frequency).abs() <= width)
+}
+
+fn examine(
+    spectrum: &Spectrum,
+    floor: &Floor,
+    index: usize,
+    candidate: &Candidate,
+    options: &DiagnosisOptions,
+    candidates: f64,
+) -> Result<Evidence, SignalError> {
+    let step = spectrum.frequency_step;
+    let scores = Scores::new(floor, candidate, options.harmonics, step);
+    let (frequency, chance) = scores.best(candidate, step);
+    // Along the common frequency each line may still stand a bin aside.
+    let found = harmonics(spectrum, frequency, 0.0, options.harmonics)?;
+    let standing = found.standing(LINE_LEVEL).count();
+    let false_alarm = (chance * candidates).min(1.0);
+    let spacing = candidate.sideband_spacing.filter(|_| options.sidebands > 0);
+    let sidebands = match spacing {
+        Some(spacing) => about(spectrum, frequency, spacing, options, candidates)?,
+        None => None,
+    };
+    Ok(Evidence {
+        candidate: index,
+        frequency,
+        standing,
+        false_alarm,
+        stands: false_alarm <= options.level && standing >= 2,
+        harmonics: found,
+        sidebands,
+        alternatives: Vec::new(),
+        explained_by: None,
+    })
+}
+
+fn about(
+    spectrum: &Spectrum,
+    frequency: f64,
+    spacing: f64,
+    options: &DiagnosisOptions,
+    candidates: f64,
+) -> Result<Option<SidebandEvidence>, SignalError> {
+    let step = spectrum.frequency_step;
+    let mut lines = Vec::new();
+    for h in 1..=options.harmonics {
+        let carrier = h as f64 * frequency;
+        let tolerance = step.min(0.4 * spacing);
+        let set = sidebands(spectrum, carrier, spacing, tolerance, options.sidebands)?;
+        lines.extend(set.lines.into_iter().filter(|l| {
+            let order = (l.expected / frequency).round();
+            (l.expected - order * frequency).abs() >= CLOSEST_SIDEBAND * step
+        }));
+    }
+    if lines.is_empty() {
+        return Ok(None);
+    }
+    let statistic: f64 = lines
+        .iter()
+        .map(|l| -2.0 * l.false_alarm.max(CAP).ln())
+        .sum();
+    let chance = chi_square_tail(statistic, 2.0 * lines.len() as f64);
+    Ok(Some(SidebandEvidence {
+        spacing,
+        standing: lines.iter().filter(|l| l.false_alarm <= LINE_LEVEL).count(),
+        lines,
+        false_alarm: (chance * candidates).min(1.0),
+    }))
+}
+
+/// -2 ln p of every bin in which a harmonic may lie.
+struct Scores {
+    /// For each harmonic within the spectrum: its order, first bin, and values.
+    rows: Vec<(f64, usize, Vec<f64>)>,
+}
+
+impl Scores {
+    fn new(floor: &Floor, candidate: &Candidate, harmonics: usize, step: f64) -> Self {
+        let rows = (1..=harmonics).filter_map(|h| {
+            let order = h as f64;
+            let (middle, reach) = (order * candidate.frequency, order * candidate.tolerance);
+            let first = floor.bin(middle - reach - 0.5 * step)?;
+            let last = floor.bin(middle + reach + 0.5 * step)?;
+            let level = floor.level(first, last);
+            let values =
+                (first..=last).map(|k| -2.0 * floor.chance(floor.power(k), level).max(CAP).ln());
+            Some((order, first, values.collect()))
+        });
+        Scores {
+            rows: rows.collect(),
+        }
+    }
+
+    /// The common frequency (Hz) at which the harmonics stand highest together, and the chance of that under noise,
+    /// corrected for the places tried.
+    fn best(&self, candidate: &Candidate, step: f64) -> (f64, f64) {
+        let Some((highest, ..)) = self.rows.last() else {
+            return (candidate.frequency, 1.0);
+        };
+        // Half a bin at the highest harmonic from one place to the next.
+        let places = (candidate.tolerance * highest / (0.5 * step)).ceil();
+        let mut best = (f64::NEG_INFINITY, candidate.frequency, 0);
+        let mut before = Vec::new();
+        let mut trials = 0.0;
+        for i in -(places as i64)..=places as i64 {
+            let f = candidate.frequency + candidate.tolerance * i as f64 / places.max(1.0);
+            let bins: Vec<usize> = (self.rows.iter())
+                .map(|(order, first, values)| {
+                    let bin = (order * f / step).round() as usize;
+                    bin.saturating_sub(*first).min(values.len() - 1)
+                })
+                .collect();
+            if bins == before {
+                continue;
+            }
+            trials += 1.0;
+            let score: f64 = self.rows.iter().zip(&bins).map(|(row, b)| row.2[*b]).sum();
+            // Among equals (all lines beyond the cap) the one nearest to the middle of its plateau is not known: the
+            // first is kept and refined below.
+            if score > best.0 {
+                best = (score, f, 1);
+            } else if score == best.0 {
+                best.2 += 1;
+            }
+            before = bins;
+        }
+        let chance = chi_square_tail(best.0, 2.0 * self.rows.len() as f64);
+        (best.1, (chance * trials).min(1.0))
+    }
+}
