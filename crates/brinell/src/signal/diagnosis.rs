@@ -220,10 +220,10 @@ fn examine(
 ) -> Result<Evidence, SignalError> {
     let step = spectrum.frequency_step;
     let scores = Scores::new(floor, candidate, options.harmonics, step);
-    let (frequency, chance) = scores.best(candidate, step);
-    // Along the common frequency each line may still stand a bin aside.
-    let found = harmonics(spectrum, frequency, 0.0, options.harmonics)?;
+    let (place, chance) = scores.best(candidate, step);
+    let found = harmonics(spectrum, place, 0.0, options.harmonics)?;
     let standing = found.standing(LINE_LEVEL).count();
+    let frequency = common_frequency(&found).unwrap_or(place);
     let false_alarm = (chance * candidates).min(1.0);
     let spacing = candidate.sideband_spacing.filter(|_| options.sidebands > 0);
     let sidebands = match spacing {
@@ -277,10 +277,38 @@ fn about(
     }))
 }
 
-/// -2 ln p of every bin in which a harmonic may lie.
+/// The fundamental by least squares from the harmonics that stand, each weighted by its power over noise.
+fn common_frequency(found: &LineSet) -> Option<f64> {
+    let (mut above, mut below) = (0.0, 0.0);
+    for line in found.standing(LINE_LEVEL) {
+        let (order, weight) = (f64::from(line.order), 10f64.powf(0.1 * line.snr_db));
+        above += weight * order * line.frequency;
+        below += weight * order * order;
+    }
+    (below > 0.0).then(|| above / below)
+}
+
+/// A harmonic and the bins in which it may lie.
+struct Row {
+    order: f64,
+    first: usize,
+    /// -2 ln p of each bin, p capped.
+    scores: Vec<f64>,
+    /// Power over noise of each bin.
+    ratios: Vec<f64>,
+}
+
+impl Row {
+    /// The place of the bin nearest to the harmonic of `frequency`.
+    fn place(&self, frequency: f64, step: f64) -> usize {
+        let bin = (self.order * frequency / step).round() as usize;
+        bin.saturating_sub(self.first).min(self.scores.len() - 1)
+    }
+}
+
+/// Harmonics within the spectrum.
 struct Scores {
-    /// For each harmonic within the spectrum: its order, first bin, and values.
-    rows: Vec<(f64, usize, Vec<f64>)>,
+    rows: Vec<Row>,
 }
 
 impl Scores {
@@ -291,9 +319,15 @@ impl Scores {
             let first = floor.bin(middle - reach - 0.5 * step)?;
             let last = floor.bin(middle + reach + 0.5 * step)?;
             let level = floor.level(first, last);
-            let values =
-                (first..=last).map(|k| -2.0 * floor.chance(floor.power(k), level).max(CAP).ln());
-            Some((order, first, values.collect()))
+            let powers = (first..=last).map(|k| floor.power(k));
+            Some(Row {
+                order,
+                first,
+                scores: (powers.clone())
+                    .map(|p| -2.0 * floor.chance(p, level).max(CAP).ln())
+                    .collect(),
+                ratios: powers.map(|p| p / level.power).collect(),
+            })
         });
         Scores {
             rows: rows.collect(),
@@ -303,37 +337,39 @@ impl Scores {
     /// The common frequency (Hz) at which the harmonics stand highest together, and the chance of that under noise,
     /// corrected for the places tried.
     fn best(&self, candidate: &Candidate, step: f64) -> (f64, f64) {
-        let Some((highest, ..)) = self.rows.last() else {
+        let Some(highest) = self.rows.last() else {
             return (candidate.frequency, 1.0);
         };
         // Half a bin at the highest harmonic from one place to the next.
-        let places = (candidate.tolerance * highest / (0.5 * step)).ceil();
-        let mut best = (f64::NEG_INFINITY, candidate.frequency, 0);
-        let mut before = Vec::new();
-        let mut trials = 0.0;
-        for i in -(places as i64)..=places as i64 {
-            let f = candidate.frequency + candidate.tolerance * i as f64 / places.max(1.0);
-            let bins: Vec<usize> = (self.rows.iter())
-                .map(|(order, first, values)| {
-                    let bin = (order * f / step).round() as usize;
-                    bin.saturating_sub(*first).min(values.len() - 1)
-                })
-                .collect();
-            if bins == before {
-                continue;
-            }
-            trials += 1.0;
-            let score: f64 = self.rows.iter().zip(&bins).map(|(row, b)| row.2[*b]).sum();
-            // Among equals (all lines beyond the cap) the one nearest to the middle of its plateau is not known: the
-            // first is kept and refined below.
-            if score > best.0 {
-                best = (score, f, 1);
-            } else if score == best.0 {
-                best.2 += 1;
-            }
-            before = bins;
-        }
-        let chance = chi_square_tail(best.0, 2.0 * self.rows.len() as f64);
-        (best.1, (chance * trials).min(1.0))
+        let steps = (candidate.tolerance * highest.order / (0.5 * step)).ceil();
+        let frequencies = (-(steps as i64)..=steps as i64)
+            .map(|i| candidate.frequency + candidate.tolerance * i as f64 / steps.max(1.0));
+        let mut places: Vec<(f64, Vec<usize>)> = frequencies
+            .map(|f| (f, self.rows.iter().map(|r| r.place(f, step)).collect()))
+            .collect();
+        places.dedup_by(|a, b| a.1 == b.1);
+        let sum = |bins: &[usize], values: fn(&Row) -> &[f64]| -> f64 {
+            (self.rows.iter().zip(bins))
+                .map(|(row, bin)| values(row)[*bin])
+                .sum()
+        };
+        let score = |p: &(f64, Vec<usize>)| sum(&p.1, |r| &r.scores);
+        let ratio = |p: &(f64, Vec<usize>)| sum(&p.1, |r| &r.ratios);
+        let top = places.iter().max_by(|a, b| score(a).total_cmp(&score(b)));
+        let Some(top) = top else {
+            return (candidate.frequency, 1.0);
+        };
+        let chance = chi_square_tail(score(top), 2.0 * self.rows.len() as f64);
+        // The cap makes neighbouring places equal: of those within a bin, the one with the most power.
+        let finest = (places.iter())
+            .filter(|p| (p.0 - top.0).abs() <= step)
+            .max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+        (
+            finest.unwrap_or(top).0,
+            (chance * places.len() as f64).min(1.0),
+        )
     }
 }
+
+#[cfg(test)]
+mod tests;
