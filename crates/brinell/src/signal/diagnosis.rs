@@ -144,7 +144,7 @@ impl Diagnosis {
 ///
 /// # Errors
 /// [`SignalError::OutOfRange`] where a frequency, tolerance, spacing, level or number of harmonics is out of range, or the
-/// spectrum has fewer than 23 bins.
+/// spectrum has fewer than 27 bins.
 pub fn diagnose(
     spectrum: &Spectrum,
     candidates: &[Candidate],

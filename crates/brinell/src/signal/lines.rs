@@ -11,8 +11,8 @@ use super::spectrum::{Spectrum, peak_near};
 
 /// Bins to either side of a line that make its neighbourhood.
 const NEIGHBOURHOOD: usize = 40;
-/// Fewest bins that make a floor.
-const FEWEST_BINS: usize = 12;
+/// Bins to one side that make a floor where the spectrum ends on the other.
+const FEWEST_BINS: usize = 16;
 /// Bins to either side of a place that its line may fill: four for Hann, and flat top needs five.
 const SKIRT: usize = 4;
 /// Lowest floor, as a share of the spectrum's strongest power: the round-off of a noiseless signal.
@@ -157,7 +157,7 @@ impl<'a> Floor<'a> {
             spectrum.amplitude.len() > FEWEST_BINS + 2 * SKIRT + 2,
             "bins of the spectrum",
             spectrum.amplitude.len() as f64,
-            "23 or more",
+            "27 or more",
         )?;
         let freedom = spectrum.degrees_of_freedom;
         let strongest = spectrum.amplitude.iter().fold(0.0, |m: f64, a| m.max(*a));
@@ -190,11 +190,11 @@ impl<'a> Floor<'a> {
     /// Noise about the bins `first` to `last`, those and their skirts left out.
     pub(super) fn level(&self, first: usize, last: usize) -> Level {
         let top = self.spectrum.amplitude.len() - 2;
-        // Where the spectrum ends on one side, more is taken on the other.
         let below = first.saturating_sub(SKIRT).saturating_sub(1);
         let above = (top + 1).saturating_sub(last + SKIRT + 1);
-        let take_below = below.min(NEIGHBOURHOOD + NEIGHBOURHOOD.saturating_sub(above));
-        let take_above = above.min(NEIGHBOURHOOD + NEIGHBOURHOOD.saturating_sub(below));
+        // As far on either side, so that a slope cancels; beyond an end of the spectrum only a few bins of the other side.
+        let reach = below.min(above).clamp(FEWEST_BINS, NEIGHBOURHOOD);
+        let (take_below, take_above) = (below.min(reach), above.min(reach));
         let start_below = first.saturating_sub(SKIRT) - take_below;
         let start_above = last + SKIRT + 1;
         let mut powers: Vec<f64> = (start_below..start_below + take_below)

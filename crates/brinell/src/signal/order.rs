@@ -2,8 +2,8 @@
 //!
 //! Events locked to the shaft smear over a spectrum when the speed varies; sampled at equal angles they are lines at
 //! orders (events a revolution): K. R. Fyfe and E. D. S. Munck, "Analysis of computed order tracking", Mech. Syst.
-//! Signal Process. 11 (1997) 187-205. The spectrum of the resampled values is [`psd`](super::psd()) with
-//! `samples_per_revolution` in place of the sampling rate; its "Hz" are then orders.
+//! Signal Process. 11 (1997) 187-205. For steady speed, an order is the frequency over the speed, and nothing need be
+//! resampled.
 //!
 //! Values between samples come from a Kaiser-windowed sinc of 24 zero crossings to either side, cut off at 0.45 of the
 //! smaller of the two sampling rates at that instant: flat to 0.4 of it, and 80 dB down beyond half of it, so that
@@ -13,6 +13,8 @@ use std::f64::consts::PI;
 
 use super::decimate::bessel_i0;
 use super::error::{SignalError, check, require};
+use super::psd::{Segments, psd};
+use super::spectrum::Spectrum;
 
 /// The shaft's angle over time: cubic between instants, from tacho pulses, from points of speed, or steady.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,6 +189,26 @@ const TABLE: usize = 512;
 /// The edge follows a slowing shaft down to this share of the signal's sampling rate, no further.
 const LOWEST_EDGE: f64 = 0.01;
 
+/// Values made at most for each sample of the signal.
+const MOST_PER_SAMPLE: f64 = 64.0;
+
+/// Spectrum over orders (events a revolution) of `x`, sampled at `fs` Hz from t = 0: resampled at `samples_per_revolution`,
+/// which reaches to half as many orders, then [`psd`] in segments of so many resampled values. In the result "Hz"
+/// reads orders: `frequency_step` is in orders, and `density` in unit^2 per order.
+///
+/// # Errors
+/// As [`resample`] and [`psd`].
+pub fn order_spectrum(
+    x: &[f64],
+    fs: f64,
+    rotation: &Rotation,
+    samples_per_revolution: usize,
+    segments: &Segments,
+) -> Result<Spectrum, SignalError> {
+    let angular = resample(x, fs, rotation, samples_per_revolution)?;
+    psd(&angular.values, angular.samples_per_revolution, segments)
+}
+
 /// `x`, sampled at `fs` Hz from t = 0, at `samples_per_revolution` equal angles a revolution.
 ///
 /// The first and last values are those for which the whole kernel lies within the signal: 27 sample intervals (of the
@@ -212,6 +234,13 @@ pub fn resample(
     )?;
     let rate = samples_per_revolution as f64;
     let last_time = (x.len() - 1) as f64 / fs;
+    let expected = (rotation.at(last_time).0 - rotation.at(0.0).0) * rate;
+    require(
+        expected <= MOST_PER_SAMPLE * x.len() as f64,
+        "values to make",
+        expected,
+        "at most 64 times as many as the signal has",
+    )?;
     let first = (rotation.at(0.0).0 * rate).ceil();
     let kernel = Kernel::new();
     let mut values = Vec::new();
@@ -222,10 +251,7 @@ pub fn resample(
         time: 0.0,
     };
     let mut index = first;
-    loop {
-        let Some((t, speed)) = clock.time_of(index / rate, last_time) else {
-            break;
-        };
+    while let Some((t, speed)) = clock.time_of(index / rate, last_time) {
         let edge = EDGE * (rate * speed / fs).clamp(LOWEST_EDGE / EDGE, 1.0);
         if let Some(value) = kernel.value(x, t * fs, edge) {
             first_angle.get_or_insert(index / rate);
@@ -297,7 +323,8 @@ impl Inverse<'_> {
 
 /// sinc(u) times a Kaiser window, by |u| in zero crossings.
 struct Kernel {
-    table: Vec<f64>,
+    /// Value, and difference to the next.
+    table: Vec<[f64; 2]>,
 }
 
 impl Kernel {
@@ -314,8 +341,9 @@ impl Kernel {
             };
             sinc * bessel_i0(BETA * (1.0 - ratio * ratio).sqrt()) * scale
         });
+        let table: Vec<f64> = table.collect();
         Kernel {
-            table: table.collect(),
+            table: table.windows(2).map(|w| [w[0], w[1] - w[0]]).collect(),
         }
     }
 
@@ -327,12 +355,13 @@ impl Kernel {
             return None;
         }
         let per_sample = 2.0 * edge * TABLE as f64;
+        let start = (position - first) * per_sample;
         let (mut sum, mut weights) = (0.0, 0.0);
         for (i, v) in x[first as usize..=last as usize].iter().enumerate() {
-            let u = (position - first - i as f64).abs() * per_sample;
-            let at = u as usize;
-            let part = u - at as f64;
-            let weight = self.table[at] + part * (self.table[at + 1] - self.table[at]);
+            let u = (start - i as f64 * per_sample).abs();
+            let at = u as u32;
+            let [value, difference] = self.table[at as usize];
+            let weight = value + (u - f64::from(at)) * difference;
             sum += weight * v;
             weights += weight;
         }
@@ -345,7 +374,6 @@ impl Kernel {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::psd::{Segments, psd};
     use super::super::spectrum::peak_near;
     use super::super::test_signals::cosine;
     use super::*;
@@ -365,7 +393,8 @@ mod tests {
             })
             .collect();
         let angular = resample(&x, FS, &rotation, 256).unwrap();
-        let s = psd(&angular.values, 256.0, &Segments::of(angular.values.len())).unwrap();
+        let segments = Segments::of(angular.values.len());
+        let s = order_spectrum(&x, FS, &rotation, 256, &segments).unwrap();
         for (order, amplitude) in [(7.3, 1.0), (31.0, 0.2)] {
             let peak = peak_near(&s, order, 0.3).unwrap();
             assert!((peak.frequency - order).abs() < 1e-3, "{peak:?}");
@@ -431,5 +460,6 @@ mod tests {
         assert!(Rotation::from_angles(&[(0.0, 1.0), (1.0, 0.0)]).is_err());
         assert!(resample(&x[..20], FS, &Rotation::steady(20.0).unwrap(), 64).is_err());
         assert!(resample(&x, FS, &Rotation::steady(20.0).unwrap(), 2).is_err());
+        assert!(resample(&x, FS, &Rotation::steady(1e12).unwrap(), 64).is_err());
     }
 }
