@@ -11,6 +11,11 @@
 //! may be anybody's, from making a family. The largest S over the tolerance counts; its chance times the number of
 //! distinct places tried times the number of candidates is the false-alarm probability (Bonferroni), an upper bound.
 //!
+//! Sources make more lines than their first harmonics: a candidate's comb goes on, and where its sidebands stand they
+//! reach further and surround zero frequency too, at multiples of their spacing. A candidate all of whose lines lie on the
+//! combs of better ones is explained by them, if so many coincidences are unlikely (5 %) for lines that lie anywhere. In a
+//! short record combs with close sidebands cover much of the spectrum and explain little; a longer record tells more.
+//!
 //! What it means: where the spectrum is that of noise whose level changes little over 80 bins, the chance that *any*
 //! candidate of the list is said to stand is at most the level chosen. It does not say that a candidate that stands is
 //! the cause: other sources make lines too. Candidates that claim the same lines are therefore named with each other.
@@ -25,7 +30,11 @@ const CAP: f64 = 1e-5;
 /// A single line stands where noise would show as much less often than this.
 const LINE_LEVEL: f64 = 1e-3;
 /// Lines closer than this, in bins, are one.
-const SAME_LINE: f64 = 2.0;
+const SAME_LINE: f64 = 1.5;
+/// Orders of harmonics and sidebands to which a comb is followed when it comes to whose a line may be.
+const FARTHEST_ORDER: i32 = 20;
+/// Lines are explained where they would lie on the combs by chance less often than this.
+const COINCIDENCE: f64 = 0.05;
 /// Sidebands are told from their carrier from this many bins on.
 const CLOSEST_SIDEBAND: f64 = 5.0;
 
@@ -96,17 +105,19 @@ pub struct Evidence {
     pub sidebands: Option<SidebandEvidence>,
     /// Whether it stands: false alarm at most the level, and at least two harmonics stand by themselves.
     pub stands: bool,
-    /// Other candidates that stand and claim lines of this one as harmonics or sidebands: index, and how many of this
-    /// one's standing harmonics.
+    /// Other candidates that stand and on whose combs standing harmonics of this one lie: index, and how many of them.
     pub alternatives: Vec<(usize, usize)>,
-    /// A candidate of better rank that claims every standing harmonic of this one: there is no need for this one.
-    pub explained_by: Option<usize>,
+    /// Candidates of better rank whose combs together hold every standing harmonic of this one, by more than coincidence:
+    /// there is no need for this one. Empty where it has lines of its own, or cannot be told.
+    pub explained_by: Vec<usize>,
 }
 
 impl Evidence {
-    /// Sum of ln(power over noise) over its standing harmonics: number and strength in one, for ranking.
+    /// Sum of ln(power over noise) over its standing lines, sidebands included: number and strength in one.
     fn weight(&self) -> f64 {
-        (self.harmonics.standing(LINE_LEVEL))
+        let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
+        (self.harmonics.lines.iter().chain(sidebands))
+            .filter(|l| l.false_alarm <= LINE_LEVEL)
             .map(|l| l.snr_db * 0.1 * std::f64::consts::LN_10)
             .sum()
     }
@@ -133,7 +144,7 @@ impl Diagnosis {
     pub fn causes(&self) -> impl Iterator<Item = &Evidence> {
         (self.ranking.iter())
             .map(|i| &self.evidence[*i])
-            .filter(|e| e.explained_by.is_none())
+            .filter(|e| e.explained_by.is_empty())
     }
 }
 
@@ -175,27 +186,7 @@ pub fn diagnose(
         .collect();
     ranking.sort_by(|a, b| evidence[*b].weight().total_cmp(&evidence[*a].weight()));
 
-    let width = SAME_LINE * spectrum.frequency_step;
-    for (rank, &i) in ranking.iter().enumerate() {
-        let mine: Vec<f64> = (evidence[i].harmonics.standing(LINE_LEVEL))
-            .map(|l| l.frequency)
-            .collect();
-        let mut alternatives = Vec::new();
-        for (other_rank, &j) in ranking.iter().enumerate() {
-            let claimed = mine
-                .iter()
-                .filter(|f| claims(&evidence[j], **f, width))
-                .count();
-            if i == j || claimed == 0 {
-                continue;
-            }
-            alternatives.push((j, claimed));
-            if other_rank < rank && claimed == mine.len() && evidence[i].explained_by.is_none() {
-                evidence[i].explained_by = Some(j);
-            }
-        }
-        evidence[i].alternatives = alternatives;
-    }
+    explain(&mut evidence, &ranking, spectrum, options);
     Ok(Diagnosis {
         level: options.level,
         evidence,
@@ -203,11 +194,68 @@ pub fn diagnose(
     })
 }
 
-/// Whether a standing harmonic or sideband lies within `width` of `frequency`.
-fn claims(evidence: &Evidence, frequency: f64, width: f64) -> bool {
-    let sidebands = evidence.sidebands.iter().flat_map(|s| &s.lines);
-    (evidence.harmonics.lines.iter().chain(sidebands))
-        .any(|l| l.false_alarm <= LINE_LEVEL && (l.frequency - frequency).abs() <= width)
+/// Says of those that stand whose lines theirs may be.
+fn explain(
+    evidence: &mut [Evidence],
+    ranking: &[usize],
+    spectrum: &Spectrum,
+    options: &DiagnosisOptions,
+) {
+    let (step, bins) = (spectrum.frequency_step, spectrum.amplitude.len());
+    // Harmonics alone cover little and so explain more; then with sidebands.
+    let combs: [Vec<Vec<bool>>; 2] = [false, true].map(|wide| {
+        let of = |i: &usize| comb(&evidence[*i], spectrum, options, wide);
+        ranking.iter().map(of).collect()
+    });
+    for (rank, &i) in ranking.iter().enumerate() {
+        let mine: Vec<usize> = (evidence[i].harmonics.standing(LINE_LEVEL))
+            .map(|l| ((l.frequency / step).round() as usize).min(bins - 1))
+            .collect();
+        let held = |marks: &[bool]| mine.iter().filter(|bin| marks[**bin]).count();
+        let others = (ranking.iter().zip(&combs[1])).map(|(j, marks)| (*j, held(marks)));
+        let alternatives = others.filter(|(j, held)| *j != i && *held > 0).collect();
+        let end = mine.iter().max().map_or(0, |bin| bin + 1);
+        let explained = combs.iter().find_map(|combs| {
+            let better = (0..rank)
+                .filter(|r| evidence[ranking[*r]].explained_by.is_empty() && held(&combs[*r]) > 0);
+            let by: Vec<usize> = better.collect();
+            let marked = |bin: usize| by.iter().any(|r| combs[*r][bin]);
+            let covered = (0..end).filter(|bin| marked(*bin)).count() as f64 / end.max(1) as f64;
+            let unlikely = covered.powi(mine.len() as i32) <= COINCIDENCE;
+            (unlikely && mine.iter().all(|bin| marked(*bin)))
+                .then(|| by.iter().map(|r| ranking[*r]).collect())
+        });
+        evidence[i].alternatives = alternatives;
+        evidence[i].explained_by = explained.unwrap_or_default();
+    }
+}
+
+/// The bins that a candidate's comb may fill, its sidebands among them if `wide`.
+fn comb(
+    evidence: &Evidence,
+    spectrum: &Spectrum,
+    options: &DiagnosisOptions,
+    wide: bool,
+) -> Vec<bool> {
+    let mut marks = vec![false; spectrum.amplitude.len()];
+    let mut mark = |frequency: f64| {
+        let at = frequency / spectrum.frequency_step;
+        let first = (at - SAME_LINE).ceil().max(0.0) as usize;
+        let end = ((at + SAME_LINE).floor() + 1.0).clamp(0.0, marks.len() as f64) as usize;
+        if first < end {
+            marks[first..end].fill(true);
+        }
+    };
+    (1..=FARTHEST_ORDER).for_each(|h| mark(f64::from(h) * evidence.frequency));
+    let sidebands = evidence.sidebands.as_ref();
+    if let Some(sidebands) = sidebands.filter(|s| wide && s.false_alarm <= options.level) {
+        for h in 0..=options.harmonics {
+            for m in -FARTHEST_ORDER..=FARTHEST_ORDER {
+                mark(h as f64 * evidence.frequency + f64::from(m) * sidebands.spacing);
+            }
+        }
+    }
+    marks
 }
 
 fn examine(
@@ -239,7 +287,7 @@ fn examine(
         harmonics: found,
         sidebands,
         alternatives: Vec::new(),
-        explained_by: None,
+        explained_by: Vec::new(),
     })
 }
 

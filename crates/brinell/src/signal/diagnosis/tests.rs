@@ -98,7 +98,7 @@ fn prop_roller_damage_is_found_with_cage_sidebands() {
         // Its lines are the even harmonics of BSF, which adds nothing.
         let bsf = &d.evidence[3];
         if bsf.stands {
-            assert_eq!(bsf.explained_by, Some(2));
+            assert_eq!(bsf.explained_by, [2]);
             assert!(bsf.alternatives.iter().any(|(other, _)| *other == 2));
         }
     }
