@@ -13,6 +13,8 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
+use super::error::{SignalError, check, require};
+use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, PowerAverage, Segmenter, Spectrum, hann};
 
 /// A frequency band, Hz; bins on its edges belong to it.
@@ -60,6 +62,41 @@ pub struct EnvelopeSpectrum {
     pub spectrum: Spectrum,
     /// Mean of the envelope, in the signal's unit: a line's amplitude over it is the depth of modulation.
     pub mean: f64,
+}
+
+/// Envelope spectrum of the slice `x`, sampled at `fs` Hz: demodulated as a whole, the envelope's mean removed, then
+/// [`psd`]. Give one segment of the signal's length for the finest lines, several for a smoother noise floor.
+///
+/// # Errors
+/// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a band or segments out of range.
+pub fn envelope_spectrum(
+    x: &[f64],
+    fs: f64,
+    band: Band,
+    segments: &Segments,
+) -> Result<EnvelopeSpectrum, SignalError> {
+    check(x, fs, FEWEST_SAMPLES, "an envelope")?;
+    require(
+        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
+        "lower edge of the band (Hz)",
+        band.low,
+        "0 to below the upper edge and half the sampling rate",
+    )?;
+    let mut demodulator = Demodulator::new(fs, x.len(), band);
+    let envelope = demodulator.envelope(x);
+    let mean = envelope.iter().sum::<f64>() / envelope.len() as f64;
+    envelope.iter_mut().for_each(|e| *e -= mean);
+    let segments = Segments {
+        detrend: match segments.detrend {
+            Detrend::None => Detrend::Mean,
+            other => other,
+        },
+        ..*segments
+    };
+    Ok(EnvelopeSpectrum {
+        spectrum: psd(envelope, fs, &segments)?,
+        mean,
+    })
 }
 
 /// Envelope spectrum of a stream: segments overlapping by half, each demodulated by itself, their Hann-windowed

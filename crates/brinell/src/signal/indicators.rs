@@ -285,6 +285,22 @@ impl Blocks {
         }
     }
 
+    /// Of a slice, in blocks of `samples` samples (not necessarily whole), 1 or more: a revolution is the sample rate
+    /// over the speed in Hz.
+    pub fn of(x: &[f64], samples: f64) -> Self {
+        let mut blocks = Blocks::new();
+        let samples = samples.max(1.0);
+        let mut end = samples;
+        for (i, &v) in x.iter().enumerate() {
+            blocks.push(v);
+            if (i + 1) as f64 >= end {
+                blocks.end_block();
+                end += samples;
+            }
+        }
+        blocks
+    }
+
     /// Takes one sample.
     pub fn push(&mut self, x: f64) {
         self.open.push(x);

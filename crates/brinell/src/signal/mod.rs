@@ -1,26 +1,61 @@
 //! Signals: what a data logger would hold, and what an analyst reads off it.
 //!
-//! [`decimate`] is the anti-alias chain of the measured channels, [`indicators`] the condition indicators with their
-//! scatter, [`spectrum`] amplitude spectra and power spectral densities, [`mod@envelope`] the envelope spectrum, and
-//! [`frequency`] the precise repetition frequency of a train of impacts.
+//! Following a run, sample by sample: [`mod@decimate`] is the anti-alias chain of the measured channels, [`indicators`]
+//! the condition indicators with their scatter, [`spectrum`] amplitude spectra and power spectral densities,
+//! [`mod@envelope`] the envelope spectrum, and [`frequency`] the precise repetition frequency of a train of impacts.
+//! These hold a bounded amount of memory, however long the run is; nothing is allocated per sample.
+//!
+//! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
+//! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`filter`] and
+//! [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics and sidebands over the local
+//! noise), [`diagnosis`] (which of several candidates stand out, with the chance that noise would),
+//! [`double_impulse`] (entry and exit of a defect, and the length that they imply), and [`distribution`] (what powers
+//! of noise follow). They return [`SignalError`] for input that they cannot use, and do not panic.
 //!
 //! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
-//! written "unit". Everything that follows a run takes one sample at a time and holds a bounded amount of memory,
-//! however long the run is; nothing is allocated per sample. Results do not depend on the number of threads: there
-//! is only one. The FFT chooses its instructions by processor, so between processors spectra may differ in the last
+//! written "unit". Results do not depend on the number of threads: there is only one. The FFT chooses its instructions by processor, so between processors spectra may differ in the last
 //! bits; decimated channels and indicators use plain arithmetic and do not.
 
 pub mod decimate;
+pub mod diagnosis;
+pub mod distribution;
+pub mod double_impulse;
 pub mod envelope;
+mod error;
+pub mod filter;
+pub mod fir;
 pub mod frequency;
 pub mod indicators;
+pub mod integrate;
+pub mod kurtogram;
+pub mod lines;
+pub mod order;
+pub mod psd;
+pub mod spectrogram;
 pub mod spectrum;
+pub mod velocity_bands;
+pub mod window;
 
 #[cfg(test)]
 mod test_signals;
 
-pub use decimate::{Decimator, kaiser_lowpass};
-pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope};
+pub use decimate::{Decimator, decimate, kaiser_lowpass};
+pub use diagnosis::{Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose};
+pub use double_impulse::{
+    DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
+};
+pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope, envelope_spectrum};
+pub use error::SignalError;
+pub use filter::{Butterworth, Passband};
+pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, LineTracker, line_frequency};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
+pub use integrate::{velocity, velocity_trapezoid};
+pub use kurtogram::{Kurtogram, kurtogram};
+pub use lines::{Line, LineSet, harmonics, sidebands};
+pub use order::{Angular, Rotation, order_spectrum, resample};
+pub use psd::{Detrend, Segments, density_interval, psd};
+pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
+pub use velocity_bands::{VelocityBands, velocity_bands};
+pub use window::Window;

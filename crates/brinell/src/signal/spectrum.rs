@@ -9,11 +9,12 @@
 //!
 //! Nothing is detrended: a mean shows in bins 0 and 1 and, with Hann, nowhere else.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
+
+use super::window::Window;
 
 /// Fewest samples that make a spectrum.
 pub const FEWEST_SAMPLES: usize = 8;
@@ -36,6 +37,10 @@ pub struct Spectrum {
     pub segments: usize,
     /// Equivalent noise bandwidth of a bin, Hz: 1.5 bins for Hann.
     pub noise_bandwidth: f64,
+    /// Degrees of freedom of a bin's power under Gaussian noise: it scatters as chi-square with so many, over their
+    /// number. 2 for one segment; with K segments 2 K / (1 + 2 sum over j of (1 - j / K) rho_j^2), rho_j being the
+    /// correlation of windows j segments apart (Welch 1967). Bin 0 and half the sampling rate have half as many.
+    pub degrees_of_freedom: f64,
 }
 
 impl Spectrum {
@@ -190,9 +195,11 @@ impl Segmenter {
     }
 }
 
-/// Mean of the Hann-windowed power spectra of segments.
+/// Mean of the windowed power spectra of segments.
 pub(super) struct PowerAverage {
     window: Vec<f64>,
+    /// Samples from one segment to the next.
+    step: usize,
     fft: Arc<dyn RealToComplex<f64>>,
     input: Vec<f64>,
     output: Vec<Complex<f64>>,
@@ -202,10 +209,17 @@ pub(super) struct PowerAverage {
 }
 
 impl PowerAverage {
+    /// Hann's window, half overlap.
     pub(super) fn new(length: usize) -> Self {
+        Self::with_window(hann(length), length / 2)
+    }
+
+    pub(super) fn with_window(window: Vec<f64>, step: usize) -> Self {
+        let length = window.len();
         let fft = RealFftPlanner::new().plan_fft_forward(length);
         PowerAverage {
-            window: hann(length),
+            window,
+            step,
             input: fft.make_input_vec(),
             output: fft.make_output_vec(),
             scratch: fft.make_scratch_vec(),
@@ -228,6 +242,17 @@ impl PowerAverage {
         self.segments += 1;
     }
 
+    fn degrees_of_freedom(&self) -> f64 {
+        let (w, count) = (&self.window, self.segments as f64);
+        let energy: f64 = w.iter().map(|w| w * w).sum();
+        let mut correlated = 0.0;
+        for j in 1..self.segments.min(w.len().div_ceil(self.step.max(1))) {
+            let shared: f64 = w.iter().zip(&w[j * self.step..]).map(|(a, b)| a * b).sum();
+            correlated += (1.0 - j as f64 / count) * (shared / energy).powi(2);
+        }
+        2.0 * count / (1.0 + 2.0 * correlated)
+    }
+
     pub(super) fn finish(self, fs: f64) -> Spectrum {
         let length = self.window.len();
         let sum: f64 = self.window.iter().sum();
@@ -246,15 +271,14 @@ impl PowerAverage {
             segment_length: length,
             segments: self.segments,
             noise_bandwidth: fs * sum_of_squares / (sum * sum),
+            degrees_of_freedom: self.degrees_of_freedom(),
         }
     }
 }
 
 /// The periodic Hann window.
 pub(super) fn hann(length: usize) -> Vec<f64> {
-    (0..length)
-        .map(|i| (PI * i as f64 / length as f64).sin().powi(2))
-        .collect()
+    Window::Hann.periodic(length)
 }
 
 #[cfg(test)]

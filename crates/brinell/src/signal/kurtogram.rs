@@ -1,0 +1,353 @@
+//! The fast kurtogram: which band, of which width, is the most impulsive.
+//!
+//! J. Antoni, "Fast computation of the kurtogram for the detection of transient faults", Mech. Syst. Signal Process. 21
+//! (2007) 108-124. A tree of filters halves the band from zero to half the sampling rate again and again, and splits
+//! each half once into thirds besides: 1, 2, 3, 4, 6, 8, 12, ... bands. The kurtosis of a band's complex envelope c is
+//!
+//! K = mean |c|^4 / (mean |c|^2)^2 - 2,
+//!
+//! zero for Gaussian noise, -1 for a sine, large where energy comes in bursts. The undivided band is judged by the
+//! real signal's kurtosis less 3, its mean removed.
+//!
+//! The prototypes are Hamming-windowed low-passes, 6 dB down at a band's edges: 33 taps for halves, 49 for thirds. The
+//! program published with the paper takes 17 and 25 taps and edges 1.6 times as wide, through which the lowest and the
+//! highest band see their own mirror image: Gaussian noise then shows a kurtosis of 0.2 there, here below 0.01. Only
+//! outputs that see the signal under every tap are used, so there is no transient to leave out.
+
+use realfft::num_complex::Complex;
+
+use super::envelope::Band;
+use super::error::{SignalError, check};
+use super::filter::Passband;
+use super::fir::fir;
+use super::indicators::{Indicator, Moments};
+use super::window::Window;
+
+/// Fewest samples of a band's complex envelope from which a kurtosis is taken.
+pub const FEWEST_IN_BAND: usize = 128;
+/// Deepest halving, whatever the length: 512 bands.
+pub const DEEPEST: usize = 9;
+
+const HALF_TAPS: usize = 33;
+/// Cycles per sample of a node, whose band is half a cycle per sample wide.
+const HALF_EDGE: f64 = 1.0 / 8.0;
+const THIRD_TAPS: usize = 49;
+const THIRD_EDGE: f64 = 1.0 / 12.0;
+
+/// Bands of one width.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Width of each band, Hz; band i reaches from i to i + 1 times it.
+    pub bandwidth: f64,
+    /// Kurtosis of each band, in order of frequency; NaN where a band holds no power.
+    pub kurtosis: Vec<f64>,
+    /// Standard deviation of these values under Gaussian noise, 2 / sqrt n with n independent values of the envelope
+    /// (sqrt(24 / n) for the undivided signal). The largest of many bands stands above zero by several of these.
+    pub noise_scatter: f64,
+}
+
+/// A band of the map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KurtogramBand {
+    /// Its edges, Hz.
+    pub band: Band,
+    /// Its kurtosis.
+    pub kurtosis: f64,
+    /// Standard deviation of the kurtosis under Gaussian noise.
+    pub noise_scatter: f64,
+}
+
+impl KurtogramBand {
+    /// Middle of the band, Hz.
+    pub fn center(&self) -> f64 {
+        0.5 * (self.band.low + self.band.high)
+    }
+
+    /// Width of the band, Hz.
+    pub fn bandwidth(&self) -> f64 {
+        self.band.high - self.band.low
+    }
+}
+
+/// The whole map, from one band to the narrowest ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kurtogram {
+    /// 1, 2, 3, 4, 6, 8, 12, ... bands.
+    pub levels: Vec<Level>,
+}
+
+impl Kurtogram {
+    /// Band `index` of level `level`, `None` where there is none.
+    pub fn band(&self, level: usize, index: usize) -> Option<KurtogramBand> {
+        let level = self.levels.get(level)?;
+        let low = index as f64 * level.bandwidth;
+        Some(KurtogramBand {
+            band: Band::between(low, low + level.bandwidth),
+            kurtosis: *level.kurtosis.get(index)?,
+            noise_scatter: level.noise_scatter,
+        })
+    }
+
+    /// Every band of every level.
+    pub fn bands(&self) -> impl Iterator<Item = KurtogramBand> {
+        (self.levels.iter().enumerate()).flat_map(move |(l, level)| {
+            (0..level.kurtosis.len()).filter_map(move |i| self.band(l, i))
+        })
+    }
+
+    /// The band with the largest kurtosis at least `narrowest` Hz wide; `None` where no band is or none holds power.
+    ///
+    /// A band narrower than some three times a repetition frequency cannot show how its impacts repeat: give that.
+    pub fn best(&self, narrowest: f64) -> Option<KurtogramBand> {
+        self.bands()
+            .filter(|b| b.bandwidth() >= narrowest && b.kurtosis.is_finite())
+            .max_by(|a, b| a.kurtosis.total_cmp(&b.kurtosis))
+    }
+}
+
+/// The kurtogram of `x`, sampled at `fs` Hz, halved at most `depth` times (cut down to [`DEEPEST`] and so that every band
+/// has [`FEWEST_IN_BAND`] values).
+///
+/// # Errors
+/// [`SignalError`] with fewer than 128 samples, samples that are not finite, or a constant signal.
+pub fn kurtogram(x: &[f64], fs: f64, depth: usize) -> Result<Kurtogram, SignalError> {
+    check(x, fs, FEWEST_IN_BAND, "a kurtogram")?;
+    let mut moments = Moments::new();
+    x.iter().for_each(|v| moments.push(*v));
+    let constant = SignalError::Constant {
+        what: "its kurtosis",
+    };
+    let whole = moments.get(Indicator::Kurtosis).ok_or(constant)? - 3.0;
+    let filters = Filters {
+        half: doubled(&fir(
+            HALF_TAPS,
+            Passband::Below(HALF_EDGE),
+            Window::Hamming,
+            1.0,
+        )?),
+        third: doubled(&fir(
+            THIRD_TAPS,
+            Passband::Below(THIRD_EDGE),
+            Window::Hamming,
+            1.0,
+        )?),
+    };
+    // Samples of a node after so many halvings: the tree shortens every node alike. Thirds two levels up hold more.
+    let mut lengths = vec![x.len()];
+    while lengths.len() <= depth.min(DEEPEST) {
+        let length = outputs(lengths[lengths.len() - 1], HALF_TAPS, 2);
+        if length < FEWEST_IN_BAND {
+            break;
+        }
+        lengths.push(length);
+    }
+    let depth = lengths.len() - 1;
+    let mut tree = Tree {
+        depth,
+        halves: (0..=depth).map(|h| vec![f64::NAN; 1 << h]).collect(),
+        thirds: (2..=depth).map(|h| vec![f64::NAN; 3 << (h - 2)]).collect(),
+    };
+    tree.halves[0][0] = whole;
+
+    // Centred on zero frequency: turned back by a quarter of the sampling rate, exactly.
+    let mean = moments.mean();
+    let root: Vec<Complex<f64>> = (x.iter().enumerate())
+        .map(|(i, v)| match i % 4 {
+            0 => Complex::new(v - mean, 0.0),
+            1 => Complex::new(0.0, mean - v),
+            2 => Complex::new(mean - v, 0.0),
+            _ => Complex::new(0.0, v - mean),
+        })
+        .collect();
+    tree.descend(&filters, &root, 0, 0);
+
+    let scatter = |variance: f64, n: usize| (variance / n as f64).sqrt();
+    let mut levels = Vec::new();
+    for (h, kurtosis) in tree.halves.into_iter().enumerate() {
+        if h >= 2 {
+            levels.push(Level {
+                bandwidth: 0.5 * fs / (3 << (h - 2)) as f64,
+                kurtosis: std::mem::take(&mut tree.thirds[h - 2]),
+                noise_scatter: scatter(4.0, outputs(lengths[h - 2], THIRD_TAPS, 3)),
+            });
+        }
+        levels.push(Level {
+            bandwidth: 0.5 * fs / (1 << h) as f64,
+            kurtosis,
+            noise_scatter: scatter(if h == 0 { 24.0 } else { 4.0 }, lengths[h]),
+        });
+    }
+    Ok(Kurtogram { levels })
+}
+
+/// Outputs of a filter of `taps` that see the signal under every tap, one in `factor`.
+fn outputs(length: usize, taps: usize, factor: usize) -> usize {
+    if length < taps {
+        0
+    } else {
+        (length - taps) / factor + 1
+    }
+}
+
+/// Taps of the prototypes, each twice: for real and imaginary part.
+struct Filters {
+    half: Vec<f64>,
+    third: Vec<f64>,
+}
+
+struct Tree {
+    depth: usize,
+    halves: Vec<Vec<f64>>,
+    thirds: Vec<Vec<f64>>,
+}
+
+impl Tree {
+    /// Fills in what lies below a node: its complex envelope, centred on zero frequency, with the band within a quarter
+    /// of its sampling rate to either side.
+    fn descend(&mut self, filters: &Filters, node: &[Complex<f64>], halvings: usize, index: usize) {
+        if halvings + 2 <= self.depth {
+            for (part, turn) in [5, 0, 1].into_iter().enumerate() {
+                let child = branch(node, &filters.third, 3, 6, turn);
+                self.thirds[halvings][3 * index + part] = kurtosis(&child);
+            }
+        }
+        if halvings < self.depth {
+            for (part, turn) in [7, 1].into_iter().enumerate() {
+                let child = branch(node, &filters.half, 2, 8, turn);
+                self.halves[halvings + 1][2 * index + part] = kurtosis(&child);
+                self.descend(filters, &child, halvings + 1, 2 * index + part);
+            }
+        }
+    }
+}
+
+/// The part of a node about `turn / phases` cycles a sample, moved to zero frequency, filtered and decimated.
+fn branch(
+    node: &[Complex<f64>],
+    doubled_taps: &[f64],
+    factor: usize,
+    phases: usize,
+    turn: usize,
+) -> Vec<Complex<f64>> {
+    let taps = doubled_taps.len() / 2;
+    let table: Vec<Complex<f64>> = (0..phases)
+        .map(|i| {
+            let angle = -std::f64::consts::TAU * ((i * turn) % phases) as f64 / phases as f64;
+            Complex::from_polar(1.0, angle)
+        })
+        .collect();
+    let mut turned = Vec::with_capacity(2 * node.len());
+    for block in node.chunks(phases) {
+        for (value, phase) in block.iter().zip(&table) {
+            let v = value * phase;
+            turned.extend([v.re, v.im]);
+        }
+    }
+    let count = outputs(node.len(), taps, factor);
+    (0..count)
+        .map(|m| {
+            let window = &turned[2 * factor * m..][..2 * taps];
+            inner_product(doubled_taps, window)
+        })
+        .collect()
+}
+
+/// Sum of taps times interleaved complex values, in lanes that the compiler can use.
+fn inner_product(doubled_taps: &[f64], values: &[f64]) -> Complex<f64> {
+    const LANES: usize = 4;
+    let mut sums = [0.0; LANES];
+    let (t, v) = (doubled_taps.chunks_exact(LANES), values.chunks_exact(LANES));
+    let (rest_t, rest_v) = (t.remainder(), v.remainder());
+    for (t, v) in t.zip(v) {
+        for lane in 0..LANES {
+            sums[lane] += t[lane] * v[lane];
+        }
+    }
+    // An odd number of taps leaves one.
+    Complex::new(
+        sums[0] + sums[2] + rest_t[0] * rest_v[0],
+        sums[1] + sums[3] + rest_t[1] * rest_v[1],
+    )
+}
+
+fn doubled(taps: &[f64]) -> Vec<f64> {
+    taps.iter().flat_map(|h| [*h, *h]).collect()
+}
+
+/// Of a complex envelope, less 2.
+fn kurtosis(c: &[Complex<f64>]) -> f64 {
+    let (mut second, mut fourth) = (0.0, 0.0);
+    for v in c {
+        let power = v.norm_sqr();
+        second += power;
+        fourth += power * power;
+    }
+    fourth * c.len() as f64 / (second * second) - 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_signals::{ImpactTrain, Noise, cosine};
+    use super::*;
+
+    const FS: f64 = 25_600.0;
+
+    fn train(resonance: f64, noise: f64) -> ImpactTrain {
+        ImpactTrain {
+            fs: FS,
+            rate: 87.0,
+            jitter: 0.01,
+            resonance,
+            decay: 4e-4,
+            noise,
+        }
+    }
+
+    #[test]
+    fn prop_impacts_are_found_where_they_ring() {
+        for (resonance, seed) in [(2400.0, 1), (5200.0, 2), (9700.0, 3)] {
+            let x = train(resonance, 0.3).generate(65_536, seed);
+            let map = kurtogram(&x, FS, 5).unwrap();
+            let best = map.best(300.0).unwrap();
+            assert!(
+                best.band.low < resonance + 600.0 && best.band.high > resonance - 600.0,
+                "{best:?}"
+            );
+            assert!(best.kurtosis > 8.0 * best.noise_scatter, "{best:?}");
+        }
+    }
+
+    #[test]
+    fn analytic_noise_has_none_and_a_sine_minus_one() {
+        let noise = Noise::new(9).normals(100_000);
+        let map = kurtogram(&noise, FS, 6).unwrap();
+        assert_eq!(
+            map.levels
+                .iter()
+                .map(|l| l.kurtosis.len())
+                .collect::<Vec<_>>(),
+            [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]
+        );
+        for band in map.bands() {
+            assert!(
+                band.kurtosis.abs() < 4.5 * band.noise_scatter + 0.01,
+                "{band:?}"
+            );
+        }
+        let map = kurtogram(&cosine(10_000, FS, 4000.0, 1.0, 0.0), FS, 3).unwrap();
+        assert!((map.levels[0].kurtosis[0] + 1.5).abs() < 1e-3);
+        assert!((map.levels[3].kurtosis[1] + 1.0).abs() < 1e-2);
+    }
+
+    #[test]
+    fn prop_short_or_constant_input() {
+        assert!(kurtogram(&[1.0; 100], FS, 3).is_err());
+        assert!(matches!(
+            kurtogram(&[1.0; 1000], FS, 3),
+            Err(SignalError::Constant { .. })
+        ));
+        let map = kurtogram(&Noise::new(1).normals(128), FS, 9).unwrap();
+        assert_eq!(map.levels.len(), 1);
+        assert!(map.best(1e9).is_none());
+    }
+}
