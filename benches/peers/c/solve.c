@@ -1,6 +1,6 @@
 /* SUNDIALS on the bearing.
  *
- *   solve check PROBLEM STATES             accelerations at every state of a table
+ *   solve check PROBLEM STATES             accelerations at every state of a table, then the start
  *   solve METHOD PROBLEM OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL...
  *       METHOD: cvode-bdf, cvode-adams, arkode-3, arkode-5 (Cash-Karp), arkode-5dp (Dormand-Prince)
  *       Each TOL is a run with absolute tolerances TOL * LENGTH and TOL * SPEED (on a surface) and relative TOL * RTOL,
@@ -119,7 +119,7 @@ static Work run(const char *method, long count, double rate, N_Vector atol, doub
     return work;
 }
 
-/* Table: the number of states, then t and y of each; out come the accelerations. */
+/* Table: the number of states, then t and y of each; out come the accelerations, then the start. */
 static int check(const char *path)
 {
     const int size = 2 * bearing.dof;
@@ -135,6 +135,8 @@ static int check(const char *path)
         for (int k = bearing.dof; k < size; k++) printf("%.17g\n", dy[k]);
     }
     fclose(in);
+    bearing_start(&bearing, y);
+    for (int k = 0; k < size; k++) printf("%.17g\n", y[k]);
     return 0;
 }
 

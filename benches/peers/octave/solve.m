@@ -1,6 +1,6 @@
 % Octave's solvers on the bearing.
 %
-%   octave solve.m check PROBLEM STATES       accelerations at every state of a table
+%   octave solve.m check PROBLEM STATES       accelerations at every state of a table, then the start
 %   octave solve.m ode45|ode15s PROBLEM OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL...
 %
 % Each TOL is a run with absolute tolerances TOL * LENGTH and TOL * SPEED (on a surface) and relative TOL * RTOL, repeated for BUDGET
@@ -32,7 +32,8 @@ if (strcmp (args{1}, "check"))
     dy = f (column(1), column(2:end));
     printf ("%.17g\n", dy(p.dof+1:end));
   end
-  return
+  printf ("%.17g\n", p.start);
+  exit (0);
 end
 n = cellfun (@str2double, args(4:end));
 times = (0:floor (n(1) * n(2) + 1e-6))' / n(2);

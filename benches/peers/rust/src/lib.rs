@@ -1,6 +1,6 @@
 //! What the Rust programs of `benches/peers` share: the problem, the layout of states in tables, clocks and output.
 
-use brinell::document;
+use brinell::document::{self, Loaded};
 use brinell::model::{Layout, Model, Motion};
 use brinell::scenario::Scenario;
 use brinell::solver::System;
@@ -12,14 +12,16 @@ pub type Sample = [f64; 4];
 
 /// Reads a scenario file, with overrides as on the command line.
 pub fn scenario(path: &str, overrides: &[(&str, String)]) -> Scenario {
+    load(path, overrides).scenario
+}
+
+fn load(path: &str, overrides: &[(&str, String)]) -> Loaded {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let overrides: Vec<(String, String)> = overrides
         .iter()
         .map(|(k, v)| ((*k).to_owned(), v.clone()))
         .collect();
-    document::read(&text, &overrides)
-        .unwrap_or_else(|problems| panic!("{path}: {problems:?}"))
-        .scenario
+    document::read(&text, &overrides).unwrap_or_else(|problems| panic!("{path}: {problems:?}"))
 }
 
 /// Where each coordinate of the tables' layout stands in brinell's: r of every roller (row by row), theta, phi, then x, y, theta of
@@ -33,7 +35,9 @@ pub fn coordinates(l: &Layout) -> Vec<usize> {
         .into_iter()
         .flat_map(|block| rollers.iter().map(move |slot| block + slot));
     let of_cages = (0..l.rows).flat_map(|row| (0..3).map(move |k| l.cage(row) + k));
-    let of_rings = [l.inner(), l.outer()].into_iter().flat_map(|at| [at, at + 1]);
+    let of_rings = [l.inner(), l.outer()]
+        .into_iter()
+        .flat_map(|at| [at, at + 1]);
     of_rollers.chain(of_cages).chain(of_rings).collect()
 }
 
@@ -78,7 +82,11 @@ impl<'a> Compact<'a> {
     pub fn compact(&self, y: &[f64]) -> Vec<f64> {
         let half = y.len() / 2;
         let rates = self.coordinates.iter().map(|k| y[half + k]);
-        self.coordinates.iter().map(|k| y[*k]).chain(rates).collect()
+        self.coordinates
+            .iter()
+            .map(|k| y[*k])
+            .chain(rates)
+            .collect()
     }
 
     /// dy/dt.
@@ -96,8 +104,8 @@ impl<'a> Compact<'a> {
     }
 }
 
-/// Prints the accelerations at every state of a table, which starts with their number and holds t and y of each.
-pub fn check(model: &Model, path: &str) {
+/// Prints the accelerations at every state of a table, which starts with their number and holds t and y of each, then the start.
+fn check(model: &Model, path: &str) {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let mut numbers = text.split_whitespace().map(|w| w.parse::<f64>().unwrap());
     let mut take = || numbers.next().expect("a longer table");
@@ -114,7 +122,6 @@ pub fn check(model: &Model, path: &str) {
             println!("{a:e}");
         }
     }
-    // The start is the first state of the table's makers: it must be this model's too.
     for value in compact.compact(&start) {
         println!("{value:e}");
     }
@@ -150,16 +157,25 @@ pub struct Job {
 }
 
 impl Job {
-    /// From the command line; answers `check SCENARIO STATES` by itself.
+    /// From the command line; answers `check SCENARIO STATES` by itself, and `resolve SCENARIO` with every default filled in.
     pub fn new() -> Option<Self> {
         let args: Vec<String> = std::env::args().skip(1).collect();
+        if let [what, path] = &args[..]
+            && what == "resolve"
+        {
+            print!("{}", load(path, &[]).to_toml());
+            return None;
+        }
         if let [what, path, states] = &args[..]
             && what == "check"
         {
             check(&Model::new(&scenario(path, &[])).unwrap(), states);
             return None;
         }
-        assert!(args.len() > 10, "METHOD SCENARIO OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL...");
+        assert!(
+            args.len() > 10,
+            "METHOD SCENARIO OUT DURATION RATE LENGTH SPEED RTOL MAX_STEP BUDGET TOL..."
+        );
         let number = |k: usize| args[k].parse::<f64>().unwrap();
         Some(Self {
             method: args[0].clone(),
@@ -184,12 +200,16 @@ impl Job {
     /// Runs every tolerance again and again within the budget; keeps the shortest times.
     pub fn go(&self, mut run: impl FnMut(f64, &mut Vec<Sample>) -> Work) {
         for (i, &tolerance) in self.tolerances.iter().enumerate() {
-            let (mut wall, mut cpu, mut spent, mut repeats) = (f64::INFINITY, f64::INFINITY, 0.0, 0);
+            let (mut wall, mut cpu, mut spent, mut repeats) =
+                (f64::INFINITY, f64::INFINITY, 0.0, 0);
             let mut samples = Vec::new();
             let mut work;
             loop {
                 samples.clear();
-                let start = (clock(libc::CLOCK_MONOTONIC), clock(libc::CLOCK_PROCESS_CPUTIME_ID));
+                let start = (
+                    clock(libc::CLOCK_MONOTONIC),
+                    clock(libc::CLOCK_PROCESS_CPUTIME_ID),
+                );
                 work = run(tolerance, &mut samples);
                 let took = clock(libc::CLOCK_MONOTONIC) - start.0;
                 wall = took.min(wall);

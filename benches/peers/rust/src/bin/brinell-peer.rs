@@ -70,9 +70,16 @@ fn run(job: &Job) {
         ],
     );
     job.go(|factor, samples| {
-        assert!(factor == 1.0, "a whole run has the accuracy of its scenario");
+        assert!(
+            factor == 1.0,
+            "a whole run has the accuracy of its scenario"
+        );
         let simulation = Simulation::new(&scenario).unwrap();
-        let names: Vec<&str> = simulation.channels().iter().map(|c| c.name.as_str()).collect();
+        let names: Vec<&str> = simulation
+            .channels()
+            .iter()
+            .map(|c| c.name.as_str())
+            .collect();
         assert_eq!(names, ["inner_ax", "inner_ay", "outer_ax", "outer_ay"]);
         let work = simulation.run(&mut Rows { samples }).work.solver;
         Work {

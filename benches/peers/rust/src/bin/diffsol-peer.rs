@@ -1,17 +1,12 @@
-//! diffsol on brinell's right-hand side, which is vectorised: what is compared is the solver. Methods: `tsit45` (explicit, order 5) and
-//! `bdf` (implicit, with a dense Jacobian from differences).
+//! diffsol on brinell's right-hand side, which is vectorised: what is compared is the solver. Method: `tsit45` (explicit, order 5).
 
 use brinell::model::Model;
 use brinell::start;
 use brinell_peers::{Compact, Job, Sample, Work, levers, scenario};
-use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod};
+use diffsol::{NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod};
 use std::cell::{Cell, RefCell};
 
 type Matrix = NalgebraMat<f64>;
-type Lu = NalgebraLU<f64>;
-
-/// Step of the Jacobian's differences, in absolute tolerances.
-const DIFFERENCE: f64 = 1e3;
 
 fn main() {
     let Some(job) = Job::new() else { return };
@@ -41,35 +36,16 @@ fn one(
         evaluations.set(evaluations.get() + 1);
         system.borrow_mut().derivative(t, y, dy);
     };
-    let scratch = RefCell::new((vec![0.0; size], vec![0.0; size]));
-    let jacobian_product = |y: &[f64], _: &[f64], t: f64, v: &[f64], out: &mut [f64]| {
-        let largest = v.iter().zip(&atol).fold(0.0f64, |m, (v, s)| m.max(v.abs() / s));
-        if largest == 0.0 {
-            out.fill(0.0);
-            return;
-        }
-        let step = DIFFERENCE / largest;
-        let (ahead, here) = &mut *scratch.borrow_mut();
-        for ((a, y), v) in ahead.iter_mut().zip(y).zip(v) {
-            *a = y + step * v;
-        }
-        derivative(t, y, here);
-        derivative(t, ahead, out);
-        for (o, h) in out.iter_mut().zip(here.iter()) {
-            *o = (*o - h) / step;
-        }
-    };
     let mut problem = OdeBuilder::<Matrix>::new()
         .rtol((tolerance * job.rtol).max(f64::EPSILON))
-        .atol(atol.clone())
+        .atol(atol)
         .h0(1e-9)
-        .rhs_implicit(|y, _, t, dy| derivative(t, y, dy), jacobian_product)
+        .rhs(|y, _, t, dy| derivative(t, y, dy))
         .init(|_, _, y: &mut [f64]| y.copy_from_slice(&first), size)
         .build()
         .unwrap();
     // A force that jumps as a contact closes takes the step from microseconds to picoseconds.
     problem.ode_options.max_error_test_failures = 100;
-    problem.ode_options.max_nonlinear_solver_failures = 100;
     problem.ode_options.min_timestep = 1e-17;
     let mut probe = Compact::new(model, &initial);
     let mut rates = vec![0.0; size];
@@ -79,7 +55,6 @@ fn one(
     };
     let steps = match job.method.as_str() {
         "tsit45" => follow(problem.tsit45().unwrap(), times, at),
-        "bdf" => follow(problem.bdf::<Lu>().unwrap(), times, at),
         other => panic!("no method {other}"),
     };
     Work {
