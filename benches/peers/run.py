@@ -81,7 +81,7 @@ PEERS = [
     Peer("numpy-LSODA", "NumPy, SciPy LSODA", "python", "numpy-LSODA", ladder(2.4e-8, 7.5e-10, 32**0.5), max_step=1e-5, slow=True, windows=3),
     Peer("numpy-Radau", "NumPy, SciPy Radau", "python", "numpy-Radau", ladder(4e-7, 6.25e-9, 4), max_step=2e-5, slow=True),
     Peer("octave-ode45", "GNU Octave, ode45", "octave", "ode45", ladder(1.6e-7, 1e-8, 2), max_step=1e-5),
-    Peer("octave-ode15s", "GNU Octave, ode15s", "octave", "ode15s", ladder(1e-8, 4e-10, 5), max_step=1e-5, slow=True, windows=1),
+    Peer("octave-ode15s", "GNU Octave, ode15s", "octave", "ode15s", ladder(1e-8, 2e-9, 5), max_step=1e-5, slow=True, windows=1),
 ]
 
 # What a table of ratios is asked for, and what it counts by.

@@ -7,6 +7,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter
 
 # A colour for each language, a mark and a dash for each method of it.
 COLOURS = {"brinell": "#c8102e", "run": "#c8102e", "arkode": "#1f4e79", "cvode": "#4a90c2", "diffsol": "#6f4e9c"}
@@ -38,6 +39,8 @@ def main():
     axes.set_xlabel("median error of outer_ax over windows of 2.5 ms, %  (grey: the reference's own doubt)")
     axes.set_ylabel("CPU s per simulated s")
     axes.set_title("NN3007 with a 3 mm x 4 mm spall: cost against error", loc="left")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes.grid(which="major", color="#dddddd", linewidth=0.6)
     figure.legend(loc="outside right upper", frameon=False, fontsize=8)
     for kind in "svg", "png":
