@@ -277,7 +277,7 @@ class Problem:
             theta = []
             for i in range(rows):
                 for j in range(rollers):
-                    off = rng.choice([-1, 1]) * side + u(-1e-5, 1e-5) if grazing else u(-1.5, 1.5) * side
+                    off = rng.choice([-1, 1]) * side + u(-3e-5, 3e-5) if grazing else u(-1.5, 1.5) * side
                     theta.append(turn + i * stagger + math.tau * j / rollers + off)
             theta[0] = math.tau * rng.choice([-1, 0, 1]) + rng.choice([-1, 1]) * edge * rng.choice([0.997, 1.003])
             spin = (orbit - 15, orbit + 15) if k % 2 else (-700, -600)

@@ -2,9 +2,9 @@
 % inner x, y; outer x, y]; roller j of row i (from 0) has index i * rollers + j.
 function p = read_problem (path)
   file = fopen (path, "r");
-  lines = textscan (file, "%s %f");
+  lines = textscan (file, "%s %s");
   fclose (file);
-  p = cell2struct (num2cell (lines{2}), lines{1}, 1);
+  p = cell2struct (num2cell (str2double (lines{2})), lines{1}, 1);  % textscan's own numbers miss the last digit
   p.total = p.rows * p.rollers;
   p.dof = 3 * p.total + 3 * p.rows + 4;
   p.inner_radius = p.inner_raceway_diameter / 2;
