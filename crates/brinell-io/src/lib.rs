@@ -24,17 +24,19 @@
 mod atomic;
 mod csv;
 mod error;
-#[cfg(feature = "parquet")]
-mod parquet_read;
-#[cfg(feature = "parquet-write")]
-mod parquet_write;
+mod read;
 mod signals;
+mod write;
 
 pub use atomic::atomic_write;
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 #[cfg(feature = "parquet")]
-pub use parquet_read::read_parquet;
-#[cfg(feature = "parquet-write")]
-pub use parquet_write::ParquetWriter;
+pub use read::parquet::read_parquet;
+pub use read::{
+    Channel, Decimal, Delimiter, FileKind, MAX_VALUES, Rate, RateSource, SignalFile, TextFormat,
+    open, open_as,
+};
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
+#[cfg(feature = "parquet-write")]
+pub use write::parquet::ParquetWriter;

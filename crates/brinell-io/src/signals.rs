@@ -24,6 +24,11 @@ pub mod keys {
     /// The units once more, where pandas looks: `pandas.read_parquet(path).attrs["units"]`. Filled in by the writer.
     pub const PANDAS_ATTRS: &str = "PANDAS_ATTRS";
 
+    /// Name and unit of each channel in a WAV file's comment, a JSON object. Filled in by the writer.
+    pub const CHANNELS: &str = "brinell.channels";
+    /// The text variable of MAT and NPZ files with the unit of each channel, a JSON object. Filled in by the writer.
+    pub const UNITS_VARIABLE: &str = "brinell_units";
+
     #[cfg(feature = "parquet-write")]
     pub(crate) const RESERVED: [&str; 4] = [UNITS, DESCRIPTIONS, OUTCOME, PANDAS_ATTRS];
 }
