@@ -66,7 +66,7 @@ impl Channel {
 
     /// Whether the values lie along one dimension, so that their order is the order in time.
     pub fn is_vector(&self) -> bool {
-        self.shape.iter().filter(|&&n| n != 1).count() <= 1
+        self.shape.contains(&0) || self.shape.iter().filter(|&&n| n != 1).count() <= 1
     }
 
     /// Whether this may be a signal: readable, and more than one value.

@@ -134,15 +134,6 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
             return Err(what);
         }
     }
-    if head.contains(&0) {
-        // Four bytes that say little-endian numbers of a known width, then sizes: MATLAB's format before 1996.
-        let old = head.len() >= 20 && head[..4].iter().skip(1).all(|&b| b < 0x10) && head[1] == 0;
-        return Err(if old {
-            "no known format (perhaps MATLAB v4; save it again as v7)"
-        } else {
-            "no known format"
-        });
-    }
     let text = String::from_utf8_lossy(head);
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let delimiter = lines.next().is_some_and(|line| line.trim_end() == "    -1");
@@ -152,6 +143,15 @@ fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
     };
     if delimiter && lines.next().is_some_and(number) {
         return Ok(FileKind::Uff58);
+    }
+    if head.contains(&0) {
+        // Four bytes that say little-endian numbers of a known width, then sizes: MATLAB's format before 1996.
+        let old = head.len() >= 20 && head[..4].iter().skip(1).all(|&b| b < 0x10) && head[1] == 0;
+        return Err(if old {
+            "no known format (perhaps MATLAB v4; save it again as v7)"
+        } else {
+            "no known format"
+        });
     }
     Ok(FileKind::Text)
 }

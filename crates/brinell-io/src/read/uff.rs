@@ -26,6 +26,8 @@ struct Function {
     big_endian: bool,
     double: bool,
     even: bool,
+    /// Whether the abscissae are singles among doubles.
+    short_x: bool,
 }
 
 struct Uff {
@@ -162,8 +164,8 @@ fn function(
         big_endian: false,
         double,
         even,
+        short_x: false,
     };
-    // Of one value with its abscissa; the least that text may take is a digit for each.
     let per = if complex { 2 } else { 1 };
     if binary {
         function.big_endian = integer(head, 7, 6, "byte order")? == 2;
@@ -173,9 +175,16 @@ fn function(
         let bytes = integer(head, 31, 12, "number of bytes")?;
         let bytes = u64::try_from(bytes).map_err(|_| damaged(format!("{bytes} bytes")))?;
         let width = if double { 8 } else { 4 };
-        // pyuff counts the abscissae of double precision as doubles, and the text of the standard as singles.
-        let each = per * width + if even { 0 } else { abscissa(double) };
-        if count.saturating_mul(each) > bytes || bytes > length.saturating_sub(lines.at) {
+        // The standard's uneven doubles have single abscissae, pyuff's have double ones.
+        function.short_x = double && !even && count.saturating_mul(per * width + 4) == bytes;
+        let x_width = match (even, function.short_x) {
+            (true, _) => 0,
+            (false, true) => 4,
+            (false, false) => width,
+        };
+        // pyuff counts the bytes of real, even functions for every kind.
+        let bytes = bytes.max(count.saturating_mul(per * width + x_width));
+        if bytes > length.saturating_sub(lines.at) {
             return Err(damaged(format!(
                 "`{name}` claims {count} values, more than are there"
             )));
@@ -204,7 +213,7 @@ fn function(
     if complex {
         channel.unreadable = Some("holds complex numbers".into());
     }
-    let unit = field(&records[8], 53, 20);
+    let unit = field(&records[8], 47, 20);
     channel.unit = Some(unit.to_owned()).filter(|u| !u.is_empty() && u != "NONE");
     // Type 17 of an abscissa is time.
     if even && step.is_finite() && step > 0.0 && field(&records[7], 0, 10) == "17" {
@@ -218,12 +227,6 @@ fn function(
         });
     }
     Ok((function, channel))
-}
-
-/// Bytes of an abscissa in binary.
-fn abscissa(double: bool) -> u64 {
-    // As pyuff writes and reads them: as wide as the values.
-    if double { 8 } else { 4 }
 }
 
 impl Source for Uff {
@@ -302,6 +305,21 @@ fn text(
             at = end;
         }
         left -= (values.len() - before) as u64;
+        if values.len() >= PIECE {
+            give(sink, &values)?;
+            values.clear();
+        }
+    }
+    give(sink, &values)
+}
+
+/// Binary pairs of a single and a double.
+fn mixed(reader: &mut impl Read, function: Function, sink: Sink<'_>) -> Result<(), Fault> {
+    let (mut pair, mut values) = ([0; 12], Vec::with_capacity(PIECE));
+    for _ in 0..function.count {
+        reader.read_exact(&mut pair)?;
+        Number::F32.decode(function.big_endian, &pair[..4], &mut values);
+        Number::F64.decode(function.big_endian, &pair[4..], &mut values);
         if values.len() >= PIECE {
             give(sink, &values)?;
             values.clear();
