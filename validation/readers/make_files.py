@@ -127,7 +127,7 @@ def matlab_v73(path):
 
 matlab_v73(out / "v73.mat")
 hdf5storage.savemat(str(out / "v73_hdf5storage.mat"), {"acc": column(0), "fs": 25600.0}, format="7.3", store_python_metadata=False)
-with h5py.File(out / "latest.h5", "w", libver="latest", track_order=False) as file:
+with h5py.File(out / "latest.h5", "w", libver=("v110", "v110")) as file:
     data = file.create_dataset("run/acc", data=signal(0), chunks=(77,), compression=4, shuffle=True, fletcher32=True)
     data.attrs["units"] = "m/s^2"
     file.create_dataset("run/big", data=signal(1).astype(">f4"))
@@ -181,8 +181,8 @@ for name, binary in [("ascii.uff", 0), ("binary.uff", 1)]:
     if not binary:  # pyuff writes doubles under a header that says singles
         sets += [function("acc y", 1, ord_data_type=2), function("single", 3, ord_data_type=2, abscissa_spacing=0)]
     sets += [function("complex", 4, ord_data_type=6) | {"data": signal(4) + 1j}]
-    for k, one in enumerate(sets):
-        file._write_set(one | {"binary": binary}, "overwrite" if k == 0 else "add", force_double=False)
+    for one in sets:
+        file._write_set(one | {"binary": binary}, "add", force_double=False)
 
 
 # --- Text.

@@ -38,5 +38,10 @@ pub use read::{
     open, open_as,
 };
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
+pub use write::mat::MatWriter;
+#[cfg(feature = "npz")]
+pub use write::npz::NpzWriter;
 #[cfg(feature = "parquet-write")]
 pub use write::parquet::ParquetWriter;
+pub use write::uff::UffWriter;
+pub use write::wav::WavWriter;

@@ -94,7 +94,7 @@ pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
 /// The text of an attribute.
 fn text_of(attributes: &std::collections::HashMap<String, AttrValue>, key: &str) -> Option<String> {
     match attributes.get(key)? {
-        AttrValue::String(text) | AttrValue::AsciiString(text) => {
+        AttrValue::String(text) | AttrValue::AsciiString(text) | AttrValue::VarLenString(text) => {
             Some(text.trim_end_matches('\0').to_owned())
         }
         _ => None,

@@ -251,7 +251,9 @@ impl Source for Uff {
             sink(&picked)
         };
         let total = function.count * if function.even { 1 } else { 2 };
-        if function.binary {
+        if function.short_x {
+            mixed(&mut reader, function, &mut pick)
+        } else if function.binary {
             let stored = if function.double {
                 Number::F64
             } else {
