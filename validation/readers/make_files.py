@@ -54,6 +54,7 @@ paderborn = {
     }
 }
 scipy.io.savemat(out / "paderborn.mat", paderborn, do_compression=True, long_field_names=True)
+scipy.io.savemat(out / "paderborn_v6.mat", paderborn, do_compression=False, long_field_names=True)
 cell = np.empty((1, 2), dtype=object)
 cell[0, 0], cell[0, 1] = column(7), "a word"
 kinds = {

@@ -84,13 +84,15 @@ fn xval_mat_like_mfpt_and_paderborn() {
     holds(&mut file, "bearing.gs", &signal(2));
     holds(&mut file, "bearing.rate", &[25.0]);
 
-    let mut file = opened("paderborn.mat");
-    let top = "N09_M07_F10_K001_1";
-    holds(&mut file, &format!("{top}.X[2].Data"), &signal(4));
-    holds(&mut file, &format!("{top}.Y[2].Data"), &signal(6));
-    let text = |key: &str| file.metadata().get(&format!("{top}.{key}"));
-    assert_eq!(text("Y[2].Name"), Some("vibration_1"));
-    assert_eq!(text("Info.Application"), Some("made up"));
+    for name in ["paderborn.mat", "paderborn_v6.mat"] {
+        let mut file = opened(name);
+        let top = "N09_M07_F10_K001_1";
+        holds(&mut file, &format!("{top}.X[2].Data"), &signal(4));
+        holds(&mut file, &format!("{top}.Y[2].Data"), &signal(6));
+        let text = |key: &str| file.metadata().get(&format!("{top}.{key}"));
+        assert_eq!(text("Y[2].Name"), Some("vibration_1"));
+        assert_eq!(text("Info.Application"), Some("made up"));
+    }
 }
 
 #[test]
