@@ -23,7 +23,9 @@ const MAX_CHANNELS: usize = 200_000;
 const MAX_MEMBERS: u64 = 100_000;
 const MAX_TEXT: u64 = 64 << 10;
 /// The longest chunk, and the longest dataset that is stored within a header.
-const MAX_CHUNK: u64 = 256 << 20;
+const MAX_CHUNK: u64 = 64 << 20;
+/// Deflate makes at most 1032 bytes of one.
+const MOST: u64 = 1032;
 const DEFLATE: u16 = 1;
 const SHUFFLE: u16 = 2;
 const FLETCHER: u16 = 3;
@@ -45,6 +47,8 @@ struct Walk {
     channels: Vec<Channel>,
     arrays: Vec<Option<Array>>,
     metadata: Metadata,
+    /// The most bytes of values that the file may hold.
+    most: u64,
     /// Groups and references looked at: a file may lead round in circles.
     visits: usize,
 }
@@ -58,6 +62,7 @@ impl From<hdf5_pure::Error> for Fault {
 pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
     let mut head = [0; 19];
     file.read_exact(&mut head)?;
+    let length = file.metadata().map_err(Fault::Io)?.len();
     let source = ReadSeekSource::new(file.try_clone().map_err(Fault::Io)?)
         .map_err(|e| damaged(e.to_string()))?;
     let tree = Hdf5::from_source(source)?;
@@ -66,6 +71,7 @@ pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
         channels: Vec::new(),
         arrays: Vec::new(),
         metadata: Metadata::default(),
+        most: length.saturating_mul(MOST),
         visits: 0,
     };
     walk.group(&tree.root(), "", 0)?;
@@ -147,10 +153,16 @@ impl Walk {
         if self.matlab {
             shape.reverse();
         }
+        let count = shape.iter().copied().fold(1, u64::saturating_mul);
+        let bytes = count.saturating_mul(dataset.element_size()?);
+        if bytes > self.most {
+            return Err(damaged(format!(
+                "`{name}` claims {bytes} bytes of values, more than the file can hold"
+            )));
+        }
         let attributes = dataset.attrs().unwrap_or_default();
         let class = text_of(&attributes, "MATLAB_class");
         let empty = attributes.contains_key("MATLAB_empty");
-        let count = shape.iter().copied().fold(1, u64::saturating_mul);
         if class.as_deref() == Some("char") && !empty {
             return self.text(&dataset, name, count);
         }
@@ -279,7 +291,7 @@ impl Source for Source5 {
             Layout::Chunked { chunk_shape, .. } => {
                 let chunk = chunk_shape.iter().copied().fold(1, u64::saturating_mul);
                 let bytes = chunk.saturating_mul(array.stored.bytes() as u64);
-                if bytes > MAX_CHUNK || chunk_shape.len() != shape.len() {
+                if bytes > MAX_CHUNK || bytes == 0 || chunk_shape.len() != shape.len() {
                     return Err(damaged(format!("a chunk of {bytes} bytes")));
                 }
                 let known = [DEFLATE, SHUFFLE, FLETCHER];
@@ -288,6 +300,13 @@ impl Source for Source5 {
                 if long <= 1 && filters.iter().all(|f| known.contains(f)) {
                     vector(&mut self.file, array, &shape, &chunk_shape, sink)
                 } else {
+                    // The crate takes memory for a stored chunk before it looks for its end.
+                    let length = self.file.metadata().map_err(Fault::Io)?.len();
+                    for chunk in array.dataset.chunks()? {
+                        if chunk.storage_size > length.saturating_sub(chunk.address) {
+                            return Err(damaged("a chunk reaches past the end of the file"));
+                        }
+                    }
                     rows(
                         array,
                         &shape,
@@ -308,7 +327,7 @@ fn rows(array: &Array, shape: &[u64], chunk: u64, sink: Sink<'_>) -> Result<(), 
     let inner = shape.iter().skip(1).copied().fold(1, u64::saturating_mul);
     let row_bytes = inner.saturating_mul(array.stored.bytes() as u64).max(1);
     let step = (MAX_CHUNK / 8 / row_bytes).max(chunk).max(1);
-    if row_bytes.saturating_mul(step.min(rows)) > 8 * MAX_CHUNK {
+    if row_bytes.saturating_mul(step.min(rows)) > 4 * MAX_CHUNK {
         return Err(unsupported(format!(
             "rows of {row_bytes} bytes are too long to be read one by one"
         )));

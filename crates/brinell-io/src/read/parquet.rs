@@ -1,6 +1,7 @@
 //! Parquet, read: flat tables of numbers, from brinell or anyone else (plain, Snappy or Zstandard).
 
 use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -9,7 +10,7 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
 use serde_json::{Map, Value};
 
 use super::channel::{Channel, Rate, RateSource};
@@ -56,12 +57,53 @@ fn read(file: File) -> Result<Signals, ParquetError> {
     })
 }
 
-type Head = (SerializedFileReader<File>, Vec<Column>, Metadata);
+/// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to come.
+struct Bounded {
+    file: File,
+    file_bytes: u64,
+}
+
+/// Reads on after the end are errors.
+struct UntilEnd(File);
+
+impl Read for UntilEnd {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self.0.read(buffer)? {
+            0 if !buffer.is_empty() => Err(io::ErrorKind::UnexpectedEof.into()),
+            count => Ok(count),
+        }
+    }
+}
+
+impl Length for Bounded {
+    fn len(&self) -> u64 {
+        self.file_bytes
+    }
+}
+
+impl ChunkReader for Bounded {
+    type T = BufReader<UntilEnd>;
+
+    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
+        let mut file = self.file.try_clone()?;
+        file.seek(SeekFrom::Start(start))?;
+        Ok(BufReader::new(UntilEnd(file)))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<bytes::Bytes, ParquetError> {
+        if length as u64 > self.file_bytes.saturating_sub(start) {
+            return Err(ParquetError::EOF("a page points outside the file".into()));
+        }
+        self.file.get_bytes(start, length)
+    }
+}
+
+type Head = (SerializedFileReader<Bounded>, Vec<Column>, Metadata);
 
 /// The columns and the metadata; an error where a column is nested or reaches outside the file.
 fn head(file: File) -> Result<Head, ParquetError> {
     let file_bytes = file.metadata()?.len();
-    let reader = SerializedFileReader::new(file)?;
+    let reader = SerializedFileReader::new(Bounded { file, file_bytes })?;
     check_chunks(reader.metadata(), file_bytes)?;
     let file_metadata = reader.metadata().file_metadata();
     let pairs = file_metadata.key_value_metadata().into_iter().flatten();
@@ -105,7 +147,7 @@ type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
 
 /// Hands on the values of one column, a batch at a time.
 fn column_pieces(
-    reader: &SerializedFileReader<File>,
+    reader: &SerializedFileReader<Bounded>,
     index: usize,
     name: &str,
     take: Take<'_>,
@@ -181,7 +223,7 @@ fn pieces<T: DataType>(
 }
 
 struct Table {
-    reader: SerializedFileReader<File>,
+    reader: SerializedFileReader<Bounded>,
     names: Vec<String>,
 }
 
