@@ -59,7 +59,7 @@ pub(crate) struct ScenarioArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = "Results in the folder:\n  \
-    signals.parquet or .csv   the recorded channels, SI units, names as in the documentation\n  \
+    signals.parquet, ...      the recorded channels, SI units, names as in the documentation\n  \
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
@@ -96,6 +96,14 @@ pub(crate) enum SignalFormat {
     Csv,
     /// Apache Parquet, with units and scenario in its metadata
     Parquet,
+    /// MATLAB v5: a variable per channel, `fs`, units and scenario as text
+    Mat,
+    /// NumPy's archive: an array per channel, `fs`, units and scenario as text
+    Npz,
+    /// Universal File Format 58b: a function per channel
+    Uff58,
+    /// Sound file of 32-bit floats in the channels' units, which its comment states
+    Wav,
     /// No signal file
     None,
 }

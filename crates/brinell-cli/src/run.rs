@@ -133,6 +133,10 @@ fn writers(
         let format = match format {
             SignalFormat::Csv => Format::Csv,
             SignalFormat::Parquet => Format::Parquet,
+            SignalFormat::Mat => Format::Mat,
+            SignalFormat::Npz => Format::Npz,
+            SignalFormat::Uff58 => Format::Uff58,
+            SignalFormat::Wav => Format::Wav,
             SignalFormat::None => continue,
         };
         if !formats.contains(&format) {

@@ -268,7 +268,7 @@ fn regress_bad_arguments_exit_2() {
         &[][..],
         &["rnu", "s.toml"],
         &["run"],
-        &["run", "s.toml", "--signals", "wav"],
+        &["run", "s.toml", "--signals", "flac"],
         &["run", "s.toml", "--plots", "gif"],
         &["bearing", "show", "6205"],
         &["frequencies"],

@@ -275,6 +275,10 @@ fn regress_signal_formats_are_what_was_asked_for() {
             &["signals.csv", "signals.parquet"],
         ),
         (&["--signals", "csv,csv,none"], &["signals.csv"]),
+        (
+            &["--signals", "mat,npz,uff58,wav"],
+            &["signals.mat", "signals.npz", "signals.uff", "signals.wav"],
+        ),
     ] {
         let output = format!("o{}", formats.join(""));
         let args = [&["run", "s.toml", "--no-report", "-o", &output], formats].concat();

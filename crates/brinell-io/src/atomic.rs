@@ -4,7 +4,7 @@
 //! the disk. After a crash at any point `NAME` is either absent, the old file, or the whole new one.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
@@ -63,6 +63,21 @@ impl PartialFile {
         })
     }
 
+    /// Writes over bytes that were appended before; the next append goes on at the end.
+    pub(crate) fn patch(&mut self, at: u64, bytes: &[u8]) -> Result<(), IoError> {
+        self.check()?;
+        let mut write = || {
+            let end = self.file.stream_position()?;
+            self.file.seek(SeekFrom::Start(at))?;
+            self.file.write_all(bytes)?;
+            self.file.seek(SeekFrom::Start(end))
+        };
+        write().map(drop).map_err(|e| {
+            self.failed = true;
+            IoError::writing(&self.path, e)
+        })
+    }
+
     /// Refuses where an earlier append failed.
     pub(crate) fn check(&self) -> Result<(), IoError> {
         if self.failed {
@@ -85,6 +100,23 @@ impl PartialFile {
         self.committed = true;
         sync_folder_of(&self.path);
         Ok(self.path.clone())
+    }
+}
+
+/// For encoders that write to a stream.
+impl Write for PartialFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes).inspect_err(|_| self.failed = true)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for PartialFile {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
     }
 }
 

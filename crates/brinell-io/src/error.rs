@@ -100,7 +100,7 @@ pub enum IoError {
         got: usize,
     },
     /// A format that is not among [`crate::Format::ALL`].
-    #[error("unknown signal format `{0}`; known are csv and parquet")]
+    #[error("unknown signal format `{0}`; known are csv, parquet, mat, npz, uff58 and wav")]
     UnknownFormat(String),
     /// A format that this build does not have.
     #[error("{}: this build has no {format}; build with the feature `{feature}` or choose csv", path.display())]
@@ -143,6 +143,106 @@ pub enum IoError {
         column: String,
         /// The value as it stands, cut to a few words.
         text: String,
+    },
+    /// A line of a text file with more or fewer values than the others.
+    #[error("{}: line {line} has {got} values where the first line of numbers has {expected}", path.display())]
+    TextRow {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// Values of the first line.
+        expected: usize,
+        /// Values of this line.
+        got: usize,
+    },
+    /// A file of no bytes.
+    #[error("{}: the file is empty", path.display())]
+    EmptyFile {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The name promises one format and the content shows another.
+    #[error("{}: named like {name_says}, but the content is {content_is}; rename it or save it again", path.display())]
+    Mislabelled {
+        /// The file.
+        path: PathBuf,
+        /// The format that the extension promises.
+        name_says: &'static str,
+        /// What the first bytes show.
+        content_is: String,
+    },
+    /// A file that is none of the formats that can be read.
+    #[error("{}: cannot read: {what}; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff", path.display())]
+    UnknownContent {
+        /// The file.
+        path: PathBuf,
+        /// What it looks like.
+        what: &'static str,
+    },
+    /// A file whose bytes contradict its format.
+    #[error("{}: damaged {kind} file: {why}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        kind: crate::FileKind,
+        /// What is wrong.
+        why: String,
+    },
+    /// A file that is sound and beyond what is read.
+    #[error("{}: cannot read: {why}", path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// What is not read.
+        why: String,
+    },
+    /// A name that is not in the file.
+    #[error("{}: there is no `{name}`; there are {names}", path.display())]
+    NoChannel {
+        /// The file.
+        path: PathBuf,
+        /// The name asked for.
+        name: String,
+        /// The names that are there, some of them where there are many.
+        names: String,
+    },
+    /// Nothing in the file may be a signal.
+    #[error("{}: nothing here is a signal; there are {found}", path.display())]
+    NoSignal {
+        /// The file.
+        path: PathBuf,
+        /// What is there.
+        found: String,
+    },
+    /// More than one channel may be the signal.
+    #[error("{}: several channels may be the signal; name one of {names}", path.display())]
+    SeveralSignals {
+        /// The file.
+        path: PathBuf,
+        /// Their names, some of them where there are many.
+        names: String,
+    },
+    /// A channel too long to be read whole.
+    #[error("{}: `{name}` has more than {limit} values; read it piece by piece", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+        /// The channel.
+        name: String,
+        /// The most values that are read at once.
+        limit: u64,
+    },
+    /// Something that a format needs is missing or beyond it.
+    #[error("{}: {format} cannot hold this: {why}", path.display())]
+    NotWritable {
+        /// The file to be written.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+        /// What is wrong.
+        why: String,
     },
     /// A damaged or unsupported Parquet file.
     #[error("{}: cannot read this Parquet file: {why}", path.display())]

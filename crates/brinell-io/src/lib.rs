@@ -20,21 +20,42 @@
 //! assert_eq!(std::fs::read_to_string(path)?, "t,outer_ax\n0.0,1.5\n");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! [`open`] reads what others measured: it finds the format from the content, lists the channels with the unit and the
+//! sample rate that the file states, and then streams one of them as `f64`.
+//!
+//! ```
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("run.csv");
+//! std::fs::write(&path, "time [s];acc [g]\n0,0;1,5\n0,1;-2,25\n")?;
+//! let mut file = brinell_io::open(&path)?;
+//! assert_eq!(file.channels()[1].unit.as_deref(), Some("g"));
+//! assert_eq!(file.channels()[1].rate, None);
+//! assert_eq!(file.read("acc [g]")?, [1.5, -2.25]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod atomic;
 mod csv;
 mod error;
-#[cfg(feature = "parquet")]
-mod parquet_read;
-#[cfg(feature = "parquet-write")]
-mod parquet_write;
+mod read;
 mod signals;
+mod write;
 
 pub use atomic::atomic_write;
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 #[cfg(feature = "parquet")]
-pub use parquet_read::read_parquet;
-#[cfg(feature = "parquet-write")]
-pub use parquet_write::ParquetWriter;
+pub use read::parquet::read_parquet;
+pub use read::{
+    Channel, Decimal, Delimiter, FileKind, MAX_VALUES, Rate, RateSource, SignalFile, TextFormat,
+    open, open_as,
+};
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
+pub use write::mat::MatWriter;
+#[cfg(feature = "npz")]
+pub use write::npz::NpzWriter;
+#[cfg(feature = "parquet-write")]
+pub use write::parquet::ParquetWriter;
+pub use write::uff::UffWriter;
+pub use write::wav::WavWriter;

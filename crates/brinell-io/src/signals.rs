@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::{CsvWriter, IoError};
+use crate::{CsvWriter, IoError, MatWriter, UffWriter, WavWriter};
 
 /// Keys of the metadata that a Parquet file carries.
 pub mod keys {
@@ -23,6 +23,11 @@ pub mod keys {
     pub const OUTCOME: &str = "brinell.outcome";
     /// The units once more, where pandas looks: `pandas.read_parquet(path).attrs["units"]`. Filled in by the writer.
     pub const PANDAS_ATTRS: &str = "PANDAS_ATTRS";
+
+    /// Name and unit of each channel in a WAV file's comment, a JSON object. Filled in by the writer.
+    pub const CHANNELS: &str = "brinell.channels";
+    /// The text variable of MAT and NPZ files with the unit of each channel, a JSON object. Filled in by the writer.
+    pub const UNITS_VARIABLE: &str = "brinell_units";
 
     #[cfg(feature = "parquet-write")]
     pub(crate) const RESERVED: [&str; 4] = [UNITS, DESCRIPTIONS, OUTCOME, PANDAS_ATTRS];
@@ -67,6 +72,12 @@ impl Metadata {
     pub fn with(mut self, key: impl Into<String>, value: impl Into<String>) -> Self {
         self.pairs.push((key.into(), value.into()));
         self
+    }
+
+    /// The sample rate in hertz, where one is given.
+    pub(crate) fn sample_rate(&self) -> Option<f64> {
+        let hz = self.get(keys::SAMPLE_RATE_HZ)?.trim().parse().ok()?;
+        Some(hz).filter(|hz: &f64| hz.is_finite() && *hz > 0.0)
     }
 
     /// The value of a key: the first, should a file repeat it.
@@ -114,17 +125,36 @@ pub enum Format {
     Csv,
     /// Apache Parquet with units, scenario and version in its metadata.
     Parquet,
+    /// MATLAB v5: a variable per channel, `fs`, and texts with units, scenario and version.
+    Mat,
+    /// NumPy's archive: an array per channel, `fs`, and texts with units, scenario and version.
+    Npz,
+    /// Universal File Format, dataset 58b: a function per channel, double precision, even spacing.
+    Uff58,
+    /// WAV of 32-bit floats in the channels' units, which a comment states.
+    Wav,
 }
 
 impl Format {
     /// Every format there is, also those that this build left out.
-    pub const ALL: [Self; 2] = [Self::Csv, Self::Parquet];
+    pub const ALL: [Self; 6] = [
+        Self::Csv,
+        Self::Parquet,
+        Self::Mat,
+        Self::Npz,
+        Self::Uff58,
+        Self::Wav,
+    ];
 
-    /// The name that selects it: `csv` or `parquet`.
+    /// The name that selects it: `csv`, `parquet`, `mat`, `npz`, `uff58` or `wav`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Csv => "csv",
             Self::Parquet => "parquet",
+            Self::Mat => "mat",
+            Self::Npz => "npz",
+            Self::Uff58 => "uff58",
+            Self::Wav => "wav",
         }
     }
 
@@ -133,10 +163,17 @@ impl Format {
         match self {
             Self::Csv => "signals.csv",
             Self::Parquet => "signals.parquet",
+            Self::Mat => "signals.mat",
+            Self::Npz => "signals.npz",
+            Self::Uff58 => "signals.uff",
+            Self::Wav => "signals.wav",
         }
     }
 
     /// A writer of this format's file in an existing folder. CSV has no place for metadata and leaves it out.
+    ///
+    /// MAT, NPZ and UFF keep the rows in a nameless temporary file of that folder until the end, for they store one channel after the
+    /// other. UFF and WAV need [`keys::SAMPLE_RATE_HZ`] and leave out a column `t` in seconds, which it replaces.
     pub fn create(
         self,
         folder: &Path,
@@ -144,22 +181,32 @@ impl Format {
         metadata: &Metadata,
     ) -> Result<Box<dyn SignalWriter>, IoError> {
         let path = folder.join(self.file_name());
-        match self {
-            Self::Csv => Ok(Box::new(CsvWriter::create(&path, columns)?)),
+        Ok(match self {
+            Self::Csv => Box::new(CsvWriter::create(&path, columns)?),
             #[cfg(feature = "parquet-write")]
-            Self::Parquet => Ok(Box::new(crate::ParquetWriter::create(
-                &path, columns, metadata,
-            )?)),
+            Self::Parquet => Box::new(crate::ParquetWriter::create(&path, columns, metadata)?),
+            Self::Mat => Box::new(MatWriter::create(&path, columns, metadata, false)?),
+            #[cfg(feature = "npz")]
+            Self::Npz => Box::new(crate::NpzWriter::create(&path, columns, metadata)?),
+            Self::Uff58 => Box::new(UffWriter::create(&path, columns, metadata)?),
+            Self::Wav => Box::new(WavWriter::create(&path, columns, metadata)?),
             #[cfg(not(feature = "parquet-write"))]
             Self::Parquet => {
-                let _ = metadata;
-                Err(IoError::FormatLeftOut {
+                return Err(IoError::FormatLeftOut {
                     path,
                     format: self.name(),
                     feature: "parquet",
-                })
+                });
             }
-        }
+            #[cfg(not(feature = "npz"))]
+            Self::Npz => {
+                return Err(IoError::FormatLeftOut {
+                    path,
+                    format: self.name(),
+                    feature: "npz",
+                });
+            }
+        })
     }
 }
 
@@ -227,6 +274,22 @@ pub(crate) fn check_columns(path: &Path, columns: &[Column]) -> Result<(), IoErr
         });
     }
     Ok(())
+}
+
+/// The unit of each column as a JSON object.
+pub(crate) fn units_json(columns: &[Column]) -> String {
+    let units = columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.as_str().into()));
+    serde_json::Value::Object(units.collect()).to_string()
+}
+
+/// Where the columns to be written stand: not `t`, in files that hold a start and a rate instead.
+pub(crate) fn without_time(columns: &[Column]) -> Vec<usize> {
+    let is_time = |c: &Column| c.name == "t" && c.unit == "s";
+    (0..columns.len())
+        .filter(|&i| !is_time(&columns[i]))
+        .collect()
 }
 
 /// Checks a row against the number of columns.

@@ -1,8 +1,9 @@
-//! What the tests of both formats share.
+//! What the tests of the formats share.
+#![allow(dead_code)]
 
 use std::path::Path;
 
-use brinell_io::{Column, IoError, SignalWriter};
+use brinell_io::{Column, IoError, Metadata, SignalWriter, keys};
 use proptest::prelude::*;
 
 /// A time and an acceleration.
@@ -11,6 +12,11 @@ pub(crate) fn columns() -> Vec<Column> {
         Column::new("t", "s", "time"),
         Column::new("outer_ax", "m/s^2", "outer ring \"along\" x"),
     ]
+}
+
+/// What every format can be written with.
+pub(crate) fn sampled() -> Metadata {
+    Metadata::default().with(keys::SAMPLE_RATE_HZ, "25600")
 }
 
 /// Any 64 bits, the awkward ones often.

@@ -1,0 +1,129 @@
+//! What a file says of its channels.
+
+use super::numbers::Number;
+
+/// A sample rate that a file states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rate {
+    /// Samples per second.
+    pub hz: f64,
+    /// Where the file says so.
+    pub source: RateSource,
+}
+
+/// Where a sample rate comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RateSource {
+    /// The format has a field for it; holds the field's name.
+    Header(String),
+    /// A variable beside the channel is called like a sample rate; holds its name. The format gives that name no meaning, so a
+    /// caller should show it.
+    Variable(String),
+}
+
+/// One array of numbers in a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Channel {
+    /// The name that [`crate::SignalFile::read`] takes: a column of a table, a path such as `bearing.gs` or `Y[2].Data`.
+    /// Indices count from 1, as in MATLAB.
+    pub name: String,
+    /// The size along each dimension, rows first. Empty for a single number, and for a text file, whose length nobody knows before it is read.
+    pub shape: Vec<u64>,
+    /// The number of values; `None` for a text file.
+    pub length: Option<u64>,
+    /// How the file stores a value, in NumPy's words: `float64`, `int16`, `text`.
+    pub stored_as: &'static str,
+    /// The unit, as the file spells it. Never a guess.
+    pub unit: Option<String>,
+    /// The sample rate. Never a guess.
+    pub rate: Option<Rate>,
+    /// Why this channel cannot be read, where that is so: complex numbers, a column of words.
+    pub unreadable: Option<String>,
+    /// Whether the first index runs fastest in the file.
+    pub(crate) column_major: bool,
+}
+
+impl Channel {
+    /// A readable array.
+    pub(crate) fn array(name: impl Into<String>, shape: Vec<u64>, stored: Number) -> Self {
+        Self {
+            name: name.into(),
+            length: Some(shape.iter().copied().fold(1, u64::saturating_mul)),
+            shape,
+            stored_as: stored.name(),
+            ..Self::default()
+        }
+    }
+
+    /// The dimensions longer than 1, or all where there are no more than two.
+    pub(crate) fn plane(&self) -> Vec<u64> {
+        if self.shape.len() <= 2 {
+            self.shape.clone()
+        } else {
+            self.shape.iter().copied().filter(|&n| n != 1).collect()
+        }
+    }
+
+    /// Whether the values lie along one dimension, so that their order is the order in time.
+    pub fn is_vector(&self) -> bool {
+        self.shape.contains(&0) || self.shape.iter().filter(|&&n| n != 1).count() <= 1
+    }
+
+    /// Whether this may be a signal: readable, and more than one value.
+    pub fn may_be_signal(&self) -> bool {
+        self.unreadable.is_none() && self.length.is_none_or(|n| n > 1)
+    }
+}
+
+/// Names that people give to a variable with the sample rate in hertz, in lower case.
+const RATE_NAMES: [&str; 11] = [
+    "fs",
+    "sr",
+    "fs_hz",
+    "fsamp",
+    "samplerate",
+    "sample_rate",
+    "sample_rate_hz",
+    "sampling_rate",
+    "samplingrate",
+    "sampling_frequency",
+    "samplingfrequency",
+];
+
+/// Whether the last part of a path is a usual name of a sample rate.
+pub(crate) fn names_a_rate(path: &str) -> bool {
+    let last = path.rsplit(['.', '/']).next().unwrap_or(path);
+    RATE_NAMES.contains(&last.to_ascii_lowercase().as_str())
+}
+
+/// Gives every signal the rate that lies beside it, where exactly one does. `rates` holds paths and values.
+pub(crate) fn lend_rates(channels: &mut [Channel], rates: &[(String, f64)]) {
+    let folder = |path: &str| path.rfind(['.', '/']).map_or(0, |at| at + 1);
+    for channel in channels {
+        if channel.rate.is_some() || !channel.may_be_signal() {
+            continue;
+        }
+        let mine = &channel.name[..folder(&channel.name)];
+        let mut beside = rates
+            .iter()
+            .filter(|(path, hz)| &path[..folder(path)] == mine && hz.is_finite() && *hz > 0.0);
+        if let (Some((path, hz)), None) = (beside.next(), beside.next()) {
+            channel.rate = Some(Rate {
+                hz: *hz,
+                source: RateSource::Variable(path.clone()),
+            });
+        }
+    }
+}
+
+/// Makes names unique: the second `a` becomes `a#2`.
+pub(crate) fn tell_apart(channels: &mut [Channel]) {
+    let mut seen = std::collections::HashMap::<String, usize>::new();
+    for channel in channels {
+        let count = seen.entry(channel.name.clone()).or_default();
+        *count += 1;
+        if *count > 1 {
+            channel.name = format!("{}#{count}", channel.name);
+        }
+    }
+}

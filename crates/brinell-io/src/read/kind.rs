@@ -1,0 +1,157 @@
+//! Which format a file is: from its content, checked against its name.
+
+use std::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::IoError;
+
+/// A format that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FileKind {
+    /// Numbers as text: CSV, tab-separated, LabVIEW's LVM.
+    Text,
+    /// Apache Parquet.
+    Parquet,
+    /// MATLAB v5, v6 and v7.
+    Mat5,
+    /// HDF5, among it MATLAB v7.3.
+    Hdf5,
+    /// One NumPy array.
+    Npy,
+    /// NumPy's archive of arrays.
+    Npz,
+    /// WAV: RIFF, RF64.
+    Wav,
+    /// Universal File Format, dataset 58, as text or binary (58b).
+    Uff58,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Text => "text",
+            Self::Parquet => "Parquet",
+            Self::Mat5 => "MATLAB v5/v7",
+            Self::Hdf5 => "HDF5 (MATLAB v7.3)",
+            Self::Npy => "NumPy npy",
+            Self::Npz => "NumPy npz",
+            Self::Wav => "WAV",
+            Self::Uff58 => "UFF",
+        })
+    }
+}
+
+/// Enough to see any signature: HDF5's may stand behind a user block of 512, 1024, ... bytes.
+const HEAD: u64 = 8 << 10;
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// The kinds that a file's extension promises, and how to call them. `txt`, `dat` and others promise nothing.
+fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
+    use FileKind as K;
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    Some(match extension.as_str() {
+        "csv" | "tsv" | "lvm" => (&[K::Text], "text"),
+        "parquet" | "pq" => (&[K::Parquet], "Parquet"),
+        "mat" => (&[K::Mat5, K::Hdf5], "MATLAB"),
+        "h5" | "hdf5" | "hdf" => (&[K::Hdf5], "HDF5"),
+        "npy" => (&[K::Npy], "NumPy npy"),
+        "npz" => (&[K::Npz], "NumPy npz"),
+        "wav" | "wave" => (&[K::Wav], "WAV"),
+        "uff" | "unv" | "uf" | "uf58" | "bunv" => (&[K::Uff58], "UFF"),
+        _ => return None,
+    })
+}
+
+/// The kind of a file; an error where content and name disagree.
+pub(crate) fn sniff(path: &Path, file: &mut File) -> Result<FileKind, IoError> {
+    let mut head = Vec::new();
+    file.take(HEAD)
+        .read_to_end(&mut head)
+        .map_err(|e| IoError::reading(path, e))?;
+    if head.is_empty() {
+        return Err(IoError::EmptyFile {
+            path: path.to_owned(),
+        });
+    }
+    let found = from_content(&head);
+    let mislabelled = |name_says, content_is| IoError::Mislabelled {
+        path: path.to_owned(),
+        name_says,
+        content_is,
+    };
+    match (found, promised(path)) {
+        (Ok(kind), Some((kinds, name))) if !kinds.contains(&kind) => {
+            Err(mislabelled(name, kind.to_string()))
+        }
+        (Ok(kind), _) => Ok(kind),
+        (Err(what), Some((_, name))) => Err(mislabelled(name, what.to_owned())),
+        (Err(what), None) => Err(IoError::UnknownContent {
+            path: path.to_owned(),
+            what,
+        }),
+    }
+}
+
+/// The kind that the first bytes show, or what they look like instead.
+fn from_content(head: &[u8]) -> Result<FileKind, &'static str> {
+    let at = |from: usize, sign: &[u8]| head.get(from..).is_some_and(|h| h.starts_with(sign));
+    if at(0, b"PAR1") {
+        return Ok(FileKind::Parquet);
+    }
+    if at(0, b"\x93NUMPY") {
+        return Ok(FileKind::Npy);
+    }
+    if at(0, b"PK\x03\x04") || at(0, b"PK\x05\x06") {
+        let office = memchr::memmem::find(head, b"[Content_Types].xml").is_some();
+        return if office {
+            Err("a spreadsheet or other Office document")
+        } else {
+            Ok(FileKind::Npz)
+        };
+    }
+    if (at(0, b"RIFF") || at(0, b"RF64") || at(0, b"BW64")) && at(8, b"WAVE") {
+        return Ok(FileKind::Wav);
+    }
+    if [0, 512, 1024, 2048, 4096].into_iter().any(|n| at(n, HDF5)) {
+        return Ok(FileKind::Hdf5);
+    }
+    if at(126, b"IM") && at(125, &[1]) || at(126, b"MI") && at(124, &[1]) {
+        return Ok(FileKind::Mat5);
+    }
+    for (sign, what) in [
+        (&b"\x1f\x8b"[..], "a gzip archive"),
+        (b"\xff\xfe", "text in UTF-16; save it as UTF-8"),
+        (b"\xfe\xff", "text in UTF-16; save it as UTF-8"),
+        (b"\xd0\xcf\x11\xe0", "an old Office document"),
+        (b"TDSm", "a LabVIEW TDMS file"),
+        (b"\x28\xb5\x2f\xfd", "a Zstandard archive"),
+        (b"RIFX", "a big-endian RIFF file"),
+    ] {
+        if at(0, sign) {
+            return Err(what);
+        }
+    }
+    let text = String::from_utf8_lossy(head);
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let delimiter = lines.next().is_some_and(|line| line.trim_end() == "    -1");
+    let number = |line: &str| {
+        line.get(..6)
+            .is_some_and(|n| n.trim().parse::<u16>().is_ok())
+    };
+    if delimiter && lines.next().is_some_and(number) {
+        return Ok(FileKind::Uff58);
+    }
+    if head.contains(&0) {
+        // Four bytes that say little-endian numbers of a known width, then sizes: MATLAB's format before 1996.
+        let old = head.len() >= 20 && head[..4].iter().skip(1).all(|&b| b < 0x10) && head[1] == 0;
+        return Err(if old {
+            "no known format (perhaps MATLAB v4; save it again as v7)"
+        } else {
+            "no known format"
+        });
+    }
+    Ok(FileKind::Text)
+}

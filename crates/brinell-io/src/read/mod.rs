@@ -1,0 +1,270 @@
+//! Measured signals from the files that instruments and other programs write.
+//!
+//! [`open`] looks at the content, lists what is there and reads nothing else yet. A channel is then read whole
+//! ([`SignalFile::read`]) or piece by piece ([`SignalFile::read_pieces`]), which holds a few megabytes whatever the file's size.
+//!
+//! Sample rates and units are what the file states, with the place where it does; there are no guesses.
+
+mod channel;
+mod fault;
+#[cfg(feature = "hdf5")]
+mod hdf5;
+mod kind;
+mod mat5;
+mod npy;
+#[cfg(feature = "npz")]
+mod npz;
+mod numbers;
+#[cfg(feature = "parquet")]
+pub(crate) mod parquet;
+mod pick;
+mod text;
+mod uff;
+mod wav;
+
+use std::fs::File;
+use std::io::Seek;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+pub use channel::{Channel, Rate, RateSource};
+pub use kind::FileKind;
+pub use text::{Decimal, Delimiter, TextFormat};
+
+use crate::{IoError, Metadata};
+use fault::Fault;
+use numbers::Sink;
+
+/// The most values that [`SignalFile::read`] collects: 2 GiB of them.
+pub const MAX_VALUES: u64 = 1 << 28;
+
+/// What a format's reader gives.
+struct Listing {
+    channels: Vec<Channel>,
+    metadata: Metadata,
+    source: Box<dyn Source>,
+}
+
+/// A format's way to the values of a channel.
+trait Source: Send {
+    /// Hands on every value of the channel of this index, in the file's order.
+    fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault>;
+}
+
+/// A file of signals, opened and listed.
+pub struct SignalFile {
+    path: PathBuf,
+    kind: FileKind,
+    channels: Vec<Channel>,
+    metadata: Metadata,
+    source: Box<dyn Source>,
+}
+
+impl std::fmt::Debug for SignalFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SignalFile")
+            .field("path", &self.path)
+            .field("kind", &self.kind)
+            .field("channels", &self.channels)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Opens a file of signals and lists its channels.
+///
+/// The format is what the content shows; where the name promises another, that is an error which names both. Refused are also
+/// files that are empty, cut off, damaged, or claim more than they can hold.
+pub fn open(path: impl AsRef<Path>) -> Result<SignalFile, IoError> {
+    open_as(path, &TextFormat::default())
+}
+
+/// [`open`], with what the caller knows of a text file that the file does not show.
+pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, IoError> {
+    let path = path.as_ref();
+    let reading = |e| IoError::reading(path, e);
+    let mut file = File::open(path).map_err(reading)?;
+    if file.metadata().map_err(reading)?.is_dir() {
+        return Err(IoError::NotAFileName {
+            path: path.to_owned(),
+        });
+    }
+    let kind = kind::sniff(path, &mut file)?;
+    file.rewind().map_err(reading)?;
+    let list = || match kind {
+        FileKind::Text => text::list(file, text),
+        #[cfg(feature = "parquet")]
+        FileKind::Parquet => parquet::list(file),
+        FileKind::Mat5 => mat5::list(file),
+        #[cfg(feature = "hdf5")]
+        FileKind::Hdf5 => hdf5::list(file),
+        FileKind::Npy => npy::list(file),
+        #[cfg(feature = "npz")]
+        FileKind::Npz => npz::list(file),
+        FileKind::Wav => wav::list(file),
+        FileKind::Uff58 => uff::list(file),
+        #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
+        _ => Err(fault::unsupported(
+            "this build leaves the format out; build brinell-io with its default features",
+        )),
+    };
+    let mut listing = guarded(list).map_err(|fault| told(path, kind, fault))?;
+    channel::tell_apart(&mut listing.channels);
+    Ok(SignalFile {
+        path: path.to_owned(),
+        kind,
+        channels: listing.channels,
+        metadata: listing.metadata,
+        source: listing.source,
+    })
+}
+
+impl SignalFile {
+    /// The path as given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The format, from the content.
+    pub fn kind(&self) -> FileKind {
+        self.kind
+    }
+
+    /// Every array in the file, in its order; also single numbers and what cannot be read.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Short texts in the file, by name: MATLAB's strings under their paths, WAV's comment, Parquet's pairs.
+    pub fn metadata(&self) -> &Metadata {
+        &self.metadata
+    }
+
+    /// The one channel that may be a signal. An error names them where there are several, as beside a column of times.
+    pub fn only_signal(&self) -> Result<&Channel, IoError> {
+        let mut signals = self.channels.iter().filter(|c| c.may_be_signal());
+        match (signals.next(), signals.next()) {
+            (Some(signal), None) => Ok(signal),
+            (None, _) => Err(IoError::NoSignal {
+                path: self.path.clone(),
+                found: names(self.channels.iter()),
+            }),
+            (Some(_), Some(_)) => Err(IoError::SeveralSignals {
+                path: self.path.clone(),
+                names: names(self.channels.iter().filter(|c| c.may_be_signal())),
+            }),
+        }
+    }
+
+    /// All values of a channel, or of a matrix's column or row such as `X(:,2)`: at most [`MAX_VALUES`].
+    ///
+    /// Memory is taken as values arrive, so that a file cannot claim it. Missing values are NaN. 64-bit integers beyond 2^53 round.
+    pub fn read(&mut self, name: &str) -> Result<Vec<f64>, IoError> {
+        let mut values = Vec::new();
+        let mut too_long = false;
+        self.read_pieces(name, |piece| {
+            too_long = (values.len() + piece.len()) as u64 > MAX_VALUES;
+            if too_long {
+                return ControlFlow::Break(());
+            }
+            values.extend_from_slice(piece);
+            ControlFlow::Continue(())
+        })?;
+        if too_long {
+            return Err(IoError::TooLong {
+                path: self.path.clone(),
+                name: name.to_owned(),
+                limit: MAX_VALUES,
+            });
+        }
+        Ok(values)
+    }
+
+    /// Hands the values of a channel to `sink` in order, piece by piece, until the end or until it breaks off.
+    pub fn read_pieces(
+        &mut self,
+        name: &str,
+        sink: impl FnMut(&[f64]) -> ControlFlow<()>,
+    ) -> Result<(), IoError> {
+        let find = |name: &str| self.channels.iter().position(|c| c.name == name);
+        let (index, pick) = match find(name) {
+            Some(index) => (index, pick::Pick::All),
+            None => {
+                let (base, pick) = pick::split(name);
+                let index = find(base).ok_or_else(|| IoError::NoChannel {
+                    path: self.path.clone(),
+                    name: name.to_owned(),
+                    names: names(self.channels.iter()),
+                })?;
+                (index, pick)
+            }
+        };
+        let channel = &self.channels[index];
+        let cannot = |why: String| IoError::Unsupported {
+            path: self.path.clone(),
+            why,
+        };
+        if let Some(why) = &channel.unreadable {
+            return Err(cannot(format!("`{}` {why}", channel.name)));
+        }
+        let stride = pick::stride(channel, pick).map_err(cannot)?;
+        let mut through = pick::through(stride, sink);
+        let source = &mut self.source;
+        match guarded(|| source.stream(index, &mut through)) {
+            Ok(()) | Err(Fault::Stopped) => Ok(()),
+            Err(fault) => Err(told(&self.path, self.kind, fault)),
+        }
+    }
+}
+
+/// Up to twenty names, for a message.
+fn names<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
+    let mut all: Vec<&str> = channels.map(|c| c.name.as_str()).collect();
+    let more = all.len().saturating_sub(20);
+    all.truncate(20);
+    let mut text = all.join(", ");
+    if more > 0 {
+        text += &format!(" and {more} more");
+    }
+    if text.is_empty() {
+        text = "nothing".into();
+    }
+    text
+}
+
+/// Other people's readers assert some of what a damaged file can break; such a panic ends here.
+fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|_| Err(fault::damaged("a reader gave up on it")))
+}
+
+fn told(path: &Path, kind: FileKind, fault: Fault) -> IoError {
+    let path = path.to_owned();
+    match fault {
+        Fault::Io(source) => IoError::Read { path, source },
+        Fault::Damaged(why) => IoError::Damaged { path, kind, why },
+        Fault::Unsupported(why) => IoError::Unsupported { path, why },
+        Fault::Number { line, column, text } => IoError::CsvNumber {
+            path,
+            line,
+            column,
+            text,
+        },
+        Fault::Row {
+            line,
+            expected,
+            got,
+        } => IoError::TextRow {
+            path,
+            line,
+            expected,
+            got,
+        },
+        // Only `read_pieces` has a receiver, and takes this out before.
+        Fault::Stopped => IoError::Damaged {
+            path,
+            kind,
+            why: "reading stopped".into(),
+        },
+    }
+}

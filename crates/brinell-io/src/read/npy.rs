@@ -1,0 +1,146 @@
+//! One NumPy array, read. Layout: NumPy's `numpy.lib.format`, versions 1 to 3.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+
+use super::channel::Channel;
+use super::fault::{Fault, damaged};
+use super::numbers::{Number, Sink};
+use super::{Listing, Source};
+use crate::Metadata;
+
+/// NumPy itself refuses longer headers.
+const MAX_HEADER: usize = 64 << 10;
+
+/// What the header of an array says.
+pub(super) struct Array {
+    pub(super) channel: Channel,
+    /// `None` where the values cannot be read; the channel says why.
+    pub(super) stored: Option<Number>,
+    pub(super) big_endian: bool,
+    /// Bytes of the values.
+    pub(super) bytes: u64,
+}
+
+/// Reads the header; the reader then stands at the values.
+pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault> {
+    let mut start = [0; 8];
+    reader.read_exact(&mut start)?;
+    if !start.starts_with(b"\x93NUMPY") {
+        return Err(damaged(format!("`{name}` is no NumPy array")));
+    }
+    let length = if start[6] == 1 {
+        let mut size = [0; 2];
+        reader.read_exact(&mut size)?;
+        usize::from(u16::from_le_bytes(size))
+    } else {
+        let mut size = [0; 4];
+        reader.read_exact(&mut size)?;
+        u32::from_le_bytes(size) as usize
+    };
+    if length > MAX_HEADER {
+        return Err(damaged(format!("a header of {length} bytes is no header")));
+    }
+    let mut text = vec![0; length];
+    reader.read_exact(&mut text)?;
+    let text = String::from_utf8_lossy(&text);
+    let after = |key: &str| {
+        let at = text.find(key).map(|at| at + key.len());
+        let rest = at.and_then(|at| text[at..].trim_start().strip_prefix(':'));
+        rest.map(str::trim_start)
+            .ok_or_else(|| damaged(format!("the header has no {key}")))
+    };
+    let column_major = after("'fortran_order'")?.starts_with("True");
+    let shape = after("'shape'")?;
+    let shape = shape
+        .strip_prefix('(')
+        .and_then(|s| s.split_once(')'))
+        .ok_or_else(|| damaged("the header's shape is no tuple"))?
+        .0;
+    let shape: Vec<u64> = shape
+        .split(',')
+        .map(str::trim)
+        .filter(|s| !s.is_empty())
+        .map(|s| s.trim_end_matches('L').parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| damaged(format!("`{shape}` is no shape")))?;
+    let kind = after("'descr'")?;
+    let word = kind
+        .strip_prefix('\'')
+        .and_then(|k| k.split_once('\''))
+        .map(|(word, _)| word);
+    let (order, number) = word.and_then(|w| w.split_at_checked(1)).unwrap_or(("", ""));
+    let stored = match number {
+        "i1" => Some(Number::I8),
+        "u1" | "b1" => Some(Number::U8),
+        "i2" => Some(Number::I16),
+        "u2" => Some(Number::U16),
+        "i4" => Some(Number::I32),
+        "u4" => Some(Number::U32),
+        "i8" => Some(Number::I64),
+        "u8" => Some(Number::U64),
+        "f2" => Some(Number::F16),
+        "f4" => Some(Number::F32),
+        "f8" => Some(Number::F64),
+        _ => None,
+    }
+    .filter(|_| matches!(order, "<" | ">" | "|" | "="));
+    let mut channel = Channel::array(name, shape, stored.unwrap_or(Number::U8));
+    channel.column_major = column_major;
+    if stored.is_none() {
+        channel.stored_as = "other";
+        let what = word.map_or("records".into(), |w| format!("`{w}`"));
+        channel.unreadable = Some(format!("holds {what}, not real numbers"));
+    }
+    // Saturated products mean more than any file holds.
+    let bytes = channel
+        .length
+        .unwrap_or(u64::MAX)
+        .saturating_mul(stored.map_or(1, Number::bytes) as u64);
+    Ok(Array {
+        channel,
+        stored,
+        big_endian: order == ">",
+        bytes,
+    })
+}
+
+struct Npy {
+    file: File,
+    start: u64,
+    array: Array,
+}
+
+pub(super) fn list(file: File) -> Result<Listing, Fault> {
+    let length = file.metadata().map_err(Fault::Io)?.len();
+    let mut reader = BufReader::new(file);
+    let array = header(&mut reader, "array")?;
+    let start = reader.stream_position()?;
+    if array.stored.is_some() && array.bytes > length - start {
+        return Err(damaged(format!(
+            "the header promises {} bytes of values and {} are there",
+            array.bytes,
+            length - start
+        )));
+    }
+    Ok(Listing {
+        channels: vec![array.channel.clone()],
+        metadata: Metadata::default(),
+        source: Box::new(Npy {
+            file: reader.into_inner(),
+            start,
+            array,
+        }),
+    })
+}
+
+impl Source for Npy {
+    fn stream(&mut self, _: usize, sink: Sink<'_>) -> Result<(), Fault> {
+        self.file.seek(SeekFrom::Start(self.start))?;
+        let count = self.array.channel.length.unwrap_or(0);
+        match self.array.stored {
+            Some(stored) => stored.stream(self.array.big_endian, &mut self.file, count, sink),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! NumPy's archive of arrays, read: a zip file, stored or deflated.
+//!
+//! A small archive may inflate to a huge one. Values are streamed, so that costs no memory; and an array may not claim more bytes than
+//! deflate can make of what is stored.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+
+use zip::ZipArchive;
+use zip::result::ZipError;
+
+use super::channel::{Channel, lend_rates, names_a_rate};
+use super::fault::{Fault, damaged};
+use super::npy::{Array, header};
+use super::numbers::{Number, Sink};
+use super::{Listing, Source};
+use crate::{Metadata, keys};
+
+/// Deflate makes at most 1032 bytes of one.
+const MOST: u64 = 1032;
+const MAX_ENTRIES: usize = 100_000;
+const MAX_TEXT: usize = 1 << 20;
+
+struct Npz {
+    archive: ZipArchive<BufReader<File>>,
+    /// Where each channel stands in the archive.
+    entries: Vec<usize>,
+}
+
+impl From<ZipError> for Fault {
+    fn from(error: ZipError) -> Self {
+        match error {
+            ZipError::Io(error) => error.into(),
+            ZipError::UnsupportedArchive(why) => Self::Unsupported(why.to_string()),
+            error => Self::Damaged(error.to_string()),
+        }
+    }
+}
+
+pub(super) fn list(file: File) -> Result<Listing, Fault> {
+    let mut archive = ZipArchive::new(BufReader::new(file))?;
+    if archive.len() > MAX_ENTRIES {
+        return Err(damaged(format!("it claims {} arrays", archive.len())));
+    }
+    let (mut channels, mut entries, mut rates) = (Vec::<Channel>::new(), Vec::new(), Vec::new());
+    let mut metadata = Metadata::default();
+    for index in 0..archive.len() {
+        let mut entry = archive.by_index(index)?;
+        let name = entry.name()?.into_owned();
+        let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else {
+            continue;
+        };
+        let most = entry.compressed_size().saturating_mul(MOST);
+        let array = header(&mut entry, &name)?;
+        if array.bytes > most && array.stored.is_some() {
+            return Err(damaged(format!(
+                "`{name}` claims {} bytes of values, more than its {} stored bytes can hold",
+                array.bytes,
+                entry.compressed_size()
+            )));
+        }
+        if let Some(text) = text(&array, &mut entry)? {
+            metadata.pairs.push((name, text));
+            continue;
+        }
+        if array.channel.length == Some(1)
+            && names_a_rate(&name)
+            && let Some(number) = array.stored
+        {
+            number.stream(array.big_endian, &mut entry, 1, &mut |v| {
+                rates.extend(v.iter().map(|&hz| (name.clone(), hz)));
+                std::ops::ControlFlow::Continue(())
+            })?;
+        }
+        channels.push(array.channel);
+        entries.push(index);
+    }
+    lend_rates(&mut channels, &rates);
+    lend_units(&mut channels, &metadata);
+    Ok(Listing {
+        channels,
+        metadata,
+        source: Box::new(Npz { archive, entries }),
+    })
+}
+
+/// A single text, NumPy's kinds `U` and `S`.
+fn text(array: &Array, reader: &mut impl Read) -> Result<Option<String>, Fault> {
+    let single = array.channel.length == Some(1);
+    let kind = array.channel.unreadable.as_deref().unwrap_or_default();
+    let word = kind.split('`').nth(1).unwrap_or_default();
+    let width = |sign| {
+        let digits = word
+            .trim_start_matches(['<', '>', '|', '='])
+            .strip_prefix(sign)?;
+        digits.parse::<usize>().ok().filter(|&n| n <= MAX_TEXT / 4)
+    };
+    let bytes = |reader: &mut dyn Read, n: usize| -> Result<Vec<u8>, Fault> {
+        let mut bytes = vec![0; n];
+        reader.read_exact(&mut bytes)?;
+        Ok(bytes)
+    };
+    let text = if !single {
+        return Ok(None);
+    } else if let Some(n) = width('U') {
+        let to_char = |b: &[u8; 4]| {
+            let code = if array.big_endian {
+                u32::from_be_bytes(*b)
+            } else {
+                u32::from_le_bytes(*b)
+            };
+            char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER)
+        };
+        bytes(reader, 4 * n)?
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .map(to_char)
+            .collect()
+    } else if let Some(n) = width('S') {
+        String::from_utf8_lossy(&bytes(reader, n)?).into_owned()
+    } else {
+        return Ok(None);
+    };
+    Ok(Some(text.trim_end_matches('\0').to_owned()))
+}
+
+/// The units that brinell writes beside its channels.
+pub(super) fn lend_units(channels: &mut [Channel], metadata: &Metadata) {
+    let Some(units) = metadata.get(keys::UNITS_VARIABLE) else {
+        return;
+    };
+    let Ok(units) = serde_json::from_str::<serde_json::Value>(units) else {
+        return;
+    };
+    for channel in channels {
+        let unit = units.get(&channel.name).and_then(|u| u.as_str());
+        channel.unit = unit.filter(|u| !u.is_empty()).map(str::to_owned);
+    }
+}
+
+impl Source for Npz {
+    fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
+        let mut entry = self.archive.by_index(self.entries[index])?;
+        let array = header(&mut entry, "")?;
+        let count = array.channel.length.unwrap_or(0);
+        // Numbers of their own width again: the header may have been another at the second look.
+        let number: Number = array.stored.ok_or_else(|| damaged("no numbers"))?;
+        number.stream(array.big_endian, &mut entry, count, sink)
+    }
+}

@@ -1,0 +1,295 @@
+//! Parquet, read: flat tables of numbers, from brinell or anyone else (plain, Snappy or Zstandard).
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use parquet::basic::Type;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::DataType;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
+use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
+use serde_json::{Map, Value};
+
+use super::channel::{Channel, Rate, RateSource};
+use super::fault::{Fault, damaged};
+use super::numbers::{Number, Sink, give};
+use super::{Listing, Source};
+use crate::{Column, IoError, Metadata, Signals, keys};
+
+/// Values asked for at a time.
+const BATCH: usize = 64 << 10;
+
+/// Reads a whole Parquet file of numeric columns. A missing value becomes not-a-number.
+pub fn read_parquet(path: impl AsRef<Path>) -> Result<Signals, IoError> {
+    let path = path.as_ref();
+    let file = File::open(path).map_err(|e| IoError::reading(path, e))?;
+    // The crate asserts some of what a damaged file can break; what `check_chunks` does not foresee ends here.
+    let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
+    let result = catch_unwind(AssertUnwindSafe(|| read(file))).unwrap_or_else(damaged);
+    result.map_err(|e| IoError::Parquet {
+        path: path.to_owned(),
+        why: e.to_string(),
+    })
+}
+
+fn read(file: File) -> Result<Signals, ParquetError> {
+    let (reader, columns, metadata) = head(file)?;
+    let mut data = vec![Vec::new(); columns.len()];
+    for (i, (values, column)) in data.iter_mut().zip(&columns).enumerate() {
+        column_pieces(&reader, i, &column.name, &mut |piece| {
+            values.extend_from_slice(piece);
+            Ok(())
+        })?;
+    }
+    if let Some(odd) = data.iter().position(|values| values.len() != data[0].len()) {
+        return Err(ParquetError::General(format!(
+            "column `{}` has another length",
+            columns[odd].name
+        )));
+    }
+    Ok(Signals {
+        columns,
+        data,
+        metadata,
+    })
+}
+
+/// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to come.
+struct Bounded {
+    file: File,
+    file_bytes: u64,
+}
+
+/// Reads on after the end are errors.
+struct UntilEnd(File);
+
+impl Read for UntilEnd {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self.0.read(buffer)? {
+            0 if !buffer.is_empty() => Err(io::ErrorKind::UnexpectedEof.into()),
+            count => Ok(count),
+        }
+    }
+}
+
+impl Length for Bounded {
+    fn len(&self) -> u64 {
+        self.file_bytes
+    }
+}
+
+impl ChunkReader for Bounded {
+    type T = BufReader<UntilEnd>;
+
+    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
+        let mut file = self.file.try_clone()?;
+        file.seek(SeekFrom::Start(start))?;
+        Ok(BufReader::new(UntilEnd(file)))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<bytes::Bytes, ParquetError> {
+        if length as u64 > self.file_bytes.saturating_sub(start) {
+            return Err(ParquetError::EOF("a page points outside the file".into()));
+        }
+        self.file.get_bytes(start, length)
+    }
+}
+
+type Head = (SerializedFileReader<Bounded>, Vec<Column>, Metadata);
+
+/// The columns and the metadata; an error where a column is nested or reaches outside the file.
+fn head(file: File) -> Result<Head, ParquetError> {
+    let file_bytes = file.metadata()?.len();
+    let reader = SerializedFileReader::new(Bounded { file, file_bytes })?;
+    check_chunks(reader.metadata(), file_bytes)?;
+    let file_metadata = reader.metadata().file_metadata();
+    let pairs = file_metadata.key_value_metadata().into_iter().flatten();
+    let metadata = Metadata {
+        pairs: pairs
+            .map(|kv| (kv.key.clone(), kv.value.clone().unwrap_or_default()))
+            .collect(),
+    };
+    let object = |key| -> Map<String, Value> {
+        metadata
+            .get(key)
+            .and_then(|text| serde_json::from_str(text).ok())
+            .unwrap_or_default()
+    };
+    let (units, descriptions) = (object(keys::UNITS), object(keys::DESCRIPTIONS));
+    let mut columns = Vec::new();
+    for column in file_metadata.schema_descr().columns() {
+        let name = column.name();
+        if column.max_rep_level() > 0 || column.path().parts().len() > 1 {
+            return Err(ParquetError::NYI(format!(
+                "column `{}` is nested",
+                column.path()
+            )));
+        }
+        let text = |of: &Map<String, Value>| {
+            of.get(name)
+                .and_then(Value::as_str)
+                .unwrap_or_default()
+                .to_owned()
+        };
+        columns.push(Column {
+            unit: text(&units),
+            description: text(&descriptions),
+            name: name.to_owned(),
+        });
+    }
+    Ok((reader, columns, metadata))
+}
+
+type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
+
+/// Hands on the values of one column, a batch at a time.
+fn column_pieces(
+    reader: &SerializedFileReader<Bounded>,
+    index: usize,
+    name: &str,
+    take: Take<'_>,
+) -> Result<(), ParquetError> {
+    for group in 0..reader.num_row_groups() {
+        let group = reader.get_row_group(group)?;
+        match group.get_column_reader(index)? {
+            ColumnReader::DoubleColumnReader(r) => pieces(r, take, |v| v)?,
+            ColumnReader::FloatColumnReader(r) => pieces(r, take, f64::from)?,
+            ColumnReader::Int32ColumnReader(r) => pieces(r, take, f64::from)?,
+            ColumnReader::Int64ColumnReader(r) => pieces(r, take, |v| v as f64)?,
+            _ => {
+                return Err(ParquetError::NYI(format!(
+                    "column `{name}` does not hold numbers"
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Every column chunk must lie within the file: the crate asserts it where we can still say it.
+fn check_chunks(metadata: &ParquetMetaData, file_bytes: u64) -> Result<(), ParquetError> {
+    let inside = |chunk: &ColumnChunkMetaData| {
+        let start = chunk
+            .dictionary_page_offset()
+            .unwrap_or(chunk.data_page_offset());
+        let end = start.checked_add(chunk.compressed_size())?;
+        (start >= 0 && start <= end && u64::try_from(end).ok()? <= file_bytes).then_some(())
+    };
+    let mut chunks = metadata
+        .row_groups()
+        .iter()
+        .flat_map(|group| group.columns());
+    match chunks.find(|chunk| inside(chunk).is_none()) {
+        Some(chunk) => Err(ParquetError::General(format!(
+            "column `{}` points outside the file",
+            chunk.column_path()
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn pieces<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    take: Take<'_>,
+    convert: impl Fn(T::T) -> f64,
+) -> Result<(), ParquetError> {
+    let (mut present, mut values, mut piece) = (Vec::new(), Vec::new(), Vec::new());
+    loop {
+        present.clear();
+        values.clear();
+        piece.clear();
+        let (rows, ..) = reader.read_records(BATCH, Some(&mut present), None, &mut values)?;
+        if rows == 0 {
+            return Ok(());
+        }
+        if present.is_empty() {
+            piece.extend(values.drain(..).map(&convert));
+        } else {
+            let mut values = values.drain(..);
+            let value = |&level: &i16| {
+                if level > 0 {
+                    values.next().map_or(f64::NAN, &convert)
+                } else {
+                    f64::NAN
+                }
+            };
+            piece.extend(present.iter().map(value));
+        }
+        take(&piece)?;
+    }
+}
+
+struct Table {
+    reader: SerializedFileReader<Bounded>,
+    names: Vec<String>,
+}
+
+impl From<ParquetError> for Fault {
+    fn from(error: ParquetError) -> Self {
+        damaged(error.to_string())
+    }
+}
+
+pub(super) fn list(file: File) -> Result<Listing, Fault> {
+    let (reader, columns, metadata) = head(file)?;
+    let about = reader.metadata();
+    let rows: i64 = about.row_groups().iter().map(|g| g.num_rows().max(0)).sum();
+    let hz = metadata
+        .get(keys::SAMPLE_RATE_HZ)
+        .and_then(|t| t.parse().ok());
+    let rate = hz
+        .filter(|hz: &f64| hz.is_finite() && *hz > 0.0)
+        .map(|hz| Rate {
+            hz,
+            source: RateSource::Header(keys::SAMPLE_RATE_HZ.into()),
+        });
+    let schema = about.file_metadata().schema_descr();
+    let channel = |(i, column): (usize, &Column)| {
+        let stored = match schema.column(i).physical_type() {
+            Type::DOUBLE => Some(Number::F64),
+            Type::FLOAT => Some(Number::F32),
+            Type::INT32 => Some(Number::I32),
+            Type::INT64 => Some(Number::I64),
+            _ => None,
+        };
+        let mut channel = Channel::array(
+            &column.name,
+            vec![rows as u64],
+            stored.unwrap_or(Number::F64),
+        );
+        if stored.is_none() {
+            channel.stored_as = "other";
+            channel.unreadable = Some("does not hold numbers".into());
+        }
+        channel.unit = Some(column.unit.clone()).filter(|unit| !unit.is_empty());
+        channel.rate.clone_from(&rate);
+        channel
+    };
+    Ok(Listing {
+        channels: columns.iter().enumerate().map(channel).collect(),
+        metadata,
+        source: Box::new(Table {
+            reader,
+            names: columns.into_iter().map(|c| c.name).collect(),
+        }),
+    })
+}
+
+impl Source for Table {
+    fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
+        let mut stopped = false;
+        let result = column_pieces(&self.reader, index, &self.names[index], &mut |piece| {
+            give(sink, piece).map_err(|_| {
+                stopped = true;
+                ParquetError::EOF("stopped".into())
+            })
+        });
+        if stopped {
+            return Err(Fault::Stopped);
+        }
+        Ok(result?)
+    }
+}

@@ -1,0 +1,396 @@
+//! How the lines of a text file are made, from the first of them.
+
+use super::lines::number;
+use super::lvm::{self, Lvm};
+use super::{Decimal, Delimiter, TextFormat};
+use crate::read::fault::{Fault, damaged, unsupported};
+
+/// How a file's lines are made.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) delimiter: Delimiter,
+    /// `None` where the sample shows neither; then both are taken.
+    pub(super) decimal: Option<Decimal>,
+    pub(super) columns: Vec<Column>,
+    /// Where the first line of numbers begins, and which line it is, from 1.
+    pub(super) start: u64,
+    pub(super) first_line: u64,
+    /// From a header that states it.
+    pub(super) rate_hz: Option<f64>,
+}
+
+/// One field of every line.
+#[derive(Debug, Default)]
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) unit: Option<String>,
+    /// What it holds instead of numbers.
+    pub(super) words: Option<String>,
+    /// Without a name and always empty, as behind a trailing delimiter.
+    pub(super) absent: bool,
+    /// The abscissa, which has no sample rate.
+    pub(super) is_x: bool,
+}
+
+struct Line<'a> {
+    start: usize,
+    number: u64,
+    text: &'a [u8],
+    comment: bool,
+}
+
+const ORDER: [Delimiter; 4] = [
+    Delimiter::Tab,
+    Delimiter::Semicolon,
+    Delimiter::Comma,
+    Delimiter::Blanks,
+];
+/// Lines of numbers that are looked at.
+const LOOK: usize = 200;
+
+/// Finds the layout in the first lines of a file, all of them whole.
+pub(super) fn find(sample: &[u8], format: &TextFormat) -> Result<Layout, Fault> {
+    let lines = lines(sample);
+    let mut format = *format;
+    let lvm = lvm::header(&lines.iter().map(|l| l.text).collect::<Vec<_>>());
+    let from = lvm.as_ref().map_or(0, |lvm| lvm.lines);
+    if let Some(lvm) = &lvm {
+        format.delimiter = format.delimiter.or(lvm.delimiter);
+        format.decimal = format.decimal.or(lvm.decimal);
+    }
+    let plain: Vec<&Line> = lines[from..].iter().filter(|l| !l.comment).collect();
+    let (first, delimiter) = first_data(&plain, &format)
+        .ok_or_else(|| damaged("no line of numbers among its first lines"))?;
+    let data: Vec<&[u8]> = plain[first..].iter().take(LOOK).map(|l| l.text).collect();
+    let above: Vec<&[u8]> = plain[..first].iter().map(|l| l.text).collect();
+    let delimiter = comma_or_fraction(delimiter, &format, &above, &data)?;
+    let decimal = decimal(delimiter, &format, &data);
+    let mut columns = columns(delimiter, decimal, &data)?;
+    let start = plain[first];
+    let comment = lines[from..]
+        .iter()
+        .rfind(|l| l.comment && l.start < start.start)
+        .map(|l| l.text.trim_ascii_start().get(1..).unwrap_or_default());
+    name(&mut columns, delimiter, &above, comment, lvm.is_some());
+    let mut rate_hz = None;
+    if let Some(lvm) = lvm {
+        rate_hz = lvm.rate_hz();
+        dress(&mut columns, lvm);
+    }
+    Ok(Layout {
+        delimiter,
+        decimal,
+        columns,
+        start: start.start as u64,
+        first_line: start.number,
+        rate_hz,
+    })
+}
+
+fn lines(sample: &[u8]) -> Vec<Line<'_>> {
+    let mut start = if sample.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    };
+    let mut lines = Vec::new();
+    for (i, text) in sample[start..].split(|&b| b == b'\n').enumerate() {
+        let length = text.len();
+        let text = text.strip_suffix(b"\r").unwrap_or(text);
+        let trimmed = text.trim_ascii();
+        if !trimmed.is_empty() {
+            lines.push(Line {
+                start,
+                number: i as u64 + 1,
+                text,
+                comment: matches!(trimmed[0], b'#' | b'%') || trimmed.starts_with(b"//"),
+            });
+        }
+        start += length + 1;
+    }
+    lines
+}
+
+fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
+    let by = |d: u8| {
+        line.split(move |&b| b == d)
+            .map(<[u8]>::trim_ascii)
+            .collect()
+    };
+    match delimiter {
+        Delimiter::Comma => by(b','),
+        Delimiter::Semicolon => by(b';'),
+        Delimiter::Tab => by(b'\t'),
+        Delimiter::Blanks => line
+            .split(|&b| b == b' ' || b == b'\t')
+            .filter(|f| !f.is_empty())
+            .collect(),
+    }
+}
+
+/// How many fields are numbers, and how many are neither numbers nor empty.
+fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usize) {
+    let decimal = if delimiter == Delimiter::Comma {
+        Some(Decimal::Point)
+    } else {
+        format.decimal
+    };
+    split(line, delimiter)
+        .iter()
+        .filter(|f| !f.is_empty())
+        .fold((0, 0), |(good, bad), f| match number(f, decimal) {
+            Some(_) => (good + 1, bad),
+            None => (good, bad + 1),
+        })
+}
+
+fn holds(line: &[u8], delimiter: Delimiter) -> bool {
+    match delimiter {
+        Delimiter::Comma => line.contains(&b','),
+        Delimiter::Semicolon => line.contains(&b';'),
+        Delimiter::Tab => line.trim_ascii().contains(&b'\t'),
+        Delimiter::Blanks => true,
+    }
+}
+
+/// The first line of numbers and what is between them: first a line that is all numbers and not alone, then one that has some.
+fn first_data(lines: &[&Line], format: &TextFormat) -> Option<(usize, Delimiter)> {
+    let choices: Vec<Delimiter> = match format.delimiter {
+        Some(delimiter) => vec![delimiter],
+        None => ORDER.to_vec(),
+    };
+    let pure = |line: &[u8], d| {
+        let (good, bad) = score(line, d, format);
+        good > 0 && bad == 0
+    };
+    let fits = |line: &[u8], d| holds(line, d) || format.delimiter.is_some();
+    for (i, line) in lines.iter().enumerate() {
+        let found = choices
+            .iter()
+            .find(|&&d| fits(line.text, d) && pure(line.text, d));
+        if let Some(&d) = found {
+            let count = split(line.text, d).len();
+            let follows = |next: &&Line| split(next.text, d).len() == count && pure(next.text, d);
+            if lines.get(i + 1).is_none_or(follows) {
+                return Some((i, d));
+            }
+        }
+    }
+    let some = |line: &[u8], d| score(line, d, format).0;
+    for (i, line) in lines.iter().enumerate() {
+        let candidates = choices.iter().filter(|&&d| fits(line.text, d));
+        // On a tie the earlier in `ORDER` stays.
+        let best = candidates.rev().max_by_key(|&&d| some(line.text, d));
+        if let Some(&d) = best.filter(|&&d| some(line.text, d) > 0) {
+            let count = split(line.text, d).len();
+            let alike = |next: &&Line| split(next.text, d).len() == count && some(next.text, d) > 0;
+            if lines.get(i + 1).is_none_or(alike) {
+                return Some((i, d));
+            }
+        }
+    }
+    None
+}
+
+/// `1,5` may be two numbers or one; what decides is the format given, or the line of names. Otherwise it is refused.
+fn comma_or_fraction(
+    delimiter: Delimiter,
+    format: &TextFormat,
+    above: &[&[u8]],
+    data: &[&[u8]],
+) -> Result<Delimiter, Fault> {
+    if delimiter != Delimiter::Comma || format.delimiter.is_some() {
+        return Ok(delimiter);
+    }
+    if format.decimal == Some(Decimal::Comma) {
+        return Ok(Delimiter::Blanks);
+    }
+    let open = |line: &&[u8]| {
+        let commas = line.iter().filter(|&&b| b == b',').count();
+        commas == 1
+            && !line.contains(&b'.')
+            && !line.trim_ascii().contains(&b' ')
+            && !line.trim_ascii().ends_with(b",")
+    };
+    if format.decimal == Some(Decimal::Point) || !data.iter().all(open) {
+        return Ok(delimiter);
+    }
+    match above.last() {
+        Some(names) if names.contains(&b',') => Ok(Delimiter::Comma),
+        Some(_) => Ok(Delimiter::Blanks),
+        None => Err(unsupported(format!(
+            "`{}` may be two whole numbers or one with a decimal comma; say which",
+            String::from_utf8_lossy(data.first().unwrap_or(&&b""[..])).trim()
+        ))),
+    }
+}
+
+fn decimal(delimiter: Delimiter, format: &TextFormat, data: &[&[u8]]) -> Option<Decimal> {
+    if delimiter == Delimiter::Comma {
+        return Some(Decimal::Point);
+    }
+    let fields = || data.iter().flat_map(|line| split(line, delimiter));
+    let shows = |sign: u8, decimal| {
+        fields().any(|f| f.contains(&sign) && number(f, Some(decimal)).is_some())
+    };
+    format.decimal.or_else(|| {
+        if shows(b'.', Decimal::Point) {
+            Some(Decimal::Point)
+        } else if shows(b',', Decimal::Comma) {
+            Some(Decimal::Comma)
+        } else {
+            None
+        }
+    })
+}
+
+/// The columns by what the lines of numbers hold, not yet named.
+fn columns(
+    delimiter: Delimiter,
+    decimal: Option<Decimal>,
+    data: &[&[u8]],
+) -> Result<Vec<Column>, Fault> {
+    let Some(first) = data.first() else {
+        return Err(damaged("it has no numbers"));
+    };
+    let fields = split(first, delimiter);
+    let mut columns: Vec<Column> = fields
+        .iter()
+        .map(|field| Column {
+            words: number(field, decimal)
+                .is_none()
+                .then(|| text(field).chars().take(40).collect()),
+            absent: true,
+            ..Column::default()
+        })
+        .collect();
+    for line in data {
+        for (column, field) in columns.iter_mut().zip(split(line, delimiter)) {
+            column.absent &= field.is_empty();
+        }
+    }
+    Ok(columns)
+}
+
+/// UTF-8, or else Latin-1, where a µ is one byte.
+fn text(bytes: &[u8]) -> String {
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+    };
+    text.trim().trim_matches('"').trim().to_owned()
+}
+
+/// Gives the columns the names and units that stand above them.
+fn name(
+    columns: &mut [Column],
+    delimiter: Delimiter,
+    above: &[&[u8]],
+    comment: Option<&[u8]>,
+    more_names: bool,
+) {
+    let fits = |line: &[u8]| -> Option<Vec<String>> {
+        let fields = split_quoted(line, delimiter);
+        let enough = fields.len() == columns.len() || more_names && fields.len() > columns.len();
+        enough.then_some(fields)
+    };
+    let mut lines = above.iter().rev().map_while(|line| fits(line));
+    let (last, before) = (lines.next(), lines.next());
+    let (names, units) = match (last, before) {
+        (Some(units), Some(names)) if units.iter().all(|u| is_unit(u)) => (names, units),
+        (Some(names), _) => (names, Vec::new()),
+        (None, _) => {
+            let words = |names: &Vec<String>| names.iter().all(|n| n.parse::<f64>().is_err());
+            let names = comment.and_then(fits).filter(words);
+            (names.unwrap_or_default(), Vec::new())
+        }
+    };
+    for (i, column) in columns.iter_mut().enumerate() {
+        let given = names.get(i).cloned().unwrap_or_default();
+        column.absent &= given.is_empty();
+        let own = bracketed(&given);
+        let below = units.get(i).map(|u| bare(u)).filter(|u| !u.is_empty());
+        column.unit = below.or(own);
+        column.name = if given.is_empty() {
+            format!("column{}", i + 1)
+        } else {
+            given
+        };
+    }
+}
+
+/// Like [`split`], with quoted fields whole.
+fn split_quoted(line: &[u8], delimiter: Delimiter) -> Vec<String> {
+    if !line.contains(&b'"') || delimiter == Delimiter::Blanks {
+        return split(line, delimiter).into_iter().map(text).collect();
+    }
+    let sign = match delimiter {
+        Delimiter::Comma => b',',
+        Delimiter::Semicolon => b';',
+        _ => b'\t',
+    };
+    let mut quoted = false;
+    line.split(|&b| {
+        quoted ^= b == b'"';
+        b == sign && !quoted
+    })
+    .map(text)
+    .collect()
+}
+
+/// The text within brackets around all of it.
+fn bare(unit: &str) -> String {
+    let inner = unit
+        .strip_prefix('[')
+        .and_then(|u| u.strip_suffix(']'))
+        .or_else(|| unit.strip_prefix('(').and_then(|u| u.strip_suffix(')')));
+    inner.unwrap_or(unit).trim().to_owned()
+}
+
+/// The unit in `name [unit]`, or in `name (unit)` where it is a known one.
+fn bracketed(name: &str) -> Option<String> {
+    let (_, square) = name
+        .strip_suffix(']')
+        .and_then(|n| n.rsplit_once('['))
+        .unzip();
+    let (_, round) = name
+        .strip_suffix(')')
+        .and_then(|n| n.rsplit_once('('))
+        .unzip();
+    square
+        .or(round.filter(|u| KNOWN.contains(&u.trim())))
+        .map(|u| u.trim().to_owned())
+        .filter(|u| !u.is_empty())
+}
+
+/// Spellings that make a row of units.
+const KNOWN: [&str; 44] = [
+    "s", "sec", "ms", "us", "µs", "m", "mm", "um", "µm", "m/s", "mm/s", "in/s", "m/s^2", "m/s2",
+    "m/s²", "m/s**2", "mm/s^2", "g", "G", "mg", "gn", "V", "mV", "A", "mA", "N", "kN", "Nm", "N m",
+    "Pa", "kPa", "MPa", "bar", "Hz", "kHz", "rpm", "1/min", "r/min", "rad", "rad/s", "deg", "°",
+    "°C", "K",
+];
+
+fn is_unit(text: &str) -> bool {
+    let brackets = text.len() > 1
+        && (text.starts_with('[') && text.ends_with(']')
+            || text.starts_with('(') && text.ends_with(')'));
+    text.is_empty() || text == "-" || text == "1" || brackets || KNOWN.contains(&text)
+}
+
+/// Adds what a LabVIEW header says of the columns.
+fn dress(columns: &mut [Column], lvm: Lvm) {
+    let mut units = lvm.units.into_iter();
+    for column in columns {
+        let name = column.name.as_str();
+        column.is_x = name == "X_Value" || name.starts_with("X_Value");
+        if name == "Comment" {
+            column.absent = true;
+        } else if column.is_x {
+            // Empty where `X_Columns` says that there are none.
+            column.absent = lvm.no_x;
+        } else if let Some(unit) = units.next() {
+            column.unit = Some(unit).filter(|u| !u.is_empty());
+        }
+    }
+}

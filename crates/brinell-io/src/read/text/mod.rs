@@ -1,0 +1,109 @@
+//! Numbers as text: comma, semicolon, tab or blanks between them, point or comma in them, with or without a line of names.
+//!
+//! The layout is taken from the first lines (`layout.rs`); a column is then read in one pass, a line at a time, in a buffer of fixed size
+//! (`lines.rs`). Lines that begin with `#` or `%` are comments. An empty field is NaN.
+
+mod layout;
+mod lines;
+mod lvm;
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+
+use super::channel::{Channel, Rate, RateSource};
+use super::fault::{Fault, damaged};
+use super::numbers::Sink;
+use super::{Listing, Source};
+use crate::Metadata;
+use layout::Layout;
+
+/// Lines that decide the layout.
+const SAMPLE: u64 = 256 << 10;
+
+/// What stands between the numbers of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Delimiter {
+    /// `,`
+    Comma,
+    /// `;`
+    Semicolon,
+    /// A tab.
+    Tab,
+    /// Any number of spaces and tabs.
+    Blanks,
+}
+
+/// What stands before a number's fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decimal {
+    /// `0.5`
+    Point,
+    /// `0,5`
+    Comma,
+}
+
+/// What a caller knows of a text file; what is `None` is found out from the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextFormat {
+    /// Between numbers.
+    pub delimiter: Option<Delimiter>,
+    /// Within numbers.
+    pub decimal: Option<Decimal>,
+}
+
+struct Text {
+    file: File,
+    layout: Layout,
+    /// The field of each channel.
+    fields: Vec<usize>,
+}
+
+pub(super) fn list(mut file: File, format: &TextFormat) -> Result<Listing, Fault> {
+    let mut sample = Vec::new();
+    (&mut file).take(SAMPLE).read_to_end(&mut sample)?;
+    if sample.len() as u64 == SAMPLE {
+        // The last line is cut.
+        match memchr::memrchr(b'\n', &sample) {
+            Some(end) => sample.truncate(end + 1),
+            None => return Err(damaged("its first line does not end; this is no table")),
+        }
+    }
+    let layout = layout::find(&sample, format)?;
+    let (mut channels, mut fields) = (Vec::new(), Vec::new());
+    for (field, column) in layout.columns.iter().enumerate() {
+        if column.absent {
+            continue;
+        }
+        fields.push(field);
+        channels.push(Channel {
+            name: column.name.clone(),
+            stored_as: "text",
+            unit: column.unit.clone(),
+            rate: layout.rate_hz.filter(|_| !column.is_x).map(|hz| Rate {
+                hz,
+                source: RateSource::Header("Delta_X".into()),
+            }),
+            unreadable: column
+                .words
+                .clone()
+                .map(|w| format!("holds words such as `{w}`")),
+            ..Channel::default()
+        });
+    }
+    Ok(Listing {
+        channels,
+        metadata: Metadata::default(),
+        source: Box::new(Text {
+            file,
+            layout,
+            fields,
+        }),
+    })
+}
+
+impl Source for Text {
+    fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
+        self.file.seek(SeekFrom::Start(self.layout.start))?;
+        lines::column(&mut self.file, &self.layout, self.fields[index], sink)
+    }
+}

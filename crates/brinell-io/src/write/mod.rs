@@ -1,0 +1,10 @@
+//! Writers of signals, one file per format; CSV is beside its own reader, in `csv.rs`.
+
+pub(crate) mod mat;
+#[cfg(feature = "npz")]
+pub(crate) mod npz;
+#[cfg(feature = "parquet-write")]
+pub(crate) mod parquet;
+mod spool;
+pub(crate) mod uff;
+pub(crate) mod wav;

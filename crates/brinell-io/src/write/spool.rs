@@ -1,0 +1,105 @@
+//! Rows in, columns out, on the disk: for formats that store one channel after the other.
+//!
+//! Rows are collected by column until a block is full; blocks go to a nameless temporary file beside the result, which the system removes even
+//! after a kill. It takes as much room as the result. Memory is one block, whatever the number of rows.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::IoError;
+
+/// Memory for the rows of one block.
+const BLOCK_BYTES: usize = 16 << 20;
+const MAX_BLOCK_ROWS: usize = 128 << 10;
+
+pub(super) struct Spool {
+    file: File,
+    /// What errors name: the result.
+    path: PathBuf,
+    /// Column after column, `block_rows` places each.
+    block: Vec<f64>,
+    block_rows: usize,
+    pending: usize,
+    blocks: u64,
+    failed: bool,
+    bytes: Vec<u8>,
+}
+
+impl Spool {
+    pub(super) fn create(path: &Path, columns: usize) -> Result<Self, IoError> {
+        let folder = path
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        let file = tempfile::tempfile_in(folder).map_err(|e| IoError::writing(path, e))?;
+        let block_rows = (BLOCK_BYTES / 8 / columns.max(1)).clamp(1, MAX_BLOCK_ROWS);
+        Ok(Self {
+            file,
+            path: path.to_owned(),
+            block: vec![0.0; block_rows * columns],
+            block_rows,
+            pending: 0,
+            blocks: 0,
+            failed: false,
+            bytes: Vec::new(),
+        })
+    }
+
+    pub(super) fn rows(&self) -> u64 {
+        self.blocks * self.block_rows as u64 + self.pending as u64
+    }
+
+    /// Adds a row of as many values as there are columns.
+    pub(super) fn push(&mut self, row: impl Iterator<Item = f64>) -> Result<(), IoError> {
+        if self.failed {
+            return Err(IoError::AlreadyFailed {
+                path: self.path.clone(),
+            });
+        }
+        for (column, value) in self.block.chunks_exact_mut(self.block_rows).zip(row) {
+            column[self.pending] = value;
+        }
+        self.pending += 1;
+        if self.pending < self.block_rows {
+            return Ok(());
+        }
+        self.bytes.clear();
+        for column in self.block.chunks_exact(self.block_rows) {
+            self.bytes.clear();
+            self.bytes
+                .extend(column.iter().flat_map(|v| v.to_le_bytes()));
+            self.file.write_all(&self.bytes).map_err(|e| {
+                self.failed = true;
+                IoError::writing(&self.path, e)
+            })?;
+        }
+        self.blocks += 1;
+        self.pending = 0;
+        Ok(())
+    }
+
+    /// The values of one column in order, as little-endian bytes, piece by piece.
+    pub(super) fn column(
+        &mut self,
+        index: usize,
+        mut take: impl FnMut(&[u8]) -> Result<(), IoError>,
+    ) -> Result<(), IoError> {
+        let columns = (self.block.len() / self.block_rows) as u64;
+        let length = 8 * self.block_rows as u64;
+        let mut piece = vec![0; length as usize];
+        for block in 0..self.blocks {
+            let at = (block * columns + index as u64) * length;
+            let mut read = || -> io::Result<()> {
+                self.file.seek(SeekFrom::Start(at))?;
+                self.file.read_exact(&mut piece)
+            };
+            read().map_err(|e| IoError::reading(&self.path, e))?;
+            take(&piece)?;
+        }
+        let start = index * self.block_rows;
+        let rest = &self.block[start..start + self.pending];
+        let bytes: Vec<u8> = rest.iter().flat_map(|v| v.to_le_bytes()).collect();
+        take(&bytes)
+    }
+}

@@ -1,0 +1,259 @@
+//! Files that are cut, mislabelled, empty, or claim what they do not have: each gets its own words, and none gets memory.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use brinell_io::{Decimal, Delimiter, IoError, TextFormat, open, open_as};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(name)
+}
+
+struct Here(tempfile::TempDir);
+
+impl Here {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    }
+
+    /// What opening and reading every channel says, without the folder.
+    fn says(&self, name: &str, bytes: impl AsRef<[u8]>) -> String {
+        let path = self.file(name, bytes);
+        let result = open(&path).and_then(|mut file| {
+            let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
+            names.iter().try_for_each(|n| file.read(n).map(drop))
+        });
+        let folder = format!("{}/", self.0.path().display());
+        result.unwrap_err().to_string().replace(&folder, "")
+    }
+}
+
+#[test]
+fn regress_mislabelled_files_name_both() {
+    let here = Here::new();
+    let bytes = |name| std::fs::read(data(name)).unwrap();
+    assert_eq!(
+        here.says("a.mat", bytes("f8.npy")),
+        "a.mat: named like MATLAB, but the content is NumPy npy; rename it or save it again"
+    );
+    assert_eq!(
+        here.says("a.csv", bytes("cwru_v5.mat")),
+        "a.csv: named like text, but the content is MATLAB v5/v7; rename it or save it again"
+    );
+    assert_eq!(
+        here.says("a.wav", "1,2\n3,4\n"),
+        "a.wav: named like WAV, but the content is text; rename it or save it again"
+    );
+    assert_eq!(
+        here.says("a.mat", bytes("v4.mat")),
+        "a.mat: named like MATLAB, but the content is no known format (perhaps MATLAB v4; save it again as v7); rename it or save it again"
+    );
+    assert_eq!(
+        here.says("a.dat", b"\x1f\x8b\x08\0\0\0\0"),
+        "a.dat: cannot read: a gzip archive; known are csv and other text, parquet, mat, hdf5, npy, npz, wav and uff"
+    );
+    assert_eq!(here.says("a.csv", ""), "a.csv: the file is empty");
+    assert!(matches!(
+        open(here.0.path()),
+        Err(IoError::NotAFileName { .. })
+    ));
+    assert!(matches!(open("nowhere.csv"), Err(IoError::Read { .. })));
+}
+
+/// A file without an ending of that kind is known by its content.
+#[test]
+fn regress_content_decides_where_the_name_is_silent() {
+    let here = Here::new();
+    for name in ["cwru_v7.mat", "f8.npy", "ascii.uff", "f32.wav", "xjtu.csv"] {
+        let path = here.file("signal.bin", std::fs::read(data(name)).unwrap());
+        assert_eq!(
+            open(&path).unwrap().kind(),
+            open(data(name)).unwrap().kind()
+        );
+    }
+}
+
+#[test]
+fn regress_claims_without_bytes_are_refused() {
+    let here = Here::new();
+    let mut npy = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    npy.extend(
+        format!(
+            "{:<117}\n",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }"
+        )
+        .bytes(),
+    );
+    npy.extend([0; 64]);
+    assert_eq!(
+        here.says("a.npy", npy),
+        "a.npy: damaged NumPy npy file: the header promises 8000000000000 bytes of values and 64 are there"
+    );
+    let mut wav = std::fs::read(data("f64.wav")).unwrap();
+    let at = wav.windows(4).position(|w| w == b"data").unwrap();
+    wav[at + 4..at + 8].copy_from_slice(&0xf000_0000u32.to_le_bytes());
+    assert!(
+        here.says("a.wav", wav)
+            .contains("promises 4026531840 bytes")
+    );
+    let mut mat = std::fs::read(data("cwru_v5.mat")).unwrap();
+    mat[132..136].copy_from_slice(&0x7fff_ffffu32.to_le_bytes());
+    assert!(here.says("a.mat", mat).contains("claims 2147483647 bytes"));
+    let uff = std::fs::read_to_string(data("ascii.uff")).unwrap();
+    let uff = uff.replacen("       300", "2000000000", 1);
+    assert!(here.says("a.uff", uff).contains("claims 2000000000 values"));
+}
+
+/// A variable of zeros that inflates a thousandfold, and one that claims to inflate further.
+#[test]
+fn regress_compressed_bombs_cost_no_memory() {
+    use flate2::{Compression, write::ZlibEncoder};
+    let here = Here::new();
+    let bomb = |claimed: u32, zeros: usize| {
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+        let values = claimed - 56;
+        let words = [
+            14,
+            claimed,
+            6,
+            8,
+            6,
+            0,
+            5,
+            8,
+            values / 8,
+            1,
+            1,
+            1,
+            u32::from(b'x'),
+            0,
+            9,
+            values,
+        ];
+        for word in words {
+            encoder.write_all(&word.to_le_bytes()).unwrap();
+        }
+        encoder.write_all(&vec![0; zeros]).unwrap();
+        let packed = encoder.finish().unwrap();
+        let mut mat = std::fs::read(data("cwru_v7.mat")).unwrap()[..128].to_vec();
+        mat.extend(15u32.to_le_bytes());
+        mat.extend((packed.len() as u32).to_le_bytes());
+        mat.extend(packed);
+        mat
+    };
+    let said = here.says("a.mat", bomb(56 + (1 << 30), 1 << 16));
+    assert!(said.contains("more than its"), "{said}");
+    // An honest one can be read piece by piece.
+    let path = here.file("b.mat", bomb(56 + (32 << 20), 32 << 20));
+    let mut count = 0;
+    let sum = |v: &[f64]| {
+        count += v.len();
+        std::ops::ControlFlow::Continue(())
+    };
+    open(path).unwrap().read_pieces("x", sum).unwrap();
+    assert_eq!(count, 4 << 20);
+}
+
+/// Every file, cut at many places: an error or fewer channels, and no panic.
+#[test]
+fn prop_cut_files_are_errors() {
+    let here = Here::new();
+    for entry in std::fs::read_dir(data("")).unwrap() {
+        let path = entry.unwrap().path();
+        let bytes = std::fs::read(&path).unwrap();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        for i in 0..40 {
+            let cut = here.file(name, &bytes[..bytes.len() * i / 40]);
+            let Ok(mut file) = open(&cut) else { continue };
+            let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
+            for name in names {
+                let _ = file.read(&name);
+            }
+        }
+    }
+}
+
+#[test]
+fn regress_bad_text_gets_the_line() {
+    let here = Here::new();
+    assert_eq!(
+        here.says("a.csv", "t,x\n0,1\n1,2\n2\n"),
+        "a.csv: line 4 has 1 values where the first line of numbers has 2"
+    );
+    assert_eq!(
+        here.says("a.csv", "t,x\n0,1\n1,2\n2,two\n"),
+        "a.csv: line 4, column `x`: `two` is not a number"
+    );
+    assert_eq!(
+        here.says("a.txt", "nothing\nbut words\n"),
+        "a.txt: damaged text file: no line of numbers among its first lines"
+    );
+    assert_eq!(
+        here.says("a.txt", "0,5\n1,25\n"),
+        "a.txt: cannot read: `0,5` may be two whole numbers or one with a decimal comma; say which"
+    );
+    assert_eq!(
+        here.says("a.csv", "when;x\n10:15;1\n10:16;2\n"),
+        "a.csv: cannot read: `when` holds words such as `10:15`"
+    );
+}
+
+#[test]
+fn regress_what_the_caller_knows_of_text_decides() {
+    let here = Here::new();
+    let path = here.file("a.txt", "0,5\n1,25\n");
+    let comma = TextFormat {
+        decimal: Some(Decimal::Comma),
+        ..TextFormat::default()
+    };
+    assert_eq!(
+        open_as(&path, &comma).unwrap().read("column1").unwrap(),
+        [0.5, 1.25]
+    );
+    let two = TextFormat {
+        delimiter: Some(Delimiter::Comma),
+        decimal: None,
+    };
+    assert_eq!(
+        open_as(&path, &two).unwrap().read("column2").unwrap(),
+        [5.0, 25.0]
+    );
+}
+
+#[test]
+fn regress_odd_and_sound_text() {
+    let here = Here::new();
+    let read = |text: &str, name: &str| {
+        let path = here.file("a.csv", text);
+        let mut file = open(path).unwrap_or_else(|e| panic!("{e}"));
+        let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
+        let values = file.read(name).unwrap_or_else(|e| panic!("{e} {names:?}"));
+        (names.join("|"), values)
+    };
+    let (names, values) = read("\u{feff}\"a, b\",x\r\n1,\r\n,2\r\n", "a, b");
+    assert_eq!(names, "a, b|x");
+    assert!(values[0] == 1.0 && values[1].is_nan());
+    // Trailing delimiters make no column; a constant and a NaN are values like others.
+    let (names, values) = read("a;b;\n1;nan;\n1;NaN;\n", "a");
+    assert_eq!(
+        (names.as_str(), values.as_slice()),
+        ("a|b", &[1.0, 1.0][..])
+    );
+    assert_eq!(read("x\n0,5\n1,5\n", "x").1, [0.5, 1.5]);
+    assert_eq!(read("a,a\n1,2\n3,4\n", "a#2").1, [2.0, 4.0]);
+    assert_eq!(read("7", "column1").1, [7.0]);
+    assert_eq!(read("0,1  0,2\n-1,5e-3 +2\n", "column2").1, [0.2, 2.0]);
+    assert_eq!(read("% c\n1\t2\n# c\n3\t4", "column2").1, [2.0, 4.0]);
+    assert_eq!(
+        read("Rig;7\nDate;today\nx;y\n1;2\n3;4\n", "y").1,
+        [2.0, 4.0]
+    );
+}
