@@ -25,6 +25,8 @@ pub struct Problem {
     pub fix_inner: bool,
     /// Hold the outer ring at the centre.
     pub fix_outer: bool,
+    /// Where the search begins: offsets of the inner and the outer ring, m. A ring that is held stays at the centre.
+    pub guess: [[f64; 2]; 2],
 }
 
 impl Problem {
@@ -38,6 +40,7 @@ impl Problem {
             load_share: 1.0,
             fix_inner: false,
             fix_outer: model.outer_ring_is_fixed(),
+            guess: [[0.0; 2]; 2],
         }
     }
 }
@@ -97,13 +100,16 @@ const MAX_ITERATIONS: usize = 200;
 /// # Errors
 /// Where the rings are not held against the load.
 pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
-    let mut x: Offsets = [0.0; 4];
     let free = [
         !problem.fix_inner,
         !problem.fix_inner,
         !problem.fix_outer,
         !problem.fix_outer,
     ];
+    let mut x: Offsets = std::array::from_fn(|k| {
+        let guess = problem.guess[k / 2][k % 2];
+        if free[k] { guess } else { 0.0 }
+    });
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
     let mut trial_rollers = rollers.clone();
     let forces = external(model, problem);
@@ -244,7 +250,11 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         let defects = model.defects_of(slot, side);
         match acting(defects.clone(), law, &angles, side, delta) {
             Some(acting) => (acting.elastic, tangent(defects, law, &angles, side, delta)),
-            None => (law.healthy(delta), law.tangent(delta, None)),
+            None if delta > 0.0 => {
+                let force = law.healthy(delta);
+                (force, law.exponent.value() * force / delta)
+            }
+            None => (0.0, 0.0),
         }
     };
     let balance = |r: f64| {

@@ -217,11 +217,16 @@ pub fn floors<'a>(
     angles: &Angles,
     side: Side,
 ) -> impl Iterator<Item = Floor> + Clone {
-    let joint = rest_on(cuts(defects.clone(), angles, side), |cut| Strip {
-        lines: cut.ground.surface.as_ref().map_or(&[], |x| &x.floor),
-        envelope: cut.ground.floor.as_ref(),
-        s: cut.s,
-    });
+    let several = defects.clone().nth(1).is_some();
+    let joint = several
+        .then(|| {
+            rest_on(cuts(defects.clone(), angles, side), |cut| Strip {
+                lines: cut.ground.surface.as_ref().map_or(&[], |x| &x.floor),
+                envelope: cut.ground.floor.as_ref(),
+                s: cut.s,
+            })
+        })
+        .flatten();
     let angles = *angles;
     defects.filter_map(move |d| {
         let u = d.local_angle(&angles, side);

@@ -46,6 +46,33 @@ dispatched! {
 }
 
 dispatched! {
+    /// Sums of products of `list` with each of the lists. All are equally long.
+    inner_products, inner_products_lanes, (list: &[f64], lists: [&[f64]; N]) -> [f64; N]
+}
+
+#[inline(always)]
+fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; N]) -> [f64; N] {
+    let (head, tail) = list.as_chunks::<WIDTH>();
+    let columns = groups(&lists, head.len());
+    // Two sums a list: one product need not wait for the last.
+    let mut sums = [[L::zero(); 2]; N];
+    for (group, list) in head.iter().enumerate() {
+        for k in 0..N {
+            let sum = &mut sums[k][group % 2];
+            *sum = L::new(*list).times_plus(L::new(columns[k][group]), *sum);
+        }
+    }
+    let mut out = [0.0; N];
+    for k in 0..N {
+        out[k] = (sums[k][0] + sums[k][1]).sum();
+        for (a, b) in tail.iter().zip(&lists[k][WIDTH * head.len()..]) {
+            out[k] += a * b;
+        }
+    }
+    out
+}
+
+dispatched! {
     /// Which entries of each list are above 0, a bit each: groups of eight to a byte, the first in the lowest bit. An incomplete group at
     /// the end is left out.
     positive, positive_lanes, (lists: [&[f64]; N], bits: [&mut [u8]; N])
@@ -123,6 +150,16 @@ fn weighted_square_lanes<L: Lanes, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn analytic_inner_products() {
+        let list: Vec<f64> = (0..29).map(f64::from).collect();
+        let [squares, sum] = inner_products(&list, [&list, &[1.0; 29]]);
+        assert_eq!(
+            (squares, sum),
+            (28.0 * 29.0 * 57.0 / 6.0, 28.0 * 29.0 / 2.0)
+        );
+    }
 
     #[test]
     fn analytic_positive_entries() {

@@ -119,6 +119,21 @@ pub fn tanh<L: Lanes>(x: L) -> L {
     (less_one / (less_one + L::splat(2.0))).with_sign(x)
 }
 
+/// Constants of x^(-1/9).
+pub(crate) mod ninth {
+    /// -1/9 of the upper half's distance from 1.0, plus what balances the error of the straight line at both ends.
+    pub(crate) const ORIGIN: f64 = 1_191_820_186.0;
+    /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first.
+    pub(crate) const FIT: [f64; 4] = [
+        4.550_793_648_527_396_7e-2,
+        6.415_495_782_232_466e-2,
+        1.110_914_322_528_898_1e-1,
+        9.999_790_091_846_329e-1,
+    ];
+    /// Its series, for the small e that is left: to 1e-16.
+    pub(crate) const SERIES: [f64; 4] = [95.0 / 2_187.0, 5.0 / 81.0, 1.0 / 9.0, 1.0];
+}
+
 /// 1 - x z^9.
 #[inline(always)]
 fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
@@ -133,21 +148,11 @@ fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
 /// result is x^2 z^8.
 #[inline(always)]
 pub fn ten_ninths<L: Lanes>(x: L) -> L {
-    /// -1/9 of the upper half's distance from 1.0, plus what balances the error of the straight line at both ends.
-    const ORIGIN: f64 = 1_191_820_186.0;
+    use ninth::{FIT, ORIGIN, SERIES};
     /// 2^52: integers below it stand in the low bits of the sum.
     const INTEGER: f64 = 4_503_599_627_370_496.0;
     /// INTEGER - (INTEGER + upper) / 9 + SHIFTED has ORIGIN - upper / 9 in its low bits.
     const SHIFTED: f64 = ORIGIN + INTEGER + INTEGER / 9.0;
-    /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first.
-    const FIT: [f64; 4] = [
-        4.550_793_648_527_396_7e-2,
-        6.415_495_782_232_466e-2,
-        1.110_914_322_528_898_1e-1,
-        9.999_790_091_846_329e-1,
-    ];
-    /// Its series, for the small e that is left: to 1e-16.
-    const SERIES: [f64; 4] = [95.0 / 2_187.0, 5.0 / 81.0, 1.0 / 9.0, 1.0];
     let size = x.if_above(L::splat(f64::MIN_POSITIVE), x, L::splat(1.0));
     let upper = size.shift_down::<32>().or_bits(INTEGER.to_bits());
     let guess = upper

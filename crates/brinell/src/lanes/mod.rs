@@ -11,8 +11,9 @@ mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use blend::{blend, positive, weighted_square};
+pub use blend::{blend, inner_products, positive, weighted_square};
 pub use column::Column;
+pub(crate) use functions::ninth;
 pub use functions::{exp, sin_cos, tanh, ten_ninths};
 pub use portable::Portable;
 #[cfg(target_arch = "x86_64")]

@@ -116,6 +116,7 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
             .zip(&model.pocket_angle)
             .for_each(|(o, a)| *o = a + turn);
         let balance = statics::solve(model, &problem)?;
+        problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
             let force = balance.outer_force[slot];
             zone.points.push((

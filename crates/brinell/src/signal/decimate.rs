@@ -5,6 +5,7 @@
 //! therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive digital filter design using
 //! the I0-sinh window function", Proc. IEEE Int. Symp. Circuits and Systems (1974), 20-23.
 
+use crate::lanes::inner_products;
 use std::f64::consts::PI;
 
 use super::error::{SignalError, check, require};
@@ -162,7 +163,7 @@ impl Decimator {
             .iter_mut()
             .zip(self.rings.chunks_exact(2 * length))
         {
-            *out = inner_product(&self.taps, &ring[self.at..self.at + length]);
+            [*out] = inner_products(&self.taps, [&ring[self.at..self.at + length]]);
         }
         Some(&self.output)
     }
@@ -193,16 +194,6 @@ pub fn decimate(x: &[f64], factor: usize) -> Result<Vec<f64>, SignalError> {
     let taps = kaiser_lowpass(PASSBAND / rate, STOPBAND / rate, ATTENUATION_DB);
     check(x, 1.0, taps.len(), "decimation by this factor")?;
     Ok(strided(&extend_oddly(x, taps.len() / 2), &taps, factor))
-}
-
-fn inner_product(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    sums.iter().sum()
 }
 
 #[cfg(test)]

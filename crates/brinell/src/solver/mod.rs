@@ -91,7 +91,8 @@ pub struct Stepper<F> {
     step: f64,
     /// The system's longest step from the current state.
     limit: f64,
-    last_error: f64,
+    /// Binary logarithm of the last accepted step's error over the tolerance.
+    last_magnitude: f32,
     work: Work,
 }
 
@@ -101,6 +102,9 @@ const SAFETY: f64 = 0.9;
 const GROWTH: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// Share of the previous error in the proportional-integral controller (Hairer, Norsett, Wanner, Solving ODEs I, IV.2).
 const INTEGRAL: f64 = 0.08;
+
+/// An error of 1e-4 of the tolerance: a smaller one does not hold the next step back further.
+const LEAST_MAGNITUDE: f32 = -13.29;
 
 impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
     /// At (t, y), with the derivative evaluated there.
@@ -119,7 +123,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             // The controller finds its own step within a few trials; too short costs little, too long is rejected.
             step: 1e-3 * settings.max_step,
             limit: f64::INFINITY,
-            last_error: 1.0,
+            last_magnitude: 0.0,
             work: Work::default(),
             settings,
         };
@@ -177,11 +181,16 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             self.work.evaluations += tableau.rows.len() as u64;
             let error = self.error(h) / self.settings.tolerance;
             if error.is_finite() && error <= 1.0 {
+                // Single precision: a step need not be longer or shorter by less.
+                let magnitude = (error.max(1e-10) as f32).log2();
                 let factor = SAFETY
-                    * error.max(1e-10).powf(0.75 * INTEGRAL - exponent)
-                    * self.last_error.powf(INTEGRAL);
+                    * f64::from(
+                        ((0.75 * INTEGRAL - exponent) as f32 * magnitude
+                            + INTEGRAL as f32 * self.last_magnitude)
+                            .exp2(),
+                    );
                 let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
-                self.last_error = error.max(1e-4);
+                self.last_magnitude = magnitude.max(LEAST_MAGNITUDE);
                 self.accept(h);
                 self.limit = system.longest_step();
                 self.step = h * factor.clamp(*GROWTH.start(), ceiling);
