@@ -215,7 +215,7 @@ class Problem:
 
     def numbers(self):
         """One number to a name: what the peers read."""
-        words = ("guidance", "load_on", "model", "start", "speed", "defect", "record", "step", "perturb")
+        words = ("guidance", "law", "roller_path", "edge_reaction", "slices", "load_on", "model", "start", "speed", "defect", "record", "step", "perturb")
         sc = self.scenario
         (defect,), o = sc["defects"], sc["operation"]
         expected = {

@@ -3,10 +3,12 @@
 use super::{Model, Power};
 use crate::lanes::{Column, WIDTH};
 
-/// Instructions that the equations of motion are compiled for. They differ in round-off alone: [`Kernel::Portable`] rounds every
+/// How the equations of motion are computed. The kernels differ in round-off alone: [`Kernel::Plain`] and [`Kernel::Portable`] round every
 /// product on x86-64, the others fuse products with sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kernel {
+    /// One roller at a time, with the standard library's functions.
+    Plain,
     /// Whatever the target always has: SSE2 on x86-64, NEON on 64-bit Arm.
     Portable,
     /// AVX2 and FMA.
@@ -17,7 +19,7 @@ pub enum Kernel {
 
 impl Kernel {
     /// Every kernel.
-    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+    pub const ALL: [Self; 4] = [Self::Plain, Self::Portable, Self::Avx2, Self::Avx512];
 
     /// Whether this processor can run it.
     pub fn is_there(self) -> bool {
@@ -29,14 +31,14 @@ impl Kernel {
                 && is_x86_feature_detected!("avx512dq")
                 && is_x86_feature_detected!("avx512vl");
             match self {
-                Self::Portable => true,
+                Self::Plain | Self::Portable => true,
                 Self::Avx2 => avx2,
                 Self::Avx512 => avx512,
             }
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            self == Self::Portable
+            matches!(self, Self::Plain | Self::Portable)
         }
     }
 

@@ -1,63 +1,30 @@
-//! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
-//!
-//! Rollers go eight at a time, in three passes: how each contact moves and what may stand on damage; the elementary functions; and
-//! forces, damage, pockets and what the bodies feel. Levers are those of the centred bearing, as in the paper; the energy that this
-//! leaves over is booked as [`Power::lever`]. Padded slots never close a contact and never move.
+//! The rollers, eight at a time, in three passes: how each contact moves and what may stand on damage; the elementary functions; and
+//! forces, damage, pockets and what the bodies feel. Padded slots never close a contact and never move.
 
-use super::workspace::Contacts;
-use super::{Kernel, Model, Power, Workspace};
-use crate::defect::{Angles, SIDES, Side, acting_given, edge_gradient};
+use super::{Sums, Turn};
+use crate::defect::{Angles, SIDES, Side, acting_given};
 use crate::elementary::Exponent;
-use crate::lanes::{self, Lanes, Portable, WIDTH};
-use crate::scenario::Guidance;
+use crate::lanes::{self, Lanes, WIDTH};
+use crate::model::workspace::Contacts;
+use crate::model::{Model, Power, Workspace};
 
-/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
-pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    match ws.kernel() {
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: a workspace holds a kernel only where the processor has its instructions.
-        Kernel::Avx512 => unsafe { with_avx512(model, t, y, dy, ws) },
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: as above.
-        Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
-        _ => equations::<Portable>(model, t, y, dy, ws),
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<lanes::Avx512>(model, t, y, dy, ws);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<lanes::Avx2>(model, t, y, dy, ws);
-}
-
+/// The rollers' accelerations, into `a`, and what they do to everything else.
 #[inline(always)]
-fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    let l = &model.layout;
-    let dof = l.dof();
-    let (q, v) = y.split_at(dof);
-    let (dq, a) = dy.split_at_mut(dof);
-    dq.copy_from_slice(v);
-    let (w, ring_angle) = model.rotation.at(t);
+pub(super) fn rollers<L: Lanes>(
+    model: &Model,
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+    turn: Turn,
+    ws: &mut Workspace,
+) -> Sums {
     for (exposure, directions) in model.exposure.iter().zip(&mut ws.directions) {
-        exposure.turn(ring_angle, directions);
+        exposure.turn(turn.angle, directions);
     }
     // Passes of their own, because these functions are long chains of operations that wait for one another: with little in between,
     // the processor works on several groups at once.
-    motion::<L>(model, q, v, w, ws);
+    motion::<L>(model, q, v, turn.speed, ws);
     functions::<L>(model, ws);
-    let mut sums = rollers::<L>(model, q, v, a, (w, ring_angle), ws);
-    if model.rules.is_conservative() && !model.defects.is_empty() {
-        edge_reaction(model, q, a, (w, ring_angle), ws, &mut sums.power);
-    }
-    cages(model, q, v, a, w, &mut sums);
-    self::rings(model, t, q, v, a, &mut sums);
-    ws.power = sums.power;
+    forces::<L>(model, q, v, a, (turn.speed, turn.angle), ws)
 }
 
 type Group = [f64; WIDTH];
@@ -194,51 +161,6 @@ fn on_damage(
     }
 }
 
-/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
-/// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
-///
-/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles know nothing of the
-/// rings' displacements, so that force has no reaction on them: the momentum audit books it as external.
-fn edge_reaction(
-    model: &Model,
-    q: &[f64],
-    a: &mut [f64],
-    (w, ring_angle): (f64, f64),
-    ws: &mut Workspace,
-    power: &mut Power,
-) {
-    let l = &model.layout;
-    ws.edge_force.fill(0.0);
-    for side in SIDES {
-        let contacts = &ws.contacts[side as usize];
-        for &slot in &model.exposure[side as usize].slots {
-            if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
-                continue;
-            }
-            let angles = Angles {
-                orbit: q[l.theta() + slot],
-                spin: q[l.phi() + slot],
-                ring: ring_angle,
-            };
-            let arm = model.geometry.pitch_radius + q[l.r() + slot];
-            let delta = contacts.approach[slot];
-            let defects = model.defects_of(slot, side);
-            let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
-            ws.edge_force[slot] -= e.orbit / arm;
-            a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
-            a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
-            power.drive += e.ring * w;
-        }
-    }
-}
-
-/// What the rollers do to everything else.
-struct Sums {
-    on_inner: [f64; 2],
-    on_outer: [f64; 2],
-    power: Power,
-}
-
 /// x, y and theta of each lane's cage, and their rates.
 #[derive(Clone, Copy)]
 struct Cages<L> {
@@ -365,7 +287,7 @@ fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
 /// Normal forces (section 2) and damage (section 3), friction (section 4), pockets (section 5), drag (section 7) and the rollers' own
 /// motion (Eq. 51).
 #[inline(always)]
-fn rollers<L: Lanes>(
+fn forces<L: Lanes>(
     model: &Model,
     q: &[f64],
     v: &[f64],
@@ -563,66 +485,4 @@ fn traction<L: Lanes>(u: L) -> L {
     let limit = L::splat(TRACTION_LIMIT);
     let rise = u.times_plus(L::splat(TRACTION_SLOPE), -limit);
     rise.times_plus(lanes::exp(u * L::splat(-TRACTION_DECAY)), limit)
-}
-
-/// Guidance (section 6) and the cages' own motion (Eq. 41).
-#[inline(always)]
-fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, sums: &mut Sums) {
-    let l = &model.layout;
-    let m = &model.inertia;
-    for row in 0..l.rows {
-        let at = l.cage(row);
-        let guiding = match model.guidance {
-            Guidance::OuterRing => Some((l.outer(), 0.0, &mut sums.on_outer)),
-            Guidance::InnerRing => Some((l.inner(), w, &mut sums.on_inner)),
-            Guidance::Rollers => None,
-        };
-        if let Some((ring, ring_speed, reaction)) = guiding {
-            let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-            let f = model.guide.force(offset, v[at + 2], ring_speed);
-            for k in 0..2 {
-                a[at + k] += f.film[k] + f.land[k];
-                reaction[k] -= f.film[k] + f.land[k];
-                sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
-            }
-            a[at + 2] += f.moment;
-            sums.power.film += f.moment * v[at + 2];
-        }
-        a[at] = a[at] / m.cage + model.gravity[0];
-        a[at + 1] = a[at + 1] / m.cage + model.gravity[1];
-        a[at + 2] /= m.cage_spin;
-    }
-}
-
-/// Rings: Eqs. (28) and (35).
-#[inline(always)]
-fn rings(model: &Model, t: f64, q: &[f64], v: &[f64], a: &mut [f64], sums: &mut Sums) {
-    let l = &model.layout;
-    let m = &model.inertia;
-    let (load_in, load_out) = model.load.on_rings(model.load.share(t));
-    let rings = [
-        (
-            l.inner(),
-            m.inner_ring,
-            model.inner_support,
-            sums.on_inner,
-            load_in,
-        ),
-        (
-            l.outer(),
-            m.outer_ring,
-            model.outer_support,
-            sums.on_outer,
-            load_out,
-        ),
-    ];
-    for (at, mass, support, reaction, load) in rings {
-        for k in 0..2 {
-            let (x, speed) = (q[at + k], v[at + k]);
-            let held = -support.stiffness * x - support.damping * speed;
-            a[at + k] = (held + reaction[k] + load[k]) / mass + model.gravity[k];
-            sums.power.load += load[k] * speed;
-            sums.power.support += support.damping * speed * speed;
-        }
-    }
 }

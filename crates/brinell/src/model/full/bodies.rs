@@ -1,0 +1,106 @@
+//! Cages and rings, which take up what the rollers leave, and the push of damage's edges.
+
+use super::{Sums, Turn};
+use crate::defect::{Angles, SIDES, edge_gradient};
+use crate::model::{Model, Power, Workspace};
+use crate::scenario::Guidance;
+
+/// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
+/// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
+///
+/// -dE/dtheta is a moment about the bearing's centre; over the roller's arm it is a force along e_t. The local angles know nothing of the
+/// rings' displacements, so that force has no reaction on them: the momentum audit books it as external.
+pub(super) fn edge_reaction(
+    model: &Model,
+    q: &[f64],
+    a: &mut [f64],
+    turn: Turn,
+    ws: &mut Workspace,
+    power: &mut Power,
+) {
+    let l = &model.layout;
+    ws.edge_force.fill(0.0);
+    for side in SIDES {
+        let contacts = &ws.contacts[side as usize];
+        for &slot in &model.exposure[side as usize].slots {
+            if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
+                continue;
+            }
+            let angles = Angles {
+                orbit: q[l.theta() + slot],
+                spin: q[l.phi() + slot],
+                ring: turn.angle,
+            };
+            let arm = model.geometry.pitch_radius + q[l.r() + slot];
+            let delta = contacts.approach[slot];
+            let defects = model.defects_of(slot, side);
+            let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
+            ws.edge_force[slot] -= e.orbit / arm;
+            a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
+            a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
+            power.drive += e.ring * turn.speed;
+        }
+    }
+}
+
+/// Guidance (section 6) and the cages' own motion (Eq. 41).
+#[inline(always)]
+pub(super) fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, sums: &mut Sums) {
+    let l = &model.layout;
+    let m = &model.inertia;
+    for row in 0..l.rows {
+        let at = l.cage(row);
+        let guiding = match model.guidance {
+            Guidance::OuterRing => Some((l.outer(), 0.0, &mut sums.on_outer)),
+            Guidance::InnerRing => Some((l.inner(), w, &mut sums.on_inner)),
+            Guidance::Rollers => None,
+        };
+        if let Some((ring, ring_speed, reaction)) = guiding {
+            let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
+            let f = model.guide.force(offset, v[at + 2], ring_speed);
+            for k in 0..2 {
+                a[at + k] += f.film[k] + f.land[k];
+                reaction[k] -= f.film[k] + f.land[k];
+                sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
+            }
+            a[at + 2] += f.moment;
+            sums.power.film += f.moment * v[at + 2];
+        }
+        a[at] = a[at] / m.cage + model.gravity[0];
+        a[at + 1] = a[at + 1] / m.cage + model.gravity[1];
+        a[at + 2] /= m.cage_spin;
+    }
+}
+
+/// Rings: Eqs. (28) and (35).
+#[inline(always)]
+pub(super) fn rings(model: &Model, t: f64, q: &[f64], v: &[f64], a: &mut [f64], sums: &mut Sums) {
+    let l = &model.layout;
+    let m = &model.inertia;
+    let (load_in, load_out) = model.load.on_rings(model.load.share(t));
+    let rings = [
+        (
+            l.inner(),
+            m.inner_ring,
+            model.inner_support,
+            sums.on_inner,
+            load_in,
+        ),
+        (
+            l.outer(),
+            m.outer_ring,
+            model.outer_support,
+            sums.on_outer,
+            load_out,
+        ),
+    ];
+    for (at, mass, support, reaction, load) in rings {
+        for k in 0..2 {
+            let (x, speed) = (q[at + k], v[at + k]);
+            let held = -support.stiffness * x - support.damping * speed;
+            a[at + k] = (held + reaction[k] + load[k]) / mass + model.gravity[k];
+            sums.power.load += load[k] * speed;
+            sums.power.support += support.damping * speed * speed;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
+//!
+//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. The rollers'
+//! share stands twice: `lanes` for eight rollers at a time, and `plain` for one, with the functions of the standard library, to hold the other
+//! against. Cages, rings and the push of edges are the same for both.
+
+mod bodies;
+mod lanes;
+mod plain;
+
+use super::{Kernel, Model, Power, Workspace};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::{Avx2, Avx512};
+use crate::lanes::{Lanes, Portable};
+
+/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
+pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    match ws.kernel() {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: a workspace holds a kernel only where the processor has its instructions.
+        Kernel::Avx512 => unsafe { with_avx512(model, t, y, dy, ws) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
+        Kernel::Plain => equations::<Portable, true>(model, t, y, dy, ws),
+        _ => equations::<Portable, false>(model, t, y, dy, ws),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    equations::<Avx512, false>(model, t, y, dy, ws);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    equations::<Avx2, false>(model, t, y, dy, ws);
+}
+
+/// Angle and speed of the inner ring.
+#[derive(Clone, Copy)]
+struct Turn {
+    /// w_i, rad/s.
+    speed: f64,
+    /// W_i, rad.
+    angle: f64,
+}
+
+/// What the rollers do to everything else.
+struct Sums {
+    on_inner: [f64; 2],
+    on_outer: [f64; 2],
+    power: Power,
+}
+
+#[inline(always)]
+fn equations<L: Lanes, const PLAIN: bool>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
+    let dof = model.layout.dof();
+    let (q, v) = y.split_at(dof);
+    let (dq, a) = dy.split_at_mut(dof);
+    dq.copy_from_slice(v);
+    let (speed, angle) = model.rotation.at(t);
+    let turn = Turn { speed, angle };
+    let mut sums = if PLAIN {
+        plain::rollers(model, (q, v), a, turn, ws)
+    } else {
+        lanes::rollers::<L>(model, (q, v), a, turn, ws)
+    };
+    if model.rules.is_conservative() && !model.defects.is_empty() {
+        bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
+    }
+    bodies::cages(model, q, v, a, speed, &mut sums);
+    bodies::rings(model, t, q, v, a, &mut sums);
+    ws.power = sums.power;
+}
