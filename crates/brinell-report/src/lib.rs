@@ -15,11 +15,16 @@
 mod chart;
 mod damage;
 mod data;
+mod embedded;
 mod font;
+mod load;
 mod number;
 mod page;
 mod picture;
 mod plots;
+mod shape;
+mod tables;
+mod thin;
 
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
@@ -28,9 +33,10 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+pub use load::load_distribution;
 pub use page::html;
 pub use picture::{Error, Picture};
 pub use plots::{
-    Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png,
-    load_distribution, overview, pass, pictures, spectrum, waveform,
+    Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png, overview, pass,
+    pictures, spectrum, waveform,
 };
