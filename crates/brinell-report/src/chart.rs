@@ -3,7 +3,7 @@
 use crate::font;
 use crate::number::{linear_ticks, log_ticks, superscript, tick_labels};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, ink};
-use crate::thin::thinned;
+use crate::thin::{straightened, thinned};
 
 /// How large a picture is drawn. The page holds both, and shows the one that fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -450,7 +450,7 @@ impl Chart {
                 seen.then(|| self.y.at(y)),
             )
         });
-        let lines = thinned(points, false);
+        let lines = straightened(thinned(points, false));
         self.lines(lines, paint);
     }
 

@@ -19,6 +19,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) x_unit: &'a str,
     pub(crate) y_unit: &'a str,
     pub(crate) lanes: &'a [Lane],
+    /// Frequencies whose harmonics the reader may mark: those of lanes' first marks.
+    pub(crate) toggles: &'a [Lane],
     /// Units of this plot to the overview's.
     pub(crate) overview_scale: f64,
 }
@@ -69,6 +71,19 @@ impl Chart<'_> {
                 );
             }
             page.push(']');
+        }
+        page.push_str("],\"toggles\":[");
+        let frequency = |lane: &Lane| lane.marks.first().map(|mark| mark.x);
+        for (index, lane) in self.toggles.iter().enumerate() {
+            let _ = write!(
+                page,
+                "{}[{},{},\"{}\",{}]",
+                if index == 0 { "" } else { "," },
+                json(&lane.label),
+                frequency(lane).unwrap_or(1.0),
+                lane.color,
+                lane.through
+            );
         }
         let _ = writeln!(page, "],\"values\":\"{}\"}}</script>", base64(&bytes));
     }

@@ -18,11 +18,16 @@ mod data;
 mod embedded;
 mod font;
 mod load;
+mod motion;
 mod number;
+mod orbit;
 mod page;
 mod picture;
 mod plots;
+mod raster;
 mod shape;
+mod slip;
+mod spectrogram;
 mod tables;
 mod thin;
 
@@ -34,9 +39,13 @@ pub use data::{
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
 pub use load::load_distribution;
+pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
+pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
 pub use page::html;
 pub use picture::{Error, Picture};
 pub use plots::{
     Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png, overview, pass,
     pictures, spectrum, waveform,
 };
+pub use slip::{SlipRow, slip_over_angle, slip_over_time};
+pub use spectrogram::{Spectrogram, spectrogram};

@@ -65,15 +65,18 @@ pub fn html(report: &Report) -> String {
         );
     }
     page.push_str("</header>\n");
-    let sections: [Section; 12] = [
+    let sections: [Section; 15] = [
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),
         ("envelope", "Envelope spectrum", envelope),
+        ("spectrogram", "Spectrogram", crate::spectrogram::section),
         ("damage", "Damage", damage),
         ("passes", "Passing the defect", passes),
         ("load", "Load distribution", load),
+        ("motion", "The bearing in motion", crate::motion::section),
+        ("orbit", "Cage orbit", crate::orbit::section),
         ("indicators", "Indicators", indicators),
-        ("slip", "Slip", slip),
+        ("slip", "Slip", crate::slip::section),
         ("audits", "Audits", audits),
         ("work", "Solver work", work),
         ("assumptions", "Assumptions", assumptions),
@@ -85,6 +88,7 @@ pub fn html(report: &Report) -> String {
             "envelope" => "Envelope",
             "passes" => "Passes",
             "load" => "Load",
+            "motion" => "Motion",
             _ => name,
         };
         let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");
@@ -99,6 +103,7 @@ pub fn html(report: &Report) -> String {
     page.push_str("</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.\
         </footer>\n<script>\n");
     page.push_str(include_str!("page.js"));
+    page.push_str(include_str!("motion.js"));
     page.push_str("</script>\n</body>\n</html>\n");
     page
 }
@@ -181,6 +186,7 @@ fn waveform(page: &mut String, report: &Report) {
         x_unit: unit,
         y_unit: &series.unit,
         lanes: &plots::event_lanes(report, scale),
+        toggles: &[],
         overview_scale: scale / overview_scale,
     }
     .write(page);
@@ -207,6 +213,7 @@ fn spectrum(page: &mut String, report: &Report) {
         x_unit: "Hz",
         y_unit: &spectrum.unit,
         lanes: &[],
+        toggles: &plots::marker_lanes(&report.markers),
         overview_scale: 1.0,
     }
     .write(page);
@@ -243,6 +250,7 @@ fn envelope(page: &mut String, report: &Report) {
         x_unit: "Hz",
         y_unit: &spectrum.unit,
         lanes: &plots::marker_lanes(&report.markers),
+        toggles: &plots::marker_lanes(&report.markers),
         overview_scale: 1.0,
     }
     .write(page);
@@ -372,10 +380,6 @@ fn load(page: &mut String, report: &Report) {
         |layout| load_distribution(&report.load_distribution, layout),
         "Contact force of the rollers over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
     );
-}
-
-fn slip(page: &mut String, report: &Report) {
-    fact_table(page, &report.slip, "Slip was not recorded.");
 }
 
 fn audits(page: &mut String, report: &Report) {

@@ -6,6 +6,7 @@ use tiny_skia as skia;
 use ttf_parser::OutlineBuilder;
 
 use crate::font;
+use crate::raster;
 pub(crate) use crate::shape::{Anchor, Paint, Rect, Shape, Text, ink};
 use crate::shape::{run_drop, run_size};
 
@@ -108,6 +109,12 @@ impl Picture {
                     text.x += dx;
                     text.y += dy;
                 }
+                Shape::Image { place, .. } => {
+                    place.left += dx;
+                    place.right += dx;
+                    place.top += dy;
+                    place.bottom += dy;
+                }
                 Shape::Open(_) | Shape::Close => {}
             }
             self.shapes.push(shape);
@@ -196,6 +203,11 @@ impl Picture {
                     svg.push_str("/>\n");
                 }
                 Shape::Text(text) => write_text(svg, text),
+                Shape::Image {
+                    place,
+                    columns,
+                    pixels,
+                } => raster::write(svg, *place, *columns, pixels),
                 Shape::Open(class) => {
                     let _ = write!(svg, "<g class=\"{class}\">");
                 }
@@ -249,6 +261,11 @@ impl Picture {
                     draw(&mut pixels, builder, paint, transform, None);
                 }
                 Shape::Text(text) => draw_text(&mut pixels, text, transform),
+                Shape::Image {
+                    place,
+                    columns,
+                    pixels: image,
+                } => raster::draw(&mut pixels, *place, *columns, image, transform),
                 Shape::Open(_) | Shape::Close => {}
             }
         }

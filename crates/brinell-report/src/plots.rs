@@ -7,8 +7,12 @@ use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::{EventKind, Marker, MinMax, Pass, Report, Series, Spectrum};
 use crate::font;
 use crate::load::load_distribution;
+use crate::motion::bearing_motion;
 use crate::number::significant;
+use crate::orbit::cage_orbit;
 use crate::picture::{Anchor, Error, Paint, Picture, Shape, Text, ink};
+use crate::slip::{self, slip_over_angle, slip_over_time};
+use crate::spectrogram::spectrogram;
 
 /// What a picture is drawn for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -545,6 +549,19 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
     );
     if !report.load_distribution.is_empty() {
         pictures.push(load_distribution(&report.load_distribution, Layout::Wide));
+    }
+    if !report.spectrogram.density.is_empty() {
+        pictures.push(spectrogram(&report.spectrogram, Layout::Wide));
+    }
+    if !report.motion.rows.is_empty() {
+        pictures.push(bearing_motion(&report.motion, usize::MAX, Layout::Wide));
+    }
+    if !report.cage_orbits.rows.is_empty() {
+        pictures.push(cage_orbit(&report.cage_orbits, Layout::Wide));
+    }
+    if slip::there_is(&report.slip_rows) {
+        pictures.push(slip_over_time(&report.slip_rows, Layout::Wide));
+        pictures.push(slip_over_angle(&report.slip_rows, Layout::Wide));
     }
     pictures
 }

@@ -174,6 +174,12 @@ pub(crate) enum Shape {
         paint: Paint,
     },
     Text(Text),
+    /// Pixels stretched over a rectangle without smoothing, from the top left on, row after row.
+    Image {
+        place: Rect,
+        columns: usize,
+        pixels: Vec<[u8; 3]>,
+    },
     /// Start of a named group, which the page's script may redraw.
     Open(&'static str),
     Close,

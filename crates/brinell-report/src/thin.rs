@@ -53,9 +53,58 @@ pub(crate) fn thinned(
     lines
 }
 
+/// Points left out in a row, at most, so that a slow curve cannot drift away from its line.
+const STRAIGHT: usize = 12;
+/// How far a point may lie from the line that replaces it, px.
+const OFF_LINE: f64 = 0.03;
+
+/// The same lines without points that stand on the way from one neighbour to the other.
+pub(crate) fn straightened(mut lines: Vec<Vec<(f64, f64)>>) -> Vec<Vec<(f64, f64)>> {
+    for line in &mut lines {
+        let mut kept: Vec<(f64, f64)> = Vec::with_capacity(line.len());
+        let mut skipped = 0;
+        for (index, point) in line.iter().enumerate() {
+            let straight = match (kept.last(), line.get(index + 1)) {
+                (Some(before), Some(next)) => {
+                    let (dx, dy) = (next.0 - before.0, next.1 - before.1);
+                    let (px, py) = (point.0 - before.0, point.1 - before.1);
+                    let along = dx * px + dy * py;
+                    let length = dx.hypot(dy);
+                    (dx * py - dy * px).abs() <= OFF_LINE * length
+                        && (0.0..=length * length).contains(&along)
+                }
+                _ => false,
+            };
+            if straight && skipped < STRAIGHT {
+                skipped += 1;
+            } else {
+                kept.push(*point);
+                skipped = 0;
+            }
+        }
+        *line = kept;
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn analytic_straight_stretches_lose_points_and_corners_stay() {
+        let step: Vec<(f64, f64)> = (0..2000)
+            .map(|k| (0.25 * f64::from(k), if k < 1000 { 50.0 } else { 10.0 }))
+            .collect();
+        let thin = straightened(vec![step.clone()]).remove(0);
+        assert!(thin.len() < 170, "{}", thin.len());
+        for corner in [step[0], step[999], step[1000], step[1999]] {
+            assert!(thin.contains(&corner));
+        }
+        // There and back on one line: the turn stays.
+        let spike = vec![(0.0, 0.0), (0.0, 9.0), (0.0, 1.0)];
+        assert_eq!(straightened(vec![spike.clone()]), [spike]);
+    }
 
     #[test]
     fn regress_thinning_keeps_extremes_and_gaps() {
