@@ -1,5 +1,6 @@
 //! From a run's results to the report's data: names, units and notes for people.
 
+use crate::page_motion::{cage_orbits, motion, slip_rows, spectrogram};
 use crate::say::short;
 use brinell::bearing::Kinematics;
 use brinell::channel::STIFFNESS_UNIT;
@@ -15,6 +16,7 @@ use brinell_report::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Report, RowLoad, Series, Spectrum, Waveform,
 };
+use std::f64::consts::TAU;
 
 /// Harmonics of a defect frequency that are marked.
 const HARMONICS: usize = 5;
@@ -48,6 +50,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
         facts: facts(parts),
         waveform: waveform(parts),
         spectrum: spectrum(parts),
+        spectrogram: spectrogram(parts, measured(parts)),
         envelope_spectrum: envelope_spectrum(parts),
         markers: markers(parts),
         damage,
@@ -62,6 +65,9 @@ pub(crate) fn report(parts: &Parts) -> Report {
         load_distribution: load_distribution(parts),
         indicators: indicators(parts),
         slip: slip(parts),
+        slip_rows: slip_rows(parts),
+        cage_orbits: cage_orbits(parts),
+        motion: motion(parts),
         audits: audits(parts),
         solver_work: solver_work(parts),
         assumptions: assumptions(parts),
@@ -71,6 +77,11 @@ pub(crate) fn report(parts: &Parts) -> Report {
 
 fn axis(parts: &Parts) -> &'static str {
     ["x", "y"][parts.findings.axis]
+}
+
+/// What waveform and spectra show.
+fn measured(parts: &Parts) -> String {
+    format!("Outer ring acceleration, {} (measured)", axis(parts))
 }
 
 fn speed(scenario: &Scenario) -> String {
@@ -189,7 +200,7 @@ fn waveform(parts: &Parts) -> Waveform {
     let l = &parts.simulation.model().layout;
     Waveform {
         series: Series {
-            label: format!("Outer ring acceleration, {} (measured)", axis(parts)),
+            label: measured(parts),
             unit: "m/s^2".into(),
             t0_s: t0,
             dt_s: dt,
@@ -272,9 +283,10 @@ fn markers(parts: &Parts) -> Vec<Marker> {
         .map(|d| k.struck_by(d.on).0)
         .collect();
     // Strikes first, then what modulates them.
-    ["BPFO", "BPFI", "2 BSF", "FTF"]
+    let shaft = model.rotation.at(0.0).0.abs() / TAU;
+    ["BPFO", "BPFI", "2 BSF", "FTF", "shaft"]
         .into_iter()
-        .filter_map(|name| k.table(0.0).into_iter().find(|row| row.0 == name))
+        .filter_map(|name| k.table(shaft).into_iter().find(|row| row.0 == name))
         .map(|(name, frequency_hz, meaning)| Marker {
             label: name.into(),
             meaning: meaning.into(),

@@ -162,6 +162,7 @@ fn demo(duration: f64) -> Report {
                         [[defects]]\non = \"outer-raceway\"\nrow = 1\ndepth_um = 20.0\nshape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }\n\n\
                         [simulation]\nduration_s = 10.0\nsample_rate_hz = 25600.0\n"
             .into(),
+        ..Report::default()
     }
 }
 

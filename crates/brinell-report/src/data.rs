@@ -5,6 +5,10 @@
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
 use crate::damage::DamageView;
+use crate::motion::Motion;
+use crate::orbit::CageOrbits;
+use crate::slip::SlipRow;
+use crate::spectrogram::Spectrogram;
 
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,6 +31,8 @@ pub struct Report {
     pub spectrum: Spectrum,
     /// The amplitude spectrum of its envelope; the band belongs in the label.
     pub envelope_spectrum: Spectrum,
+    /// Its spectrogram.
+    pub spectrogram: Spectrogram,
     /// The bearing's defect frequencies.
     pub markers: Vec<Marker>,
     /// The defects: seen from above, and what a roller meets on them.
@@ -41,6 +47,12 @@ pub struct Report {
     pub indicators: IndicatorTable,
     /// Slip of rollers and cages.
     pub slip: Vec<Fact>,
+    /// The same over time and place.
+    pub slip_rows: Vec<SlipRow>,
+    /// Orbits of the cages' centres.
+    pub cage_orbits: CageOrbits,
+    /// The bearing in motion.
+    pub motion: Motion,
     /// Momentum and energy audit, solver error.
     pub audits: Vec<Fact>,
     /// Steps, rejections, right-hand sides, time taken.

@@ -15,11 +15,21 @@
 mod chart;
 mod damage;
 mod data;
+mod embedded;
 mod font;
+mod load;
+mod motion;
 mod number;
+mod orbit;
 mod page;
 mod picture;
 mod plots;
+mod raster;
+mod shape;
+mod slip;
+mod spectrogram;
+mod tables;
+mod thin;
 
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
@@ -28,9 +38,14 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+pub use load::load_distribution;
+pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
+pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
 pub use page::html;
 pub use picture::{Error, Picture};
 pub use plots::{
-    Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png,
-    load_distribution, overview, pass, pictures, spectrum, waveform,
+    Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png, overview, pass,
+    pictures, spectrum, waveform,
 };
+pub use slip::{SlipRow, slip_over_angle, slip_over_time};
+pub use spectrogram::{Spectrogram, spectrogram};

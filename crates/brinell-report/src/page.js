@@ -54,7 +54,43 @@
     return copy;
   }
 
+  // Harmonics of the frequencies that the reader picked, as far as the view goes.
+  function harmonics(plot) {
+    const { svg, chart, frame: [l, t, r, b], view, font } = plot;
+    const X = (v) => l + (r - l) * (v - view[0]) / (view[1] - view[0]);
+    chart.toggles.forEach(([name, frequency, color, through], index) => {
+      const on = chart.picked.has(index);
+      if (through && chart.lanes.length) {
+        // Drawn on paper already.
+        const line = svg.querySelectorAll(".lane")[index]?.querySelectorAll("path")[1];
+        if (line) line.style.display = on ? "" : "none";
+        return;
+      }
+      const sample = svg.querySelector(".ticks-x path"), word = svg.querySelector("text");
+      if (!on || !sample) return;
+      const group = clone(svg.querySelector(".ticks-x"), svg, { class: "harmonics" }), lines = clone(sample, group, { stroke: color, "stroke-width": 1.2, "stroke-dasharray": ["6 3", "2 2", "8 2 2 2", "4 4", "1 3"][index % 5] });
+      const first = Math.max(1, Math.ceil(view[0] / frequency)), last = Math.floor(view[1] / frequency);
+      if ((last - first) * 3 > r - l) { lines.setAttribute("d", ""); return; }
+      let d = "", free = -Infinity;
+      for (let n = first; n <= last; n++) {
+        const x = X(n * frequency), label = n === 1 ? name : `${n}×`;
+        d += `M${x.toFixed(1)} ${t}L${x.toFixed(1)} ${b}`;
+        if (word && x > free && x + 3 + label.length * font * 0.6 < r) {
+          const text = clone(word, group, { x: (x + 3).toFixed(1), y: (t + (1.1 + 1.15 * (index % 5)) * font).toFixed(1), "text-anchor": "start", "font-size": font - 1, fill: color, "font-weight": 600, stroke: "#fff", "stroke-width": 3, "paint-order": "stroke" }, label);
+          text.removeAttribute("transform");
+          free = x + 10 + label.length * font * 0.6;
+        }
+      }
+      lines.setAttribute("d", d);
+    });
+  }
+
   function draw(plot, view) {
+    redraw(plot, view);
+    harmonics(plot);
+  }
+
+  function redraw(plot, view) {
     const { svg, chart, frame: [l, t, r, b], home } = plot;
     plot.view = view;
     svg.innerHTML = plot.original;
@@ -173,27 +209,64 @@
         for (let i = Math.max(0, nearest - reach); i <= Math.min(chart.values.length - 1, nearest + reach); i++) if (chart.values[i] > chart.values[index]) index = i;
       }
       const place = chart.x0 + index * chart.dx, limit = 5 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]);
-      const near = chart.lanes.flat().filter((m) => Math.abs(m[0] - place) <= limit).map((m) => m[1]).slice(0, 2);
+      const named = chart.toggles.flatMap(([label, f], k) => { const n = Math.round(place / f); return chart.picked.has(k) && !(chart.lanes.length && n <= chart.lanes[k].length) && n > 0 && Math.abs(n * f - place) <= limit ? [n === 1 ? label : `${n} × ${label}`] : []; });
+      const near = [...chart.lanes.flat().filter((m) => Math.abs(m[0] - place) <= limit).map((m) => m[1]), ...named].slice(0, 2);
       tools.readout.textContent = `${short(place, 6)} ${chart.xUnit} · ${short(chart.values[index], 4)} ${chart.yUnit}${near.length ? " · near " + near.join(", ") : ""}`;
       const [l, , r] = plot.frame, cx = l + (r - l) * (place - plot.view[0]) / (plot.view[1] - plot.view[0]);
       if (cx >= l && cx <= r) overlay(cx, cx, false);
     };
-    svg.addEventListener("pointerdown", (event) => { if (event.button === 0) { from = at(event); try { svg.setPointerCapture(event.pointerId); } catch { /* gone already */ } } });
+    const fingers = new Map();
+    let pinch = null;
+    const span = () => [...fingers.values()].sort((a, b) => a - b);
+    const around = (x, factor) => zoom(name, [x - (x - plot.view[0]) * factor, x + (plot.view[1] - x) * factor]);
+    svg.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      const [px, x] = at(event);
+      fingers.set(event.pointerId, px);
+      // Two fingers keep what is under them.
+      if (fingers.size === 2) { const value = (p) => plot.view[0] + (plot.view[1] - plot.view[0]) * (p - plot.frame[0]) / (plot.frame[2] - plot.frame[0]); pinch = span().map(value); from = null; svg.querySelector(".cursor")?.remove(); }
+      else from = [px, x];
+      try { svg.setPointerCapture(event.pointerId); } catch { /* gone already */ }
+    });
     svg.addEventListener("pointermove", (event) => {
       const [px, x] = at(event), [l, , r] = plot.frame;
+      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px);
+      if (pinch && fingers.size === 2) {
+        const [p1, p2] = span();
+        if (p2 - p1 < 12) return;
+        const per = (pinch[1] - pinch[0]) / (p2 - p1), lo = pinch[0] - (p1 - l) * per;
+        zoom(name, [lo, lo + (r - l) * per]);
+        return;
+      }
       if (from) overlay(Math.min(Math.max(from[0], l), r), Math.min(Math.max(px, l), r), true);
       else if (px >= l && px <= r) read(x, px);
     });
     svg.addEventListener("pointerup", (event) => {
+      fingers.delete(event.pointerId);
+      if (pinch) { if (!fingers.size) pinch = null; return; }
       if (!from) return;
       const [px, x] = at(event), start = from;
       from = null;
       if (Math.abs(px - start[0]) > 6) zoom(name, [Math.min(x, start[1]), Math.max(x, start[1])]);
       else read(x, px);
     });
-    svg.addEventListener("pointercancel", () => { from = null; svg.querySelector(".cursor")?.remove(); });
+    svg.addEventListener("pointercancel", (event) => { fingers.delete(event.pointerId); pinch = null; from = null; svg.querySelector(".cursor")?.remove(); });
     svg.addEventListener("pointerleave", () => { if (!from) { svg.querySelector(".cursor")?.remove(); tools.readout.textContent = tools.hint; } });
     svg.addEventListener("dblclick", () => zoom(name, null));
+    // A trackpad's pinch arrives as a wheel with Ctrl; the wheel alone scrolls the page.
+    svg.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey && !event.metaKey) return;
+      event.preventDefault();
+      around(at(event)[1], Math.exp(Math.max(-1, Math.min(1, event.deltaY * (event.deltaMode ? 0.05 : 0.004)))));
+    }, { passive: false });
+    svg.tabIndex = 0;
+    svg.addEventListener("keydown", (event) => {
+      const [a, c] = plot.view, step = (c - a) / 5;
+      const act = { ArrowLeft: () => zoom(name, [a - step, c - step]), ArrowRight: () => zoom(name, [a + step, c + step]), "+": () => around((a + c) / 2, 0.5), "=": () => around((a + c) / 2, 0.5), "-": () => around((a + c) / 2, 2), Escape: () => zoom(name, null), 0: () => zoom(name, null) }[event.key];
+      if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      act();
+    });
     svg.classList.add("zoomable");
   }
 
@@ -210,6 +283,7 @@
     const copy = svg.cloneNode(true), { width, height } = svg.viewBox.baseVal;
     copy.querySelector(".cursor")?.remove();
     copy.removeAttribute("class");
+    copy.removeAttribute("tabindex");
     copy.setAttribute("width", width);
     copy.setAttribute("height", height);
     copy.setAttribute("style", "background:#fff");
@@ -242,6 +316,7 @@
     const chart = JSON.parse(script.textContent);
     chart.values = decode(chart.values);
     chart.plots = [];
+    chart.picked = new Set(chart.toggles.flatMap((toggle, index) => toggle[3] && chart.lanes.length ? [index] : []));
     charts[script.dataset.chart] = chart;
   });
 
@@ -253,12 +328,13 @@
     bar.className = "tools";
     readout.className = "readout";
     const chart = charts[drawings[0].dataset.plot];
-    const tools = { readout, hint: chart && chart.values.length > 8 ? "Drag to zoom, double click to go back" : "" };
+    const tools = { readout, hint: chart && chart.values.length > 8 ? "Drag, pinch or Ctrl + wheel to zoom, double click to go back" : "" };
     readout.textContent = tools.hint;
     bar.append(readout);
     if (tools.hint) {
       const name = drawings[0].dataset.plot;
       bar.append(
+        button("+", "Zoom in", () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a + w / 4, b - w / 4]); }),
         button("−", "Zoom out", () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a - w / 2, b + w / 2]); }),
         button("All", "Show everything that is kept", () => zoom(name, [-Infinity, Infinity].map((v) => Math.min(Math.max(v, chart.x0), chart.x0 + chart.dx * (chart.values.length - 1))))),
         button("Reset", "Back to the first view", () => zoom(name, null)),
@@ -270,6 +346,22 @@
     );
     figure.prepend(bar);
     if (!tools.hint) return;
+    if (chart.toggles.length) {
+      const picks = document.createElement("div");
+      picks.className = "tools picks";
+      picks.append("Harmonics of");
+      chart.toggles.forEach(([label, frequency, color], index) => {
+        const node = button(label, `Mark the harmonics of ${label}, ${short(frequency, 6)} ${chart.xUnit}`, () => {
+          chart.picked[chart.picked.has(index) ? "delete" : "add"](index);
+          node.setAttribute("aria-pressed", chart.picked.has(index));
+          chart.plots.forEach((plot) => draw(plot, plot.view));
+        });
+        node.setAttribute("aria-pressed", chart.picked.has(index));
+        node.style.setProperty("--mark", color);
+        picks.append(node);
+      });
+      bar.after(picks);
+    }
     for (const svg of drawings) {
       const frame = svg.dataset.frame.split(" ").map(Number), view = svg.dataset.view.split(" ").map(Number);
       const [lo, hi] = chart.y, [, t, , b] = frame, L = Math.log10;

@@ -1,8 +1,12 @@
-//! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes. Bounded memory, whatever the duration.
+//! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes, motion. Bounded memory, whatever the duration.
 
 pub mod load_zone;
+pub mod motion;
+pub mod orbit;
 pub mod passes;
 pub mod slip;
+pub mod slip_course;
+pub mod time_frequency;
 pub mod waveform;
 
 use crate::channel::Frame;
@@ -10,13 +14,17 @@ use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::LONGEST_SEGMENT;
 use crate::signal::{
     Band, Blocks, EnvelopeSpectrum, EnvelopeWelch, LineFrequency, LineSearch, LineTracker,
-    Spectrum, Welch,
+    Spectrogram, Spectrum, Welch,
 };
 use crate::simulate::Simulation;
 use load_zone::LoadZone;
+use motion::Motion;
+use orbit::CageOrbit;
 use passes::Passes;
 use slip::Slip;
+use slip_course::SlipCourse;
 use std::f64::consts::TAU;
+use time_frequency::TimeFrequency;
 use waveform::Waveform;
 
 /// How a channel came to its sample rate.
@@ -77,10 +85,18 @@ pub struct Findings {
     pub load_zone: LoadZone,
     /// Slip.
     pub slip: Slip,
+    /// Slip over time and place.
+    pub slip_course: SlipCourse,
+    /// The last turns of the cages' centres.
+    pub cage_orbit: CageOrbit,
+    /// The last turn of the shaft.
+    pub motion: Motion,
     /// Passes and events.
     pub passes: Passes,
     /// The measured acceleration.
     pub waveform: Waveform,
+    /// Spectrogram of the measured acceleration, the whole run.
+    pub spectrogram: Option<Spectrogram>,
     /// Amplitude spectrum of the measured acceleration.
     pub spectrum: Option<Spectrum>,
     /// Its envelope spectrum and the band.
@@ -101,8 +117,12 @@ pub struct Watch {
     channels: Vec<ChannelStatistics>,
     load_zone: LoadZone,
     slip: Slip,
+    slip_course: SlipCourse,
+    cage_orbit: CageOrbit,
+    motion: Motion,
     passes: Passes,
     waveform: Waveform,
+    spectrogram: TimeFrequency,
     spectrum: Welch,
     envelope: (EnvelopeWelch, Band),
     trackers: Vec<(DefectLine, Option<LineTracker>)>,
@@ -167,8 +187,12 @@ impl Watch {
             channels,
             load_zone: LoadZone::new(&model.layout),
             slip: Slip::new(&model.layout),
+            slip_course: SlipCourse::new(&model.layout),
+            cage_orbit: CageOrbit::new(model, duration, sample_rate),
+            motion: Motion::new(model, duration, sample_rate),
             passes: Passes::new(model),
             waveform: Waveform::new(),
+            spectrogram: TimeFrequency::new(sample_rate, simulation.samples()),
             spectrum: Welch::new(sample_rate, segment),
             envelope: (EnvelopeWelch::new(sample_rate, segment, band), band),
             trackers: trackers(scenario, simulation, segment, band),
@@ -189,6 +213,9 @@ impl Watch {
                 self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
             }
         }
+        self.slip_course.take(frame, self.started.is_some());
+        self.cage_orbit.take(frame);
+        self.motion.take(frame);
         if self.started.is_some() {
             self.load_zone.take(frame);
             self.slip.take(frame);
@@ -199,6 +226,7 @@ impl Watch {
     pub fn row(&mut self, simulation: &Simulation, index: u64, row: &[f64], filtered: &[f64]) {
         let measured = filtered[self.axis];
         self.waveform.push(measured);
+        self.spectrogram.push(measured);
         let t = index as f64 / self.sample_rate;
         if self.started.is_none_or(|from| t < from) {
             return;
@@ -246,8 +274,12 @@ impl Watch {
             channels: self.channels,
             load_zone: self.load_zone,
             slip: self.slip,
+            slip_course: self.slip_course,
+            cage_orbit: self.cage_orbit,
+            motion: self.motion,
             passes: self.passes,
             waveform: self.waveform,
+            spectrogram: self.spectrogram.finish(),
             spectrum: self.spectrum.finish(),
             envelope: self.envelope.0.finish().map(|e| (e, self.envelope.1)),
             lines: self

@@ -1,0 +1,141 @@
+//! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
+
+use brinell::observe::load_zone::BINS;
+use brinell::observe::orbit::TURNS;
+use brinell::scenario::{Guidance, Surface};
+use brinell::summary::Parts;
+use brinell_report::{
+    CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram,
+};
+use std::f64::consts::TAU;
+
+pub(crate) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
+    let Some(s) = &parts.findings.spectrogram else {
+        return Spectrogram::default();
+    };
+    let frames = s.time_step * s.frequency_step * 2.0;
+    let averaged = if frames > 1.5 {
+        format!(", means of {frames:.0} segments")
+    } else {
+        String::new()
+    };
+    Spectrogram {
+        label,
+        unit: "(m/s^2)^2/Hz".into(),
+        t0_s: s.first_time,
+        dt_s: s.time_step,
+        df_hz: s.frequency_step,
+        bins: s.bins,
+        density: s.density.clone(),
+        note: format!(
+            "The whole run; Hann windows of {:.3} ms that overlap by half{averaged}.",
+            1e3 / s.frequency_step
+        ),
+    }
+}
+
+pub(crate) fn cage_orbits(parts: &Parts) -> CageOrbits {
+    let model = parts.simulation.model();
+    let orbit = &parts.findings.cage_orbit;
+    let guide = match model.guidance {
+        Guidance::InnerRing => "inner",
+        Guidance::OuterRing | Guidance::Rollers => "outer",
+    };
+    let rows = (0..orbit.rows()).map(|row| {
+        let points: Vec<(f64, [f64; 2])> = orbit.points(row).collect();
+        let end = points.last().map_or(0.0, |p| p.0);
+        let speed = model.rolling_orbit_speed(model.rotation.at(end).0).abs();
+        let turn = if speed > 0.0 {
+            TAU / speed
+        } else {
+            f64::INFINITY
+        };
+        CageOrbit {
+            title: format!("Cage of row {}", row + 1),
+            x_um: points.iter().map(|p| 1e6 * p.1[0]).collect(),
+            y_um: points.iter().map(|p| 1e6 * p.1[1]).collect(),
+            last_turn: points.iter().filter(|p| p.0 >= end - turn).count(),
+        }
+    });
+    CageOrbits {
+        rows: rows.collect(),
+        clearance_um: (model.guidance != Guidance::Rollers).then_some(1e6 * model.guide.clearance),
+        note: format!(
+            "Centre of each cage from the {guide} ring’s centre: the last {TURNS} turns of the cage, or as many as the run holds."
+        ),
+    }
+}
+
+pub(crate) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
+    let course = &parts.findings.slip_course;
+    let dt = course.samples_per_stretch() as f64 / parts.simulation.sample_rate();
+    let percent = |values: Vec<f64>| values.into_iter().map(|x| 100.0 * x).collect();
+    (0..parts.simulation.model().layout.rows)
+        .map(|row| {
+            let (time, place) = (course.over_time(row), course.over_angle(row));
+            SlipRow {
+                name: format!("row {}", row + 1),
+                t0_s: 0.5 * dt,
+                dt_s: dt,
+                cage: percent(time.cage),
+                orbit: percent(time.orbit),
+                spin: percent(time.spin),
+                angle_deg: brinell_report::bin_centres(BINS),
+                orbit_there: percent(place.orbit),
+                spin_there: percent(place.spin),
+            }
+        })
+        .collect()
+}
+
+pub(crate) fn motion(parts: &Parts) -> Motion {
+    let model = parts.simulation.model();
+    let (l, g) = (&model.layout, &model.geometry);
+    let kept = &parts.findings.motion;
+    let frames = kept.len();
+    if frames < 2 {
+        return Motion::default();
+    }
+    let rows = (0..l.rows).map(|row| {
+        let slots = || (0..l.rollers_per_row).map(|roller| l.slot(row, roller));
+        let mut data = MotionRow {
+            title: format!("Row {}", row + 1),
+            pockets: slots()
+                .map(|slot| model.pocket_angle[slot] as f32)
+                .collect(),
+            ..MotionRow::default()
+        };
+        for frame in 0..frames {
+            let rollers = kept.rollers(frame);
+            data.cage.push(kept.cages(frame)[row]);
+            data.orbit.extend(slots().map(|s| rollers[s].orbit));
+            data.spin.extend(slots().map(|s| rollers[s].spin));
+            data.inner_n.extend(slots().map(|s| rollers[s].inner_force));
+            data.outer_n.extend(slots().map(|s| rollers[s].outer_force));
+        }
+        data
+    });
+    let damage = model.defects.iter().map(|defect| {
+        let (first, last) = defect.shape.arc();
+        MotionDamage {
+            row: defect.row,
+            surface: match defect.surface {
+                Surface::OuterRaceway => DamagedSurface::Outer,
+                Surface::InnerRaceway => DamagedSurface::Inner,
+                Surface::Roller(k) => DamagedSurface::Roller(k),
+            },
+            angle: [first, last].map(|s| defect.center + s / defect.radius),
+        }
+    });
+    Motion {
+        t0_s: kept.time(0),
+        dt_s: (kept.time(frames - 1) - kept.time(0)) / (frames - 1) as f64,
+        inner_radius_mm: 1e3 * g.inner_radius,
+        outer_radius_mm: 1e3 * g.outer_radius,
+        pitch_radius_mm: 1e3 * g.pitch_radius,
+        roller_radius_mm: 1e3 * g.roller_radius,
+        ring: (0..frames).map(|frame| kept.ring(frame)).collect(),
+        rows: rows.collect(),
+        damage: damage.collect(),
+    }
+}

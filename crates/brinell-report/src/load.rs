@@ -1,0 +1,158 @@
+//! Load distribution around the bearing, as a polar picture.
+
+use crate::chart::{Size, range};
+use crate::data::RowLoad;
+use crate::font;
+use crate::number::{linear_ticks, tick_labels};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
+use crate::plots::{Layout, legend};
+
+/// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
+pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
+    let Size { width, font, .. } = layout.size(0.0);
+    let per_line = if layout == Layout::Wide {
+        rows.len().clamp(1, 2)
+    } else {
+        1
+    };
+    let cell = if layout == Layout::Wide { 400.0 } else { 350.0 };
+    let lines = rows.len().div_ceil(per_line).max(1);
+    let entries = [
+        (
+            "largest force",
+            Paint::line(ink::VERMILLION, 1.8).dashed(&[5.0, 3.0]),
+        ),
+        (
+            "mean force",
+            Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18),
+        ),
+        ("static equilibrium", Paint::fill(ink::BLACK, 1.0)),
+    ];
+    let mut picture = Picture::new(
+        "load-distribution",
+        "Contact force around the bearing",
+        width,
+        0.0,
+    );
+    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, font);
+    picture.height = top + cell * lines as f64;
+    let forces = rows.iter().flat_map(|row| {
+        row.mean_n
+            .iter()
+            .chain(&row.max_n)
+            .copied()
+            .chain(row.static_points.iter().map(|(_, force)| *force))
+    });
+    let largest = range(forces).map_or(0.0, |(_, hi)| hi);
+    let largest = if largest > 0.0 { largest } else { 1.0 };
+    let rings: Vec<f64> = linear_ticks(0.0, largest * 1.02, 5)
+        .into_iter()
+        .filter(|r| *r > 0.0)
+        .collect();
+    let (labels, power) = tick_labels(&rings);
+    let radius = 0.5 * cell - 44.0;
+    for (index, row) in rows.iter().enumerate() {
+        let inset = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
+        let column = (index % per_line) as f64;
+        let x = inset + column * (cell + inset) + 0.5 * cell;
+        let y = top + cell * (index / per_line) as f64 + 0.5 * cell + 12.0;
+        let at = |degrees: f64, force: f64| {
+            let r = radius * (force.max(0.0) / (largest * 1.04)).min(1.05);
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            (x + r * cos, y - r * sin)
+        };
+        for spoke in 0..8 {
+            let degrees = 45.0 * f64::from(spoke);
+            picture.path(
+                &[(x, y), at(degrees, largest * 1.04)],
+                Paint::line(ink::GRID, 1.0),
+            );
+            let (dx, dy) = (
+                at(degrees, largest * 1.04).0 - x,
+                at(degrees, largest * 1.04).1 - y,
+            );
+            let reach = 1.0 + (0.5 * font + 7.0) / radius;
+            let anchor = match dx {
+                dx if dx > 0.3 * radius => Anchor::Start,
+                dx if dx < -0.3 * radius => Anchor::End,
+                _ => Anchor::Middle,
+            };
+            let label = format!("{degrees}°");
+            let (label_x, label_y) = (x + reach * dx, y + reach * dy + 0.36 * font);
+            picture.text(Text::new(label_x, label_y, font, anchor, &label).color(ink::FAINT));
+        }
+        for ring in &rings {
+            let r = radius * ring / (largest * 1.04);
+            picture.shapes.push(Shape::Circle {
+                x,
+                y,
+                r,
+                paint: Paint::line(ink::GRID, 1.0),
+            });
+        }
+        let rim = Paint::line(ink::FRAME, 1.0);
+        picture.shapes.push(Shape::Circle {
+            x,
+            y,
+            r: radius,
+            paint: rim,
+        });
+
+        let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
+            let known = row
+                .angle_deg
+                .iter()
+                .zip(forces)
+                .filter(|(angle, _)| angle.is_finite());
+            known
+                .map(|(angle, force)| at(*angle, if force.is_finite() { *force } else { 0.0 }))
+                .collect()
+        };
+        for (forces, paint) in [(&row.mean_n, entries[1].1), (&row.max_n, entries[0].1)] {
+            let lines = vec![curve(forces)];
+            picture.shapes.push(Shape::Path {
+                lines,
+                close: true,
+                paint,
+                clip: None,
+            });
+        }
+        for (angle, force) in row
+            .static_points
+            .iter()
+            .filter(|(a, f)| a.is_finite() && f.is_finite())
+        {
+            let (x, y) = at(*angle, *force);
+            picture.shapes.push(Shape::Circle {
+                x,
+                y,
+                r: 3.2,
+                paint: Paint::line("#ffffff", 1.0).filled(ink::BLACK, 1.0),
+            });
+        }
+        // Numbers where the load usually is not: the bottom, a little aside.
+        for (ring, label) in rings.iter().zip(&labels) {
+            let (x, y) = at(247.5, *ring);
+            let scale = if power == 0 {
+                String::new()
+            } else {
+                format!("·10{}", crate::number::superscript(power))
+            };
+            let words = format!("{label}{scale} N");
+            let label = Text::new(x, y + 0.36 * font, font - 1.0, Anchor::Middle, &words);
+            let half = 0.5 * label.width() + 2.0;
+            let (top, bottom) = (y - 0.6 * font, y + 0.6 * font);
+            let back = Rect {
+                left: x - half,
+                right: x + half,
+                top,
+                bottom,
+            };
+            picture.rect(back, Paint::fill("#ffffff", 0.85));
+            picture.text(label.color(ink::FAINT));
+        }
+        let title = font::fitted(&row.title, font, true, cell);
+        picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
+    }
+    picture
+}

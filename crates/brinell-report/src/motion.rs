@@ -1,0 +1,438 @@
+//! The bearing in motion: one instant as a picture, and the frames that the page's script moves it through.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
+use crate::data::Report;
+use crate::embedded::base64;
+use crate::font;
+use crate::number::significant;
+use crate::page::{figure, none};
+use crate::picture::{Anchor, Paint, Picture, Shape, Text, escape, ink};
+use crate::plots::{Layout, legend};
+
+/// Evenly spaced instants of a bearing. Lengths in mm, angles in rad counter-clockwise from +X, forces in N.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct Motion {
+    /// Of the first frame.
+    pub t0_s: f64,
+    /// From frame to frame.
+    pub dt_s: f64,
+    /// Of the inner raceway.
+    pub inner_radius_mm: f64,
+    /// Of the outer raceway.
+    pub outer_radius_mm: f64,
+    /// Of the circle on which the rollers go round.
+    pub pitch_radius_mm: f64,
+    /// Of a roller.
+    pub roller_radius_mm: f64,
+    /// Angle of the inner ring, a frame each.
+    pub ring: Vec<f32>,
+    /// The rows.
+    pub rows: Vec<MotionRow>,
+    /// Where the damage is.
+    pub damage: Vec<MotionDamage>,
+}
+
+/// One row; all but `pockets` frame after frame, a value for each roller.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct MotionRow {
+    /// "Row 1".
+    pub title: String,
+    /// Angle of each pocket in the cage.
+    pub pockets: Vec<f32>,
+    /// Angle of the cage, one a frame.
+    pub cage: Vec<f32>,
+    /// Where the rollers are.
+    pub orbit: Vec<f32>,
+    /// How far they have turned about themselves.
+    pub spin: Vec<f32>,
+    /// Force at the inner contact.
+    pub inner_n: Vec<f32>,
+    /// Force at the outer contact.
+    pub outer_n: Vec<f32>,
+}
+
+/// What is damaged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum DamagedSurface {
+    /// Stands still.
+    Outer,
+    /// Turns with the inner ring.
+    Inner,
+    /// Turns with this roller, from 0.
+    Roller(usize),
+}
+
+/// Damage from an angle of its surface to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MotionDamage {
+    /// From 0.
+    pub row: usize,
+    /// Of what.
+    pub surface: DamagedSurface,
+    /// Its ends.
+    pub angle: [f64; 2],
+}
+
+/// Longest line of force, px.
+const FORCE: f64 = 46.0;
+/// A ring's thickness as drawn, share of the outer raceway's radius.
+const RING: f64 = 0.1;
+
+impl Motion {
+    /// Frames that every list holds.
+    fn frames(&self) -> usize {
+        let radii = [
+            self.inner_radius_mm,
+            self.outer_radius_mm,
+            self.pitch_radius_mm,
+            self.roller_radius_mm,
+        ];
+        let sound = radii.iter().all(|r| r.is_finite() && *r > 0.0 && *r < 1e6);
+        let times = self.t0_s.is_finite() && self.dt_s.is_finite() && self.dt_s > 0.0;
+        if !sound || !times || self.roller_radius_mm >= self.pitch_radius_mm {
+            return 0;
+        }
+        let of = |row: &MotionRow| {
+            let n = row.pockets.len().max(1);
+            [&row.orbit, &row.spin, &row.inner_n, &row.outer_n]
+                .map(|v| v.len() / n)
+                .into_iter()
+                .fold(row.cage.len(), usize::min)
+        };
+        self.rows.iter().map(of).fold(self.ring.len(), usize::min)
+    }
+
+    /// Largest contact force.
+    fn largest(&self) -> f64 {
+        let forces = self
+            .rows
+            .iter()
+            .flat_map(|row| row.inner_n.iter().chain(&row.outer_n));
+        let largest = forces
+            .copied()
+            .filter(|f| f.is_finite())
+            .fold(0.0f32, f32::max);
+        f64::from(largest)
+    }
+}
+
+fn finite(value: f32) -> f64 {
+    if value.is_finite() {
+        f64::from(value)
+    } else {
+        0.0
+    }
+}
+
+/// A force to label the scale with: 1, 2 or 5 times a power of ten, at least a third of the largest.
+fn round_force(largest: f64) -> f64 {
+    let decade = 10f64.powf(largest.log10().floor());
+    [5.0, 2.0, 1.0]
+        .map(|m| m * decade)
+        .into_iter()
+        .find(|f| *f <= largest)
+        .unwrap_or(decade)
+}
+
+/// The bearing at one of the instants, a circle to a row.
+pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture {
+    let size = layout.size(0.0);
+    let font = size.font;
+    let per_line = if layout == Layout::Wide {
+        motion.rows.len().clamp(1, 2)
+    } else {
+        1
+    };
+    let cell = if layout == Layout::Wide { 460.0 } else { 350.0 };
+    let mut picture = Picture::new("motion", "The bearing in motion", size.width, 0.0);
+    let colors = [
+        (
+            "force at the outer contact",
+            Paint::line(ink::VERMILLION, 2.2),
+        ),
+        ("force at the inner contact", Paint::line(ink::BLUE, 2.2)),
+        ("cage", Paint::line(ink::GREEN, 5.0)),
+        ("damage", Paint::line(ink::ORANGE, 5.0)),
+    ];
+    let [outer_paint, inner_paint, cage_paint, damage_paint] = colors.map(|c| c.1);
+    let shown = &colors[..if motion.damage.is_empty() { 3 } else { 4 }];
+    let frames = motion.frames();
+    if frames == 0 {
+        picture.height = 4.0 * font;
+        let words = Text::new(
+            0.5 * size.width,
+            2.0 * font,
+            font,
+            Anchor::Middle,
+            "Not recorded",
+        );
+        picture.text(words);
+        return picture;
+    }
+    let largest = motion.largest();
+    let per_newton = if largest > 0.0 { FORCE / largest } else { 0.0 };
+    let mut top = legend(&mut picture, shown, 12.0, size.width - 12.0, 2.0, font);
+    if largest > 0.0 {
+        let round = round_force(largest);
+        let (y, end) = (top + font, 12.0 + round * per_newton);
+        picture.path(&[(12.0, y), (end, y)], Paint::line(ink::BLACK, 2.2));
+        let words = format!(
+            "{} N; the largest force here is {} N",
+            significant(round, 2),
+            significant(largest, 3)
+        );
+        picture.text(Text::new(
+            end + 8.0,
+            y + 0.36 * font,
+            font,
+            Anchor::Start,
+            &words,
+        ));
+        top += 1.6 * font;
+    }
+
+    let frame = frame.min(frames - 1);
+    let (inner, outer) = (motion.inner_radius_mm, motion.outer_radius_mm);
+    let (pitch, roller) = (motion.pitch_radius_mm, motion.roller_radius_mm);
+    let scale = (0.5 * cell - FORCE - 6.0) / outer;
+    let ring = finite(motion.ring[frame]);
+    let mut centres = String::new();
+    let tall = cell + 1.6 * font;
+    for (index, row) in motion.rows.iter().enumerate() {
+        let gap = (size.width - cell * per_line as f64) / (per_line as f64 + 1.0);
+        let x = gap + (index % per_line) as f64 * (cell + gap) + 0.5 * cell;
+        let y = top + (index / per_line) as f64 * tall + 1.6 * font + 0.5 * cell;
+        let _ = write!(centres, " {x:.2} {y:.2}");
+        let at = |radius: f64, angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            (x + scale * radius * cos, y - scale * radius * sin)
+        };
+        let circle = |r: f64, paint| Shape::Circle {
+            x,
+            y,
+            r: scale * r,
+            paint,
+        };
+        let path = |lines, paint| Shape::Path {
+            lines,
+            close: false,
+            paint,
+            clip: None,
+        };
+        let steel = Paint::line(ink::FRAME, 1.0);
+        let s = &mut picture.shapes;
+        s.push(Shape::Open("m-row"));
+        let thick = RING * outer;
+        s.push(circle(outer + thick, steel.filled("#eef1f4", 1.0)));
+        s.push(circle(outer, steel.filled("#ffffff", 1.0)));
+        s.push(circle(inner, steel.filled("#eef1f4", 1.0)));
+        s.push(circle(
+            (inner - thick).max(0.2 * inner),
+            steel.filled("#ffffff", 1.0),
+        ));
+
+        s.push(Shape::Open("m-ring"));
+        let mark = vec![at((inner - thick).max(0.2 * inner), ring), at(inner, ring)];
+        s.push(path(vec![mark], Paint::line(ink::BLACK, 2.5)));
+        s.push(Shape::Close);
+
+        let n = row.pockets.len();
+        let values = |list: &[f32]| -> Vec<f64> {
+            list[frame * n..(frame + 1) * n]
+                .iter()
+                .map(|v| finite(*v))
+                .collect()
+        };
+        let (orbit, spin) = (values(&row.orbit), values(&row.spin));
+
+        // Bars of the cage between the pockets.
+        let half = (PI / n.max(1) as f64 - 1.06 * (roller / pitch).min(1.0).asin()).max(0.006);
+        let cage = finite(row.cage[frame]);
+        let bars = row.pockets.iter().map(|pocket| {
+            let middle = finite(*pocket) + cage + PI / n as f64;
+            [-half, 0.0, half].map(|a| at(pitch, middle + a)).to_vec()
+        });
+        s.push(Shape::Open("m-cage"));
+        s.push(path(bars.collect(), cage_paint));
+        s.push(Shape::Close);
+
+        s.push(Shape::Open("m-bodies"));
+        for angle in &orbit {
+            let (x, y) = at(pitch, *angle);
+            s.push(Shape::Circle {
+                x,
+                y,
+                r: scale * roller,
+                paint: Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0),
+            });
+        }
+        s.push(Shape::Close);
+        let spins = orbit.iter().zip(&spin).map(|(angle, spin)| {
+            let (x, y) = at(pitch, *angle);
+            let (sin, cos) = spin.sin_cos();
+            let reach = 0.85 * scale * roller;
+            vec![(x, y), (x + reach * cos, y - reach * sin)]
+        });
+        s.push(Shape::Open("m-spins"));
+        s.push(path(spins.collect(), Paint::line(ink::TEXT, 1.2)));
+        s.push(Shape::Close);
+
+        s.push(Shape::Open("m-damage"));
+        for damage in motion.damage.iter().filter(|d| d.row == index) {
+            let ends = damage.angle.map(|a| {
+                if a.is_finite() {
+                    a.clamp(-TAU, TAU)
+                } else {
+                    0.0
+                }
+            });
+            let along = (0..=8).map(|k| ends[0] + f64::from(k) / 8.0 * (ends[1] - ends[0]));
+            let line = match damage.surface {
+                DamagedSurface::Outer => along.map(|a| at(outer, a)).collect(),
+                DamagedSurface::Inner => along.map(|a| at(inner, a + ring)).collect(),
+                DamagedSurface::Roller(k) => {
+                    let (Some(orbit), Some(spin)) = (orbit.get(k), spin.get(k)) else {
+                        continue;
+                    };
+                    let (x, y) = at(pitch, *orbit);
+                    let on = |a: f64| {
+                        let (sin, cos) = (a + spin).sin_cos();
+                        (x + scale * roller * cos, y - scale * roller * sin)
+                    };
+                    along.map(on).collect()
+                }
+            };
+            s.push(path(vec![line], damage_paint));
+        }
+        s.push(Shape::Close);
+
+        let lines = |forces: &[f32], from: f64, way: f64| -> Vec<Vec<(f64, f64)>> {
+            let loaded = orbit.iter().zip(values(forces)).filter(|(_, f)| *f > 0.0);
+            loaded
+                .map(|(a, f)| vec![at(from, *a), at(from + way * f * per_newton / scale, *a)])
+                .collect()
+        };
+        s.push(Shape::Open("m-outer"));
+        s.push(path(lines(&row.outer_n, outer, 1.0), outer_paint));
+        s.push(Shape::Close);
+        s.push(Shape::Open("m-inner"));
+        s.push(path(lines(&row.inner_n, inner, -1.0), inner_paint));
+        s.push(Shape::Close);
+        s.push(Shape::Close);
+        let title = font::fitted(&row.title, font, true, cell);
+        picture
+            .text(Text::new(x, y - 0.5 * cell - 0.4 * font, font, Anchor::Middle, &title).bold());
+    }
+    picture.height = top + motion.rows.len().div_ceil(per_line) as f64 * tall;
+    picture.attributes = format!(" data-motion=\"{scale:.4} {per_newton:.6}{centres}\"");
+    picture
+}
+
+/// Angles as 65536ths of a turn.
+fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
+    let turn = |a: &f32| ((finite(*a) / TAU).rem_euclid(1.0) * 65536.0).round() as u32 as u16;
+    angles.iter().map(turn)
+}
+
+fn packed(numbers: impl Iterator<Item = u16>) -> String {
+    base64(&numbers.flat_map(u16::to_le_bytes).collect::<Vec<u8>>())
+}
+
+/// The frames, for the page's script: 16 bits a number, angles in turns and forces as shares of the largest.
+fn data(page: &mut String, motion: &Motion, frames: usize) {
+    let largest = motion.largest();
+    let _ = write!(
+        page,
+        "<script type=\"application/json\" data-frames=\"{frames}\">{{\"t0\":{},\"dt\":{},\"largest\":{largest},\"inner\":{},\"outer\":{},\
+         \"pitch\":{},\"roller\":{},\"thick\":{},\"values\":\"{}\",\"damage\":[",
+        motion.t0_s,
+        motion.dt_s,
+        motion.inner_radius_mm,
+        motion.outer_radius_mm,
+        motion.pitch_radius_mm,
+        motion.roller_radius_mm,
+        RING * motion.outer_radius_mm,
+        packed(turns(&motion.ring[..frames])),
+    );
+    for (index, damage) in motion.damage.iter().enumerate() {
+        let (kind, roller) = match damage.surface {
+            DamagedSurface::Outer => ("outer", 0),
+            DamagedSurface::Inner => ("inner", 0),
+            DamagedSurface::Roller(k) => ("roller", k),
+        };
+        let [from, to] = damage.angle.map(|a| {
+            if a.is_finite() {
+                a.clamp(-TAU, TAU)
+            } else {
+                0.0
+            }
+        });
+        let _ = write!(
+            page,
+            "{}[{},\"{kind}\",{from},{to},{roller}]",
+            if index == 0 { "" } else { "," },
+            damage.row
+        );
+    }
+    page.push_str("],\"rows\":[");
+    for (index, row) in motion.rows.iter().enumerate() {
+        let n = row.pockets.len();
+        let share = |f: &f32| {
+            if largest > 0.0 {
+                ((finite(*f) / largest).clamp(0.0, 1.0) * 65535.0).round() as u16
+            } else {
+                0
+            }
+        };
+        let pockets: Vec<String> = row
+            .pockets
+            .iter()
+            .map(|p| format!("{:.5}", finite(*p)))
+            .collect();
+        let numbers = turns(&row.orbit[..frames * n])
+            .chain(turns(&row.spin[..frames * n]))
+            .chain(row.inner_n[..frames * n].iter().map(share))
+            .chain(row.outer_n[..frames * n].iter().map(share))
+            .chain(turns(&row.cage[..frames]));
+        let _ = write!(
+            page,
+            "{}{{\"pockets\":[{}],\"values\":\"{}\"}}",
+            if index == 0 { "" } else { "," },
+            pockets.join(","),
+            packed(numbers)
+        );
+    }
+    page.push_str("]}</script>\n");
+}
+
+/// The page's section.
+pub(crate) fn section(page: &mut String, report: &Report) {
+    let motion = &report.motion;
+    let frames = motion.frames();
+    if frames == 0 || motion.rows.is_empty() {
+        return none(page, "The motion was not recorded.");
+    }
+    let end = motion.t0_s + motion.dt_s * (frames - 1) as f64;
+    let caption = format!(
+        "The end of the run, {} s to {} s, in {frames} frames. Raceways, rollers and cage are to scale, clearances and \
+         displacements too small to see. The marks on the inner ring and on the rollers show how they turn. Lines from the contacts: \
+         contact forces, as long as the forces are large.",
+        significant(motion.t0_s, 5),
+        significant(end, 5)
+    );
+    figure(
+        page,
+        "motion",
+        |layout| bearing_motion(motion, frames - 1, layout),
+        &escape(&caption),
+    );
+    data(page, motion, frames);
+}

@@ -1,0 +1,174 @@
+//! Orbits of the cages' centres.
+
+use crate::chart::{Chart, Domain, Spec, left_margin, range, right_margin};
+use crate::data::Report;
+use crate::font;
+use crate::page::{figure, none};
+use crate::picture::{Anchor, Paint, Picture, Text, escape, ink};
+use crate::plots::{Layout, legend};
+
+/// Where the cages' centres went.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct CageOrbits {
+    /// The cages.
+    pub rows: Vec<CageOrbit>,
+    /// How far a cage can go before it touches its land, where it has one.
+    pub clearance_um: Option<f64>,
+    /// What is shown, as a sentence.
+    pub note: String,
+}
+
+/// The way of one cage's centre; vectors are of one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CageOrbit {
+    /// "Cage of row 1".
+    pub title: String,
+    /// Along X.
+    pub x_um: Vec<f64>,
+    /// Along Y.
+    pub y_um: Vec<f64>,
+    /// How many points at the end make up the last turn of the cage.
+    pub last_turn: usize,
+}
+
+/// Points drawn of a part of the way, at most.
+const MOST: usize = 2048;
+
+/// A square a cage, both axes to one scale.
+pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
+    let size = layout.size(0.0);
+    let per_line = if layout == Layout::Wide {
+        orbits.rows.len().clamp(1, 2)
+    } else {
+        1
+    };
+    let cell = if layout == Layout::Wide { 440.0 } else { 350.0 };
+    let earlier = Paint::line(ink::SKY, 0.9);
+    let last = Paint::line(ink::BLUE, 1.8);
+    let land = Paint::line(ink::VERMILLION, 1.4).dashed(&[6.0, 3.0]);
+    let finite = |row: &CageOrbit| -> Vec<(f64, f64)> {
+        let points = row.x_um.iter().copied().zip(row.y_um.iter().copied());
+        points
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .collect()
+    };
+    let rows: Vec<Vec<(f64, f64)>> = orbits.rows.iter().map(finite).collect();
+    let farthest = range(rows.iter().flatten().map(|(x, y)| x.hypot(*y))).map_or(0.0, |r| r.1);
+    let clearance = orbits.clearance_um.filter(|c| c.is_finite() && *c > 0.0);
+    // An orbit that stays near the middle is shown large, without the land.
+    let seen = clearance.filter(|c| farthest > 0.2 * c);
+    let reach = 1.06 * farthest.max(seen.unwrap_or(0.0));
+    let reach = if reach > 0.0 { reach } else { 1.0 };
+
+    let mut picture = Picture::new("cage-orbit", "Orbit of the cages’ centres", size.width, 0.0);
+    let mut entries = vec![
+        ("last turn of the cage", last),
+        ("turns before it", earlier),
+    ];
+    let words = clearance.map(|c| {
+        let c = crate::number::significant(c, 3);
+        match seen {
+            Some(_) => format!("land, {c} µm from the centre"),
+            None => format!("land: {c} µm from the centre, beyond this picture"),
+        }
+    });
+    if let Some(words) = &words {
+        entries.push((words, land));
+    }
+    let top = legend(
+        &mut picture,
+        &entries,
+        12.0,
+        size.width - 12.0,
+        2.0,
+        size.font,
+    );
+    let mut height = 0.0f64;
+    for (index, (row, points)) in orbits.rows.iter().zip(&rows).enumerate() {
+        let mut spec = Spec {
+            name: String::new(),
+            title: String::new(),
+            size: crate::chart::Size {
+                width: cell,
+                ..size
+            },
+            x: Domain::exact(-reach, reach),
+            y: Domain::exact(-reach, reach),
+            x_label: "X".into(),
+            x_unit: "µm".into(),
+            y_label: "Y".into(),
+            y_unit: "µm".into(),
+            lanes: vec![],
+            left: 0.0,
+            right: 0.0,
+            x_axis: true,
+        };
+        // What numbers and labels leave of the width is the side of the square.
+        spec.size.height = cell;
+        let side = cell - left_margin(&spec) - right_margin(&spec);
+        spec.size.height = side + 8.0 + 3.4 * size.font;
+        let tall = spec.size.height + 2.0 * size.font;
+        let mut chart = Chart::new(spec);
+        if points.is_empty() {
+            chart.say("Not recorded");
+        }
+        let turn = points.len().saturating_sub(row.last_turn.max(1));
+        for (part, paint) in [
+            (&points[..(turn + 1).min(points.len())], earlier),
+            (&points[turn..], last),
+        ] {
+            // A loop visits a column of pixels again and again, so nothing is thinned.
+            let line = part
+                .iter()
+                .step_by(part.len().div_ceil(MOST).max(1))
+                .map(|(x, y)| (chart.x.at(*x), chart.y.at(*y)))
+                .collect::<Vec<_>>();
+            if line.len() > 1 {
+                chart.picture.path(&line, paint);
+            }
+        }
+        if let Some(c) = seen {
+            let circle: Vec<(f64, f64)> = (0..=120)
+                .map(|k| (f64::from(k) * 3.0).to_radians().sin_cos())
+                .map(|(sin, cos)| (chart.x.at(c * cos), chart.y.at(c * sin)))
+                .collect();
+            chart.picture.path(&circle, land);
+        }
+        let gap = (size.width - cell * per_line as f64) / (per_line as f64 + 1.0);
+        let left = gap + (index % per_line) as f64 * (cell + gap);
+        let down = top + (index / per_line) as f64 * tall;
+        let title = font::fitted(&row.title, size.font, true, cell);
+        let middle = 0.5 * (chart.frame.left + chart.frame.right);
+        picture.text(
+            Text::new(
+                left + middle,
+                down + 1.1 * size.font,
+                size.font,
+                Anchor::Middle,
+                &title,
+            )
+            .bold(),
+        );
+        picture.place(chart.finish(), left, down + 1.4 * size.font);
+        height = height.max(down + tall);
+    }
+    picture.height = height.max(top);
+    picture
+}
+
+/// The page's section.
+pub(crate) fn section(page: &mut String, report: &Report) {
+    let orbits = &report.cage_orbits;
+    if orbits.rows.is_empty() {
+        return none(page, "The motion of the cages was not recorded.");
+    }
+    figure(
+        page,
+        "orbit",
+        |layout| cage_orbit(orbits, layout),
+        &escape(&orbits.note),
+    );
+}

@@ -1,0 +1,192 @@
+//! Slip against pure rolling, over time and over the place in the bearing.
+
+use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
+use crate::data::Report;
+use crate::page::figure;
+use crate::picture::{Paint, Picture, ink};
+use crate::plots::{Layout, legend, time_unit};
+use crate::tables::fact_table;
+
+/// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the angle.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct SlipRow {
+    /// "row 1".
+    pub name: String,
+    /// Middle of the first stretch of time.
+    pub t0_s: f64,
+    /// From stretch to stretch.
+    pub dt_s: f64,
+    /// Of the cage's speed.
+    pub cage: Vec<f64>,
+    /// Of the rollers' orbit speed, mean.
+    pub orbit: Vec<f64>,
+    /// Of the rollers' spin speed, mean.
+    pub spin: Vec<f64>,
+    /// Where the rollers are: middles of equal bins around the bearing.
+    pub angle_deg: Vec<f64>,
+    /// Of the rollers' orbit speed there.
+    pub orbit_there: Vec<f64>,
+    /// Of the rollers' spin speed there.
+    pub spin_there: Vec<f64>,
+}
+
+const ROWS: [(&str, &[f64]); 4] = [
+    (ink::BLUE, &[]),
+    (ink::VERMILLION, &[6.0, 3.0]),
+    (ink::GREEN, &[2.0, 2.0]),
+    (ink::BLACK, &[9.0, 2.0, 2.0, 2.0]),
+];
+
+fn paint(row: usize) -> Paint {
+    let (color, dash) = ROWS[row % ROWS.len()];
+    Paint::line(color, 1.6).dashed(dash)
+}
+
+/// A curve's points.
+type Curve = (Vec<f64>, Vec<f64>);
+
+/// Panels over one another on one x axis, a curve a row in each.
+fn panels(
+    (name, title): (&str, &str),
+    layout: Layout,
+    (x_label, x_unit): (&str, &str),
+    rows: &[SlipRow],
+    panels: &[(&str, Vec<Curve>)],
+) -> Picture {
+    let size = layout.size(0.0);
+    let part = if layout == Layout::Wide { 140.0 } else { 130.0 };
+    let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
+    let (lo, hi) = range(xs.copied()).unwrap_or((0.0, 1.0));
+    let count = panels.len();
+    let mut specs: Vec<Spec> = panels
+        .iter()
+        .enumerate()
+        .map(|(index, (label, curves))| {
+            let x_axis = index + 1 == count;
+            Spec {
+                name: String::new(),
+                title: String::new(),
+                size: Size {
+                    height: part + if x_axis { 3.4 * size.font } else { 0.0 },
+                    ..size
+                },
+                x: Domain::exact(lo, hi),
+                y: Domain::around(curves.iter().flat_map(|c| &c.1).copied()),
+                x_label: x_label.into(),
+                x_unit: x_unit.into(),
+                y_label: (*label).into(),
+                y_unit: "%".into(),
+                lanes: vec![],
+                left: 0.0,
+                right: 0.0,
+                x_axis,
+            }
+        })
+        .collect();
+    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
+    specs.iter_mut().for_each(|spec| spec.left = left);
+    let mut picture = Picture::new(name, title, size.width, 0.0);
+    let entries: Vec<(&str, Paint)> = rows
+        .iter()
+        .enumerate()
+        .map(|(k, row)| (row.name.as_str(), paint(k)))
+        .collect();
+    let mut top = legend(&mut picture, &entries, left, size.width, 2.0, size.font);
+    for (spec, (_, curves)) in specs.into_iter().zip(panels) {
+        let height = spec.size.height;
+        let mut chart = Chart::new(spec);
+        if range(curves.iter().flat_map(|c| &c.1).copied()).is_none() {
+            chart.say("Not recorded");
+        }
+        for (row, (xs, ys)) in curves.iter().enumerate() {
+            chart.points(xs, ys, paint(row));
+        }
+        picture.place(chart.finish(), 0.0, top);
+        top += height;
+    }
+    picture.height = top;
+    picture
+}
+
+/// Cage, orbit and spin from the start of the run on.
+pub fn slip_over_time(rows: &[SlipRow], layout: Layout) -> Picture {
+    let end = |row: &SlipRow| row.t0_s + row.dt_s * row.cage.len() as f64;
+    let last = range(rows.iter().map(end)).map_or(0.0, |r| r.1);
+    let (unit, scale) = time_unit(last);
+    let curves = |pick: fn(&SlipRow) -> &Vec<f64>| -> Vec<Curve> {
+        rows.iter()
+            .map(|row| {
+                let ys = pick(row).clone();
+                let xs = (0..ys.len()).map(|k| (row.t0_s + k as f64 * row.dt_s) * scale);
+                (xs.collect(), ys)
+            })
+            .collect()
+    };
+    panels(
+        ("slip-time", "Slip over time"),
+        layout,
+        ("Time", unit),
+        rows,
+        &[
+            ("Cage slip", curves(|r| &r.cage)),
+            ("Rollers’ orbit slip", curves(|r| &r.orbit)),
+            ("Rollers’ spin slip", curves(|r| &r.spin)),
+        ],
+    )
+}
+
+/// Orbit and spin over the place in the bearing.
+pub fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
+    let curves = |pick: fn(&SlipRow) -> &Vec<f64>| -> Vec<Curve> {
+        rows.iter()
+            .map(|row| {
+                // From -180° on, so that the +X direction, where load often is, lies in the middle.
+                let mut points: Vec<(f64, f64)> = row
+                    .angle_deg
+                    .iter()
+                    .zip(pick(row))
+                    .map(|(a, y)| (if *a > 180.0 { a - 360.0 } else { *a }, *y))
+                    .collect();
+                points.sort_by(|a, b| a.0.total_cmp(&b.0));
+                points.into_iter().unzip()
+            })
+            .collect()
+    };
+    panels(
+        ("slip-angle", "Slip over the place in the bearing"),
+        layout,
+        ("Orbit angle of the roller", "°"),
+        rows,
+        &[
+            ("Rollers’ orbit slip", curves(|r| &r.orbit_there)),
+            ("Rollers’ spin slip", curves(|r| &r.spin_there)),
+        ],
+    )
+}
+
+/// Whether there is anything to draw.
+pub(crate) fn there_is(rows: &[SlipRow]) -> bool {
+    rows.iter().any(|row| !row.orbit.is_empty())
+}
+
+/// The page's section.
+pub(crate) fn section(page: &mut String, report: &Report) {
+    fact_table(page, &report.slip, "Slip was not recorded.");
+    if !there_is(&report.slip_rows) {
+        return;
+    }
+    figure(
+        page,
+        "slip-time",
+        |layout| slip_over_time(&report.slip_rows, layout),
+        "How far speeds stay behind pure rolling, as a share of it: means over short stretches of time, of all rollers of a row.",
+    );
+    figure(
+        page,
+        "slip-angle",
+        |layout| slip_over_angle(&report.slip_rows, layout),
+        "The same over the roller’s place, counter-clockwise from +X: means after the start-up.",
+    );
+}

@@ -1,0 +1,178 @@
+//! The spectrogram: frequency over time, darker where there is more.
+
+use std::fmt::Write as _;
+
+use crate::chart::{Chart, Domain, Spec, range};
+use crate::data::Report;
+use crate::number::{linear_ticks, tick_labels};
+use crate::page::{figure, none};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, escape, ink};
+use crate::plots::{Layout, time_unit};
+use crate::raster::{LEVELS, shade};
+
+/// Power spectral density over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct Spectrogram {
+    /// What it is of: "Outer ring acceleration, x (measured)".
+    pub label: String,
+    /// Unit of the density: "(m/s^2)^2/Hz".
+    pub unit: String,
+    /// Middle of the first frame.
+    pub t0_s: f64,
+    /// From frame to frame.
+    pub dt_s: f64,
+    /// From bin to bin; the first lies at 0 Hz.
+    pub df_hz: f64,
+    /// Bins of a frame.
+    pub bins: usize,
+    /// Frame after frame.
+    pub density: Vec<f64>,
+    /// How it was made; may be empty.
+    pub note: String,
+}
+
+/// Decibels from the darkest to the lightest shade, at most.
+const RANGE_DB: f64 = 60.0;
+/// Pixels of the image, at most.
+const ROWS: usize = 128;
+
+impl Spectrogram {
+    fn frames(&self) -> usize {
+        let known = |d: f64| d.is_finite() && d > 0.0;
+        if self.bins < 2 || !known(self.dt_s) || !known(self.df_hz) || !self.t0_s.is_finite() {
+            return 0;
+        }
+        self.density.len() / self.bins
+    }
+
+    /// Levels in dB, columns by rows with the highest frequency on top: means over neighbours.
+    fn levels(&self, most: usize) -> (usize, Vec<f64>) {
+        let frames = self.frames();
+        let (wide, tall) = (
+            frames.div_ceil(most).max(1),
+            self.bins.div_ceil(ROWS).max(1),
+        );
+        let (columns, rows) = (frames.div_ceil(wide), self.bins.div_ceil(tall));
+        let mut levels = Vec::with_capacity(columns * rows);
+        for row in (0..rows).rev() {
+            for column in 0..columns {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for frame in column * wide..((column + 1) * wide).min(frames) {
+                    for bin in row * tall..((row + 1) * tall).min(self.bins) {
+                        sum += self.density[frame * self.bins + bin];
+                        count += 1.0;
+                    }
+                }
+                levels.push(10.0 * (sum / count).log10());
+            }
+        }
+        (columns, levels)
+    }
+}
+
+/// Frequency over time, with the scale of its shades.
+pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
+    let size = layout.size(if layout == Layout::Wide { 330.0 } else { 280.0 });
+    let frames = view.frames();
+    let (first, last) = if frames > 0 {
+        (
+            view.t0_s - 0.5 * view.dt_s,
+            view.t0_s + (frames as f64 - 0.5) * view.dt_s,
+        )
+    } else {
+        (0.0, 1.0)
+    };
+    let (unit, scale) = time_unit(last - first);
+    // A bin's shade covers half a bin to each side of it.
+    let top = if frames > 0 {
+        view.df_hz * (view.bins as f64 - 0.5)
+    } else {
+        1.0
+    };
+    let mut chart = Chart::new(Spec {
+        name: "spectrogram".into(),
+        title: format!("Spectrogram: {}", view.label),
+        size,
+        x: Domain::exact(first * scale, last * scale),
+        y: Domain::exact(-0.5 * view.df_hz * f64::from(u8::from(frames > 0)), top),
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: "Frequency".into(),
+        y_unit: "Hz".into(),
+        lanes: vec![],
+        left: 0.0,
+        right: 5.6 * size.font,
+        x_axis: true,
+    });
+    let (columns, levels) = view.levels(if layout == Layout::Wide { 400 } else { 200 });
+    let Some((_, highest)) = range(levels.iter().copied()) else {
+        chart.say("No spectrogram");
+        return chart.finish();
+    };
+    // The scale's foot follows the bulk, not the deepest notch.
+    let mut sorted: Vec<f64> = levels.iter().copied().filter(|l| l.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let highest = (highest / 5.0).ceil() * 5.0;
+    let floor = sorted.get(sorted.len() / 50).copied().unwrap_or(highest);
+    let lowest = ((floor / 5.0).floor() * 5.0).clamp(highest - RANGE_DB, highest - 10.0);
+    let share = |level: f64| (level - lowest) / (highest - lowest);
+    let frame = chart.frame;
+    chart.picture.shapes.push(Shape::Image {
+        place: frame,
+        columns,
+        pixels: levels.iter().map(|level| shade(share(*level))).collect(),
+    });
+
+    let font = size.font;
+    let bar = Rect {
+        left: frame.right + 0.9 * font,
+        right: frame.right + 1.9 * font,
+        top: frame.top + 2.0 * font,
+        ..frame
+    };
+    chart.picture.shapes.push(Shape::Image {
+        place: bar,
+        columns: 1,
+        pixels: (0..LEVELS)
+            .rev()
+            .map(|k| shade(k as f64 / (LEVELS - 1) as f64))
+            .collect(),
+    });
+    chart.picture.rect(bar, Paint::line(ink::FRAME, 1.0));
+    let ticks = linear_ticks(lowest, highest, 6);
+    for (value, label) in ticks.iter().zip(tick_labels(&ticks).0) {
+        let y = bar.bottom - share(*value) * bar.height() + 0.36 * font;
+        chart.picture.text(Text::new(
+            bar.right + 0.4 * font,
+            y,
+            font,
+            Anchor::Start,
+            &label,
+        ));
+    }
+    let head = Text::new(bar.left, frame.top + 1.1 * font, font, Anchor::Start, "dB");
+    chart.picture.text(head);
+    chart.finish()
+}
+
+/// The page's section.
+pub(crate) fn section(page: &mut String, report: &Report) {
+    let view = &report.spectrogram;
+    if view.density.is_empty() {
+        return none(page, "No spectrogram was made.");
+    }
+    let mut caption = escape(&view.note);
+    let _ = write!(
+        caption,
+        " Shades: power spectral density in dB re 1 {}.",
+        crate::page::unit_html(&view.unit)
+    );
+    figure(
+        page,
+        "spectrogram",
+        |layout| spectrogram(view, layout),
+        &caption,
+    );
+}

@@ -1,0 +1,172 @@
+//! The page's tables and tiles: facts, indicators, assumptions.
+
+use std::fmt::Write as _;
+
+use crate::data::{Estimate, Fact, Report, Value};
+use crate::number::{significant, with_interval};
+use crate::page::{none, unit_html};
+use crate::picture::escape;
+
+pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
+    if facts.is_empty() {
+        return;
+    }
+    page.push_str("<dl class=\"facts\">\n");
+    for fact in facts {
+        let (class, value) = match &fact.value {
+            Value::Number(number) if number.is_finite() => ("value", significant(*number, 4)),
+            Value::Number(number) => ("value words", significant(*number, 4)),
+            Value::Text(text) => ("value words", escape(text)),
+        };
+        let _ = write!(
+            page,
+            "<div><dt>{}</dt><dd class=\"{class}\">{value}",
+            escape(&fact.label)
+        );
+        if !fact.unit.is_empty() {
+            let gap = if fact.unit == "°" { "" } else { " " };
+            let unit = unit_html(&fact.unit);
+            let _ = write!(page, "{gap}<span class=\"unit\">{unit}</span>");
+        }
+        page.push_str("</dd>");
+        if let Some(ok) = fact.ok {
+            let _ = write!(page, "<dd>{}</dd>", judged(ok));
+        }
+        if !fact.note.is_empty() {
+            let _ = write!(page, "<dd class=\"note\">{}</dd>", escape(&fact.note));
+        }
+        page.push_str("</div>\n");
+    }
+    page.push_str("</dl>\n");
+}
+
+fn judged(ok: bool) -> &'static str {
+    if ok {
+        "<span class=\"tag good\">within its limit</span>"
+    } else {
+        "<span class=\"tag bad\">outside its limit</span>"
+    }
+}
+
+pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
+    if facts.is_empty() {
+        return none(page, absent);
+    }
+    page.push_str(
+        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Quantity</th><th class=\"number\">Value</th><th>Unit</th>\
+         <th>Note</th></tr></thead><tbody>\n",
+    );
+    for fact in facts {
+        let _ = write!(page, "<tr><th scope=\"row\">{}</th>", escape(&fact.label));
+        value_cells(page, &fact.value, &fact.unit);
+        let _ = write!(page, "<td class=\"note\">{}", escape(&fact.note));
+        if let Some(ok) = fact.ok {
+            let _ = write!(page, " {}", judged(ok));
+        }
+        page.push_str("</td></tr>\n");
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
+fn value_cells(page: &mut String, value: &Value, unit: &str) {
+    match value {
+        Value::Number(number) => {
+            let _ = write!(
+                page,
+                "<td class=\"number\">{}</td>",
+                significant(*number, 6)
+            );
+        }
+        Value::Text(text) => {
+            let _ = write!(page, "<td class=\"number\">{}</td>", escape(text));
+        }
+    }
+    let _ = write!(page, " <td class=\"unit\">{}</td>", unit_html(unit));
+}
+
+pub(crate) fn indicators(page: &mut String, report: &Report) {
+    let table = &report.indicators;
+    if table.rows.is_empty() {
+        return none(page, "No indicators were computed.");
+    }
+    page.push_str("<div class=\"scroll\"><table><thead><tr><th>Channel</th><th>Signal</th>");
+    for column in &table.columns {
+        let _ = write!(page, "<th class=\"number\">{}</th>", escape(column));
+    }
+    page.push_str("</tr></thead><tbody>\n");
+    for row in &table.rows {
+        let _ = write!(
+            page,
+            "<tr><th scope=\"row\"><code>{}</code></th><td>{}</td>",
+            escape(&row.channel),
+            escape(&row.kind)
+        );
+        for cell in row
+            .cells
+            .iter()
+            .map(Some)
+            .chain(std::iter::repeat(None))
+            .take(table.columns.len().max(row.cells.len()))
+        {
+            let _ = write!(
+                page,
+                "<td class=\"number\">{}</td>",
+                cell.map_or_else(|| "–".to_owned(), estimate)
+            );
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></div>\n");
+    if !table.note.is_empty() {
+        none(page, &escape(&table.note));
+    }
+}
+
+fn estimate(cell: &Estimate) -> String {
+    let mut text = match cell.half_width {
+        Some(half) if half.is_finite() && cell.value.is_finite() => {
+            let (value, half) = with_interval(cell.value, half);
+            format!("{value} <span class=\"half\">± {half}</span>")
+        }
+        _ => significant(cell.value, 4),
+    };
+    if !cell.unit.is_empty() && cell.value.is_finite() {
+        let _ = write!(text, " {}", unit_html(&cell.unit));
+    }
+    text
+}
+
+pub(crate) fn assumptions(page: &mut String, report: &Report) {
+    if report.assumptions.is_empty() {
+        return none(page, "No assumptions are listed.");
+    }
+    let estimated = report.assumptions.iter().filter(|a| a.estimated).count();
+    let _ = writeln!(
+        page,
+        "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named.</p>",
+        report.assumptions.len()
+    );
+    page.push_str(
+        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Key</th><th class=\"number\">Value</th><th>Unit</th><th></th>\
+         <th>Source or reason</th></tr></thead><tbody>\n",
+    );
+    for assumption in &report.assumptions {
+        let _ = write!(
+            page,
+            "<tr><th scope=\"row\"><code>{}</code></th>",
+            escape(&assumption.key)
+        );
+        value_cells(page, &assumption.value, &assumption.unit);
+        let tag = if assumption.estimated {
+            "<span class=\"tag assumed\">assumed</span>"
+        } else {
+            "<span class=\"tag\">stated</span>"
+        };
+        let _ = writeln!(
+            page,
+            "<td>{tag}</td><td class=\"note\">{}</td></tr>",
+            escape(&assumption.source)
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+}

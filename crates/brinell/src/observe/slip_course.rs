@@ -1,0 +1,162 @@
+//! Slip of cages and rollers against pure rolling: over time from the start on, and over the place in the bearing.
+
+use crate::channel::Frame;
+use crate::defect::wrap;
+use crate::model::Layout;
+use crate::observe::load_zone::BINS;
+use crate::scenario::ModelKind;
+use std::f64::consts::TAU;
+
+/// Stretches of time, at most.
+pub const STRETCHES: usize = 1024;
+/// Below this share of the highest speed, slip says nothing.
+const SLOWEST: f64 = 0.05;
+
+/// Sums over one stretch of time or one place, of fractions.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Sums {
+    cage: f64,
+    orbit: f64,
+    spin: f64,
+    cages: u32,
+    rollers: u32,
+}
+
+impl Sums {
+    fn with(self, other: Self) -> Self {
+        Self {
+            cage: self.cage + other.cage,
+            orbit: self.orbit + other.orbit,
+            spin: self.spin + other.spin,
+            cages: self.cages + other.cages,
+            rollers: self.rollers + other.rollers,
+        }
+    }
+}
+
+/// Mean slip over time and place, of one row. NaN where there was nothing to average.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Slips {
+    /// 1 - cage speed / its pure-rolling speed.
+    pub cage: Vec<f64>,
+    /// 1 - orbit speed / its pure-rolling speed: the mean of all rollers.
+    pub orbit: Vec<f64>,
+    /// 1 - spin speed / its pure-rolling speed: the mean of all rollers.
+    pub spin: Vec<f64>,
+}
+
+/// Gathers slip while a run goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlipCourse {
+    rows: usize,
+    /// Samples of a full stretch.
+    per_stretch: u64,
+    in_stretch: u64,
+    /// Stretch after stretch, a row each.
+    stretches: Vec<Sums>,
+    /// Row after row, [`BINS`] places each.
+    places: Vec<Sums>,
+}
+
+impl SlipCourse {
+    /// Empty.
+    pub fn new(layout: &Layout) -> Self {
+        Self {
+            rows: layout.rows,
+            per_stretch: 1,
+            in_stretch: 0,
+            stretches: Vec::with_capacity(STRETCHES * layout.rows),
+            places: vec![Sums::default(); BINS * layout.rows],
+        }
+    }
+
+    /// Takes one sample instant; places are counted where `settled`.
+    pub fn take(&mut self, f: &Frame, settled: bool) {
+        if self.in_stretch == 0 {
+            if self.stretches.len() == STRETCHES * self.rows {
+                self.merge();
+            }
+            for _ in 0..self.rows {
+                self.stretches.push(Sums::default());
+            }
+        }
+        self.in_stretch = (self.in_stretch + 1) % self.per_stretch;
+        let (w, _) = f.model.rotation.at(f.t);
+        if f.model.kind == ModelKind::Reference
+            || w == 0.0
+            || w.abs() < SLOWEST * f.model.rotation.max_speed().abs()
+        {
+            return;
+        }
+        let l = &f.model.layout;
+        let dof = l.dof();
+        let (rolling, spinning) = (
+            f.model.rolling_orbit_speed(w),
+            f.model.rolling_spin_speed(w),
+        );
+        let first = self.stretches.len() - self.rows;
+        for row in 0..self.rows {
+            let sums = &mut self.stretches[first + row];
+            sums.cage += 1.0 - f.y[dof + l.cage(row) + 2] / rolling;
+            sums.cages += 1;
+        }
+        for slot in 0..l.rollers() {
+            let row = l.row(slot);
+            let orbit = 1.0 - f.y[dof + l.theta() + slot] / rolling;
+            let spin = 1.0 - f.y[dof + l.phi() + slot] / spinning;
+            let sums = &mut self.stretches[first + row];
+            sums.orbit += orbit;
+            sums.spin += spin;
+            sums.rollers += 1;
+            if settled {
+                let turn = (wrap(f.y[l.theta() + slot]) / TAU).rem_euclid(1.0);
+                let bin = ((turn * BINS as f64) as usize).min(BINS - 1);
+                let sums = &mut self.places[row * BINS + bin];
+                sums.orbit += orbit;
+                sums.spin += spin;
+                sums.rollers += 1;
+            }
+        }
+    }
+
+    /// Joins stretches two by two.
+    fn merge(&mut self) {
+        let half = STRETCHES / 2;
+        for stretch in 0..half {
+            for row in 0..self.rows {
+                let at = |k: usize| k * self.rows + row;
+                self.stretches[at(stretch)] =
+                    self.stretches[at(2 * stretch)].with(self.stretches[at(2 * stretch + 1)]);
+            }
+        }
+        self.stretches.truncate(half * self.rows);
+        self.per_stretch *= 2;
+    }
+
+    /// Samples of a stretch.
+    pub fn samples_per_stretch(&self) -> u64 {
+        self.per_stretch
+    }
+
+    /// Slip of a row, stretch by stretch from t = 0 on; empty for the reference model, whose motion is kinematic.
+    pub fn over_time(&self, row: usize) -> Slips {
+        means(self.stretches.iter().skip(row).step_by(self.rows))
+    }
+
+    /// Slip of a row's rollers over their orbit angle, in the bins of the load distribution; `cage` says nothing here.
+    pub fn over_angle(&self, row: usize) -> Slips {
+        means(&self.places[row * BINS..(row + 1) * BINS])
+    }
+}
+
+fn means<'a>(sums: impl IntoIterator<Item = &'a Sums> + Clone) -> Slips {
+    let sums = || sums.clone().into_iter();
+    if sums().all(|s| s.rollers == 0) {
+        return Slips::default();
+    }
+    Slips {
+        cage: sums().map(|s| s.cage / f64::from(s.cages)).collect(),
+        orbit: sums().map(|s| s.orbit / f64::from(s.rollers)).collect(),
+        spin: sums().map(|s| s.spin / f64::from(s.rollers)).collect(),
+    }
+}

@@ -1,0 +1,176 @@
+//! The spectrogram of a signal of any length, in a bounded number of frames: of a long signal, neighbours are averaged.
+
+use crate::signal::{Spectrogram, Window};
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
+use std::sync::Arc;
+
+/// Frames kept, at most.
+pub const FRAMES: usize = 400;
+/// Samples of a segment, least and most.
+const SEGMENT: [usize; 2] = [64, 1024];
+
+/// A spectrogram on its way: Hann windows that overlap by half, as in [`crate::signal::spectrogram()`].
+pub struct TimeFrequency {
+    sample_rate: f64,
+    length: usize,
+    window: Vec<f64>,
+    energy: f64,
+    fft: Arc<dyn RealToComplex<f64>>,
+    latest: Vec<f64>,
+    filled: usize,
+    input: Vec<f64>,
+    output: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    /// Sums of densities, frame after frame; the last may be incomplete.
+    sums: Vec<f64>,
+    per_frame: usize,
+    in_frame: usize,
+}
+
+impl TimeFrequency {
+    /// For about `samples` samples: bins and frames in equal number.
+    pub fn new(sample_rate: f64, samples: u64) -> Self {
+        let length = ((samples.max(1) as f64).sqrt() as usize)
+            .next_power_of_two()
+            .clamp(SEGMENT[0], SEGMENT[1]);
+        Self::with_length(sample_rate, length)
+    }
+
+    fn with_length(sample_rate: f64, length: usize) -> Self {
+        let fft = RealFftPlanner::new().plan_fft_forward(length);
+        let window = Window::Hann.periodic(length);
+        Self {
+            sample_rate,
+            length,
+            energy: window.iter().map(|w| w * w).sum(),
+            window,
+            latest: vec![0.0; length],
+            filled: 0,
+            input: fft.make_input_vec(),
+            output: fft.make_output_vec(),
+            scratch: fft.make_scratch_vec(),
+            sums: Vec::with_capacity(FRAMES * (length / 2 + 1)),
+            per_frame: 1,
+            in_frame: 0,
+            fft,
+        }
+    }
+
+    /// Takes one sample.
+    pub fn push(&mut self, x: f64) {
+        self.latest[self.filled] = x;
+        self.filled += 1;
+        if self.filled < self.length {
+            return;
+        }
+        for ((input, x), w) in self.input.iter_mut().zip(&self.latest).zip(&self.window) {
+            *input = x * w;
+        }
+        self.latest.copy_within(self.length / 2.., 0);
+        self.filled = self.length - self.length / 2;
+        let done =
+            self.fft
+                .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
+        if done.is_err() {
+            return;
+        }
+        let bins = self.output.len();
+        if self.in_frame == 0 {
+            if self.sums.len() == FRAMES * bins {
+                self.merge();
+            }
+            self.sums.resize(self.sums.len() + bins, 0.0);
+        }
+        self.in_frame = (self.in_frame + 1) % self.per_frame;
+        let first = self.sums.len() - bins;
+        let density = 1.0 / (self.sample_rate * self.energy);
+        for (k, (sum, value)) in self.sums[first..].iter_mut().zip(&self.output).enumerate() {
+            let sides = if k == 0 || 2 * k == self.length {
+                1.0
+            } else {
+                2.0
+            };
+            *sum += sides * value.norm_sqr() * density;
+        }
+    }
+
+    /// Joins frames two by two.
+    fn merge(&mut self) {
+        let bins = self.output.len();
+        for frame in 0..FRAMES / 2 {
+            for k in 0..bins {
+                self.sums[frame * bins + k] =
+                    self.sums[2 * frame * bins + k] + self.sums[(2 * frame + 1) * bins + k];
+            }
+        }
+        self.sums.truncate(FRAMES / 2 * bins);
+        self.per_frame *= 2;
+    }
+
+    /// The frames, each the mean of as many segments; `None` where the signal was shorter than one.
+    pub fn finish(mut self) -> Option<Spectrogram> {
+        let bins = self.output.len();
+        if self.in_frame > 0 {
+            self.sums.truncate(self.sums.len() - bins);
+        }
+        if self.sums.is_empty() {
+            return None;
+        }
+        self.sums
+            .iter_mut()
+            .for_each(|sum| *sum /= self.per_frame as f64);
+        let step = (self.length / 2) as f64 / self.sample_rate;
+        let whole: f64 = self.window.iter().sum();
+        Some(Spectrogram {
+            frequency_step: self.sample_rate / self.length as f64,
+            first_time: 0.5 * self.length as f64 / self.sample_rate
+                + 0.5 * (self.per_frame - 1) as f64 * step,
+            time_step: self.per_frame as f64 * step,
+            bins,
+            density: self.sums,
+            square_amplitude_per_density: 2.0 * self.sample_rate * self.energy / (whole * whole),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::{Segments, spectrogram};
+
+    #[test]
+    fn analytic_frames_are_those_of_the_whole_signal_and_means_of_them() {
+        let fs = 1000.0;
+        let x: Vec<f64> = (0..64 * 300)
+            .map(|k| (k as f64 * 0.3).sin() + (k as f64 * k as f64 * 1e-5).cos())
+            .collect();
+        let whole = spectrogram(&x, fs, &Segments::of(64)).unwrap();
+        let mut streamed = TimeFrequency::with_length(fs, 64);
+        x.iter().for_each(|x| streamed.push(*x));
+        let streamed = streamed.finish().unwrap();
+        // 599 segments: more than fit, so frames are means of two.
+        assert_eq!(
+            (whole.frames(), streamed.frames(), streamed.bins),
+            (599, 299, 33)
+        );
+        assert_eq!(streamed.time_step, 2.0 * whole.time_step);
+        assert!((streamed.first_time - whole.first_time - 0.5 * whole.time_step).abs() < 1e-12);
+        for frame in 0..streamed.frames() {
+            for k in 0..streamed.bins {
+                let mean = 0.5 * (whole.frame(2 * frame)[k] + whole.frame(2 * frame + 1)[k]);
+                assert!((streamed.frame(frame)[k] - mean).abs() <= 1e-12 * (mean + 1e-3));
+            }
+        }
+    }
+
+    #[test]
+    fn prop_memory_is_bounded() {
+        let mut stream = TimeFrequency::with_length(1000.0, 64);
+        let room = stream.sums.capacity();
+        (0..1_000_000_u32).for_each(|k| stream.push(f64::from(k % 7)));
+        assert_eq!(stream.sums.capacity(), room);
+        assert!(stream.finish().is_some_and(|s| s.frames() <= FRAMES));
+        assert!(TimeFrequency::new(1000.0, 10).finish().is_none());
+    }
+}
