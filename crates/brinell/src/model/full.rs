@@ -36,8 +36,15 @@ fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspac
     equations::<lanes::Avx2>(model, t, y, dy, ws);
 }
 
+/// dy/dt at (t, y).
 #[inline(always)]
-fn equations<L: Lanes>(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+pub(super) fn equations<L: Lanes>(
+    model: &Model,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    ws: &mut Workspace,
+) {
     let l = &model.layout;
     let dof = l.dof();
     let (q, v) = y.split_at(dof);
