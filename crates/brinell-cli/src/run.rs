@@ -32,7 +32,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
     let folder = args.output.clone().unwrap_or_else(named);
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
-    let done = execute(args, &loaded, &simulation, &folder, progress, &stop_flag()?)?;
+    let stop = stop_flag()?;
+    let done = execute(args, &loaded, &simulation, &folder, progress, &stop)?;
     if !args.quiet {
         for line in &done.told {
             say!("{line}");
@@ -290,8 +291,12 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
     let reached = outcome.rows.saturating_sub(1) as f64 / parts.simulation.sample_rate();
     match &outcome.end {
         End::Complete => {}
-        End::Stopped => told.push(format!("Interrupted: the results are partial, up to t = {reached:.4} s.")),
-        End::Failed(_) => told.push(format!("Failed: the results are partial, up to t = {reached:.4} s.")),
+        End::Stopped => told.push(format!(
+            "Interrupted: the results are partial, up to t = {reached:.4} s."
+        )),
+        End::Failed(_) => told.push(format!(
+            "Failed: the results are partial, up to t = {reached:.4} s."
+        )),
     }
     told.push(format!(
         "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
@@ -352,7 +357,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             .map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
     for path in written {
-        told.push(format!("  wrote {}", path.display()),
+        told.push(format!("  wrote {}", path.display()));
     }
     told
 }

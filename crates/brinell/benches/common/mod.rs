@@ -45,6 +45,23 @@ pub fn off_and_on_damage(model: &Model) -> [Moment; 2] {
     found.map(|moment| moment.expect("damage that rollers pass"))
 }
 
+/// Moments along a run, from 50 to 80 ms.
+pub fn moments(model: &Model) -> Vec<Moment> {
+    const SPACING_S: f64 = 1e-3;
+    let mut motion = Motion::new(model);
+    let y = brinell::start::state(model).expect("a start");
+    let settings = settings(model, Accuracy::Standard);
+    let mut stepper = Stepper::new(&mut motion, settings, 0.0, &y);
+    let mut moments = Vec::new();
+    while stepper.t() < 0.08 {
+        stepper.step(&mut motion).expect("a step");
+        if stepper.t() >= 0.05 + SPACING_S * moments.len() as f64 {
+            moments.push((stepper.t(), stepper.y().to_vec()));
+        }
+    }
+    moments
+}
+
 /// Looks at nothing.
 pub struct Nothing;
 
