@@ -1,6 +1,7 @@
 //! The command line. Its help teaches.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Vibration of rolling bearings with real damage, from first principles.
@@ -25,7 +26,7 @@ pub(crate) struct Cli {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Simulate a scenario: signals, summary.json and a self-contained report.html
+    /// Simulate scenarios: signals, summary.json and a self-contained report.html of each
     Run(RunArgs),
     /// Validate a scenario and print what follows from it, without running
     Check(CheckArgs),
@@ -63,11 +64,20 @@ pub(crate) struct ScenarioArgs {
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
-    Ctrl-C ends the run cleanly: what was computed is kept and marked partial.")]
+    Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
+    before any runs; one that fails stops no other.\n\n\
+    Ctrl-C ends runs cleanly: what was computed is kept and marked partial.")]
 pub(crate) struct RunArgs {
-    #[command(flatten)]
-    pub(crate) scenario: ScenarioArgs,
-    /// Folder for the results [default: out/NAME, NAME being the scenario's]
+    /// The scenarios (TOML); `-` reads standard input
+    #[arg(required = true, value_name = "SCENARIO")]
+    pub(crate) scenarios: Vec<PathBuf>,
+    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40`; a bare word is a string
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Runs at a time, of several scenarios [default: one a core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Folder for the results [default: out/NAME, NAME being the scenario's; of several scenarios out, each in out/STEM]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Signal files to write, separated by commas

@@ -50,17 +50,27 @@ impl Failure {
 
     /// To standard error.
     pub(crate) fn print(&self) {
+        self.print_of("");
+    }
+
+    /// To standard error, with the scenario `of` in front where the message does not name it itself.
+    pub(crate) fn print_of(&self, of: &str) {
+        let of = if of.is_empty() {
+            String::new()
+        } else {
+            format!("{of}: ")
+        };
         match self {
             Self::Scenario {
                 name,
                 text,
                 problems,
             } => print_problems(name, text, problems),
-            Self::Usage(message) => complain!("error: {message}"),
+            Self::Usage(message) => complain!("error: {of}{message}"),
             Self::Read(path, error) => complain!("error: cannot read {}: {error}", path.display()),
-            Self::Write(error) => complain!("error: {error}"),
-            Self::Picture(error) => complain!("error: {error}"),
-            Self::Run(error) => complain!("error: {error}"),
+            Self::Write(error) => complain!("error: {of}{error}"),
+            Self::Picture(error) => complain!("error: {of}{error}"),
+            Self::Run(error) => complain!("error: {of}{error}"),
         }
     }
 }

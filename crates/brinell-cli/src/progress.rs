@@ -1,8 +1,9 @@
 //! The progress bar: simulated time, speed relative to real time, time to go. Silent where no terminal listens.
 
-use crate::say::short;
+use crate::say::{say, short};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::path::Path;
 use std::time::Instant;
 
 /// Steps between looks at the clock.
@@ -14,27 +15,19 @@ pub(crate) struct Progress {
     duration: f64,
     begin: Instant,
     skipped: u32,
+    /// Of one run among several: what it has added to their common bar, us.
+    shared: Option<u64>,
 }
 
 impl Progress {
     /// For a run of `duration` seconds.
     pub(crate) fn new(duration: f64, quiet: bool) -> Self {
-        let target = if quiet || !std::io::stderr().is_terminal() {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr_with_hz(10)
-        };
-        let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
-        // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default stands in should it ever not parse.
-        let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
-        bar.set_style(style);
-        bar.set_message("starting");
         Self {
-            bar,
+            bar: bar(duration, quiet),
             duration,
             begin: Instant::now(),
             skipped: 0,
+            shared: None,
         }
     }
 
@@ -45,6 +38,12 @@ impl Progress {
             return;
         }
         self.skipped = 0;
+        if let Some(told) = &mut self.shared {
+            let now = micros(t.min(self.duration)).max(*told);
+            self.bar.inc(now - *told);
+            *told = now;
+            return;
+        }
         self.bar.set_position(micros(t));
         let speed = t / self.begin.elapsed().as_secs_f64();
         self.bar.set_message(format!(
@@ -58,10 +57,88 @@ impl Progress {
         self.begin.elapsed().as_secs_f64()
     }
 
-    /// Takes the bar away.
+    /// Takes the bar away; a common one stays for the others, with this run's share full.
     pub(crate) fn finish(&self) {
+        match self.shared {
+            Some(told) => self.bar.inc(micros(self.duration).saturating_sub(told)),
+            None => self.bar.finish_and_clear(),
+        }
+    }
+}
+
+/// The common progress of several runs: one bar over the simulated time of all.
+pub(crate) struct Joint {
+    bar: ProgressBar,
+    runs: usize,
+    ended: usize,
+}
+
+impl Joint {
+    /// For `runs` runs of `duration` seconds together.
+    pub(crate) fn new(runs: usize, duration: f64, quiet: bool) -> Self {
+        let joint = Self {
+            bar: bar(duration, quiet),
+            runs,
+            ended: 0,
+        };
+        joint.tell();
+        joint
+    }
+
+    /// For one of the runs, `duration` seconds long. Threads may hold theirs at once: what they share is an atomic number, drawn by
+    /// whoever finds that a tenth of a second has passed.
+    pub(crate) fn part(bar: &ProgressBar, duration: f64) -> Progress {
+        Progress {
+            bar: bar.clone(),
+            duration,
+            begin: Instant::now(),
+            skipped: 0,
+            shared: Some(0),
+        }
+    }
+
+    /// What the runs' parts are made from.
+    pub(crate) fn bar(&self) -> ProgressBar {
+        self.bar.clone()
+    }
+
+    /// The run into `folder` has ended; `lines` go to standard output above the bar.
+    pub(crate) fn ended(&mut self, lines: &[String], folder: &Path) {
+        self.ended += 1;
+        self.bar.suspend(|| {
+            for line in lines {
+                say!("{}: {line}", folder.display());
+            }
+        });
+        self.tell();
+    }
+
+    fn tell(&self) {
+        self.bar
+            .set_message(format!("{} of {} runs done", self.ended, self.runs));
+    }
+}
+
+impl Drop for Joint {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// A bar over `duration` simulated seconds.
+fn bar(duration: f64, quiet: bool) -> ProgressBar {
+    let target = if quiet || !std::io::stderr().is_terminal() {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr_with_hz(10)
+    };
+    let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
+    // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default stands in should it ever not parse.
+    let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    bar.set_style(style);
+    bar.set_message("starting");
+    bar
 }
 
 fn micros(t: f64) -> u64 {

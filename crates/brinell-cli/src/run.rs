@@ -1,6 +1,8 @@
 //! `brinell run`.
 
-use crate::args::{PlotFormat, RunArgs, SignalFormat};
+mod many;
+
+use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::progress::Progress;
 use crate::say::{say, short};
@@ -20,27 +22,74 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
-    let loaded = files::scenario(&args.scenario, args.quiet)?;
-    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let [path] = &args.scenarios[..] else {
+        return many::run(args);
+    };
+    let (loaded, simulation) = ready(args, path)?;
     if !args.quiet {
         files::warn_idle(simulation.idle_patterns());
     }
-    let folder = folder(args, &loaded);
-    make_folder(&folder)?;
+    let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
+    let folder = args.output.clone().unwrap_or_else(named);
+    let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
+    let stop = stop_flag()?;
+    let done = execute(args, &loaded, &simulation, &folder, progress, &stop)?;
+    if !args.quiet {
+        for line in &done.told {
+            say!("{line}");
+        }
+    }
+    match done.end {
+        End::Failed(error) => Err(Failure::Run(error)),
+        End::Stopped if done.interrupted => Ok(ExitCode::from(INTERRUPTED)),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// A scenario, read, checked and made a simulation of.
+fn ready(args: &RunArgs, path: &Path) -> Result<(Loaded, Simulation), Failure> {
+    let source = ScenarioArgs {
+        scenario: path.to_owned(),
+        set: args.set.clone(),
+    };
+    let loaded = files::scenario(&source, args.quiet)?;
+    let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    Ok((loaded, simulation))
+}
+
+/// A run that is over, its files written.
+struct Done {
+    end: End,
+    /// By Ctrl-C.
+    interrupted: bool,
+    /// A few lines on what came out; what matters most first.
+    told: Vec<String>,
+}
+
+/// Runs, and writes everything that was asked for into `folder`.
+fn execute(
+    args: &RunArgs,
+    loaded: &Loaded,
+    simulation: &Simulation,
+    folder: &Path,
+    progress: Progress,
+    stop: &AtomicBool,
+) -> Result<Done, Failure> {
+    make_folder(folder)?;
     // What a reader needs to make sense of a partial run comes first.
     let path = folder.join("scenario.toml");
     atomic_write(&path, loaded.to_toml().as_bytes())?;
     let mut written = vec![path];
-    let writers = writers(args, &loaded, &simulation, &folder)?;
+    let writers = writers(args, loaded, simulation, folder)?;
 
     let mut recorder = Recorder {
-        watch: Watch::new(&loaded.scenario, &simulation),
-        simulation: &simulation,
+        watch: Watch::new(&loaded.scenario, simulation),
+        simulation,
         row: vec![0.0; simulation.channels().len() + 1],
         writers,
         failed: None,
-        progress: Progress::new(loaded.scenario.simulation.duration_s, args.quiet),
-        stop: stop_flag()?,
+        progress,
+        stop,
     };
     let outcome = simulation.run(&mut recorder);
     recorder.progress.finish();
@@ -48,7 +97,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     if let Some(error) = recorder.failed {
         return Err(error.into());
     }
-    let interrupted = recorder.stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
+    let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
     let ending = match &outcome.end {
         End::Complete => brinell_io::Outcome::Complete,
         End::Stopped => brinell_io::Outcome::Partial("interrupted".into()),
@@ -57,11 +106,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     for writer in recorder.writers {
         written.push(writer.finish(ending.clone())?);
     }
-    let findings = recorder.watch.finish(&simulation);
+    let findings = recorder.watch.finish(simulation);
     let statics = static_load_zone(simulation.model());
     let parts = Parts {
-        loaded: &loaded,
-        simulation: &simulation,
+        loaded,
+        simulation,
         outcome: &outcome,
         findings: &findings,
         statics: &statics,
@@ -77,21 +126,13 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             atomic_write(&path, brinell_report::html(&report).as_bytes())?;
             written.push(path);
         }
-        plots(args, &report, &folder, &mut written)?;
+        plots(args, &report, folder, &mut written)?;
     }
-    if !args.quiet {
-        tell(&parts, elapsed, &written);
-    }
-    match outcome.end {
-        End::Failed(error) => Err(Failure::Run(error)),
-        End::Stopped if interrupted => Ok(ExitCode::from(INTERRUPTED)),
-        _ => Ok(ExitCode::SUCCESS),
-    }
-}
-
-fn folder(args: &RunArgs, loaded: &Loaded) -> PathBuf {
-    let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
-    args.output.clone().unwrap_or_else(named)
+    Ok(Done {
+        told: tell(&parts, elapsed, &written),
+        end: outcome.end,
+        interrupted,
+    })
 }
 
 /// A name is free text; a folder's is not.
@@ -208,7 +249,7 @@ struct Recorder<'a> {
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
     progress: Progress,
-    stop: Arc<AtomicBool>,
+    stop: &'a AtomicBool,
 }
 
 impl Observer for Recorder<'_> {
@@ -243,7 +284,8 @@ impl Observer for Recorder<'_> {
 }
 
 /// A few lines on what came out.
-fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
+fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
+    let mut told = Vec::new();
     let Parts {
         outcome,
         findings,
@@ -253,17 +295,21 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
     let reached = outcome.rows.saturating_sub(1) as f64 / parts.simulation.sample_rate();
     match &outcome.end {
         End::Complete => {}
-        End::Stopped => say!("Interrupted: the results are partial, up to t = {reached:.4} s."),
-        End::Failed(_) => say!("Failed: the results are partial, up to t = {reached:.4} s."),
+        End::Stopped => told.push(format!(
+            "Interrupted: the results are partial, up to t = {reached:.4} s."
+        )),
+        End::Failed(_) => told.push(format!(
+            "Failed: the results are partial, up to t = {reached:.4} s."
+        )),
     }
-    say!(
+    told.push(format!(
         "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
         loaded.scenario.name,
         short(reached, 4),
         reached / elapsed,
         outcome.work.solver.steps,
         outcome.work.solver.evaluations + outcome.work.sample_evaluations,
-    );
+    ));
     for channel in &findings.channels {
         if channel.kind != Kind::AntiAliased || !channel.name.starts_with("measured_") {
             continue;
@@ -280,13 +326,13 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
                 .estimate(i)
                 .map_or("-".into(), |e| short(e.value, 3))
         };
-        say!(
+        told.push(format!(
             "  {}: RMS {}{interval} m/s^2, peak to peak {}, kurtosis {}",
             channel.name,
             short(rms.value, 3),
             other(Indicator::PeakToPeak),
             other(Indicator::Kurtosis),
-        );
+        ));
     }
     for line in &findings.lines {
         let found = line.found.map_or("not found in the envelope".into(), |f| {
@@ -296,15 +342,15 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
                 short(f.uncertainty, 1)
             )
         });
-        say!(
+        told.push(format!(
             "  defect {}: {} {found}; pure rolling {:.2} Hz",
             line.defect + 1,
             line.name,
             line.nominal
-        );
+        ));
     }
     let energy = &outcome.energy;
-    say!(
+    told.push(format!(
         "  energy audit closes to {} of the turnover, momentum to {}",
         short(
             energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE),
@@ -313,8 +359,9 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) {
         outcome
             .momentum_imbalance
             .map_or("(rigid mount)".into(), |x| short(x, 1)),
-    );
+    ));
     for path in written {
-        say!("  wrote {}", path.display());
+        told.push(format!("  wrote {}", path.display()));
     }
+    told
 }

@@ -11,6 +11,7 @@ pub mod document;
 pub mod elementary;
 pub mod friction;
 pub mod lanes;
+pub mod many;
 pub mod model;
 pub mod observe;
 pub mod operation;

@@ -25,7 +25,7 @@ use crate::contact::Hertz;
 use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
-use crate::lanes::Column;
+use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
 use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
 use std::f64::consts::TAU;
@@ -385,6 +385,12 @@ impl Model {
             ModelKind::Full => full::derivative(self, t, y, dy, ws),
             ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
         }
+    }
+
+    /// [`Self::derivative`] of the full model in lanes of the caller's choice, whatever the workspace's kernel: `benches/kernel.rs` counts
+    /// operations with lanes that count. Compiled for the caller's instructions, so slow where those are the target's plain ones.
+    pub fn derivative_in<L: Lanes>(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+        full::equations::<L, false>(self, t, y, dy, ws);
     }
 }
 

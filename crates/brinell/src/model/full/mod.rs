@@ -55,8 +55,9 @@ struct Sums {
     power: Power,
 }
 
+/// dy/dt at (t, y); the rollers one by one where `PLAIN`.
 #[inline(always)]
-fn equations<L: Lanes, const PLAIN: bool>(
+pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     model: &Model,
     t: f64,
     y: &[f64],

@@ -1,0 +1,165 @@
+//! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
+
+use super::{Done, execute, make_folder, ready, stop_flag};
+use crate::args::RunArgs;
+use crate::failure::{Failure, INTERRUPTED};
+use crate::files;
+use crate::progress::Joint;
+use crate::say::{complain, say};
+use brinell::document::Loaded;
+use brinell::simulate::{End, Simulation};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What one run will be. The model is made anew by the thread that runs it, so that memory goes with the runs in progress.
+struct Task {
+    path: PathBuf,
+    loaded: Loaded,
+    folder: PathBuf,
+}
+
+pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
+    let begin = Instant::now();
+    let root = args.output.as_deref().unwrap_or(Path::new("out"));
+    let folders = folders(&args.scenarios, root)?;
+    let Some(tasks) = checked(args, folders) else {
+        complain!("nothing was run");
+        return Ok(ExitCode::from(2));
+    };
+    for task in &tasks {
+        make_folder(&task.folder)?;
+    }
+    let stop = stop_flag()?;
+    let threads = brinell::many::threads(tasks.len());
+    let threads = args.jobs.unwrap_or(threads);
+    let total = tasks
+        .iter()
+        .map(|t| t.loaded.scenario.simulation.duration_s)
+        .sum();
+    let mut joint = Joint::new(tasks.len(), total, args.quiet);
+    let bar = joint.bar();
+    let (mut left_out, mut interrupted) = (Vec::new(), false);
+    let mut failures: Vec<(usize, Failure)> = Vec::new();
+    brinell::many::each(
+        tasks.len(),
+        threads,
+        |k| {
+            let task = &tasks[k];
+            let progress = Joint::part(&bar, task.loaded.scenario.simulation.duration_s);
+            (!stop.load(Ordering::Relaxed)).then(|| one(args, task, progress, &stop))
+        },
+        |k, result| match result {
+            None => left_out.push(k),
+            Some(Ok(done)) => {
+                // The indented rest is for a run on its own.
+                let mut lines = done.told.clone();
+                lines.retain(|line| !args.quiet && !line.starts_with(' '));
+                joint.ended(&lines, &tasks[k].folder);
+                interrupted |= done.interrupted;
+                if let End::Failed(error) = done.end {
+                    failures.push((k, Failure::Run(error)));
+                }
+            }
+            Some(Err(failure)) => {
+                joint.ended(&[], &tasks[k].folder);
+                failures.push((k, failure));
+            }
+        },
+    );
+    drop(joint);
+    interrupted |= !left_out.is_empty();
+    if !args.quiet {
+        say!(
+            "{} runs, {} at a time, in {:.2} s",
+            tasks.len() - left_out.len(),
+            threads.get().min(tasks.len()),
+            begin.elapsed().as_secs_f64()
+        );
+    }
+    left_out.sort_unstable();
+    for k in &left_out {
+        complain!("not started: {}", tasks[*k].path.display());
+    }
+    failures.sort_by_key(|(k, _)| *k);
+    for (k, failure) in &failures {
+        failure.print_of(&tasks[*k].path.display().to_string());
+    }
+    if !failures.is_empty() {
+        complain!("{} of {} runs failed", failures.len(), tasks.len());
+    }
+    Ok(if interrupted {
+        ExitCode::from(INTERRUPTED)
+    } else if failures.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(1)
+    })
+}
+
+fn one(
+    args: &RunArgs,
+    task: &Task,
+    progress: crate::progress::Progress,
+    stop: &AtomicBool,
+) -> Result<Done, Failure> {
+    let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
+    execute(
+        args,
+        &task.loaded,
+        &simulation,
+        &task.folder,
+        progress,
+        stop,
+    )
+}
+
+/// Each scenario's folder: `root` and the name of its file without ending.
+fn folders(scenarios: &[PathBuf], root: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut taken: HashMap<String, &Path> = HashMap::new();
+    let mut folders = Vec::new();
+    for path in scenarios {
+        let stem = if files::is_stdin(path) {
+            "stdin".into()
+        } else {
+            path.file_stem().unwrap_or(path.as_os_str()).to_owned()
+        };
+        // Some file systems take no notice of case.
+        let key = stem.to_string_lossy().to_lowercase();
+        if let Some(first) = taken.insert(key, path) {
+            return Err(Failure::Usage(format!(
+                "{} and {} would both be written to {}: rename one, or run it apart",
+                first.display(),
+                path.display(),
+                root.join(&stem).display()
+            )));
+        }
+        folders.push(root.join(stem));
+    }
+    Ok(folders)
+}
+
+/// Every scenario read and tried; `None`, with every failure told, where any is not sound.
+fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
+    let mut tasks = Vec::new();
+    for (path, folder) in args.scenarios.iter().zip(folders) {
+        let name = path.display().to_string();
+        match ready(args, path) {
+            Ok((loaded, simulation)) => {
+                if !args.quiet && !simulation.idle_patterns().is_empty() {
+                    complain!("{name}:");
+                    files::warn_idle(simulation.idle_patterns());
+                }
+                tasks.push(Task {
+                    path: path.clone(),
+                    loaded,
+                    folder,
+                });
+            }
+            Err(failure) => failure.print_of(&name),
+        }
+    }
+    (tasks.len() == args.scenarios.len()).then_some(tasks)
+}

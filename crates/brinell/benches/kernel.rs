@@ -1,0 +1,333 @@
+//! A right-hand side: its time with each kernel, its arithmetic, and how near that comes to what the core can do.
+//!
+//! `cargo bench --bench kernel`. Operations are counted by running the equations in lanes that count; a fused product and sum is two, as is
+//! usual; comparisons and moves of bits are named apart. Work on single numbers (rings, cages, damage under a roller) is not counted.
+//! The peak is a loop of independent fused products and sums on the same core at the same moment.
+
+mod common;
+
+use brinell::lanes::{Lanes, Portable, WIDTH};
+use brinell::model::{Kernel, Model, Workspace};
+use common::{Moment, moments, off_and_on_damage, rectangle};
+use criterion::Criterion;
+use std::cell::Cell;
+use std::hint::black_box;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::time::Instant;
+
+/// Counted operations on groups of eight.
+#[derive(Debug, Clone, Copy, Default)]
+struct Operations {
+    sums: u64,
+    products: u64,
+    fused: u64,
+    quotients: u64,
+    others: u64,
+}
+
+impl Operations {
+    /// Floating-point operations on single numbers.
+    fn flops(&self) -> u64 {
+        WIDTH as u64 * (self.sums + self.products + 2 * self.fused + self.quotients)
+    }
+}
+
+thread_local! {
+    static COUNTED: Cell<Operations> = const { Cell::new(Operations { sums: 0, products: 0, fused: 0, quotients: 0, others: 0 }) };
+}
+
+fn count(add: impl FnOnce(&mut Operations)) {
+    let mut counted = COUNTED.get();
+    add(&mut counted);
+    COUNTED.set(counted);
+}
+
+/// Portable lanes that count what is asked of them.
+#[derive(Debug, Clone, Copy)]
+struct Counting(Portable);
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $count:ident) => {
+        impl $trait for Counting {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                count(|c| c.$count += 1);
+                Self($trait::$method(self.0, other.0))
+            }
+        }
+    };
+}
+operator!(Add, add, sums);
+operator!(Sub, sub, sums);
+operator!(Mul, mul, products);
+operator!(Div, div, quotients);
+
+impl Neg for Counting {
+    type Output = Self;
+    fn neg(self) -> Self {
+        count(|c| c.others += 1);
+        Self(-self.0)
+    }
+}
+
+impl AddAssign for Counting {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Counting {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+/// Methods that are neither sum nor product.
+macro_rules! others {
+    ($($method:ident($($arg:ident: $type:ty),*);)*) => {
+        $(fn $method(self, $($arg: $type),*) -> Self {
+            count(|c| c.others += 1);
+            Self(self.0.$method($($arg.inner()),*))
+        })*
+    };
+}
+
+/// What the portable lanes are given for an argument.
+trait Inner {
+    type Of;
+    fn inner(self) -> Self::Of;
+}
+impl Inner for Counting {
+    type Of = Portable;
+    fn inner(self) -> Portable {
+        self.0
+    }
+}
+impl Inner for u64 {
+    type Of = u64;
+    fn inner(self) -> u64 {
+        self
+    }
+}
+
+impl Lanes for Counting {
+    fn splat(x: f64) -> Self {
+        Self(Portable::splat(x))
+    }
+    fn new(x: [f64; WIDTH]) -> Self {
+        Self(Portable::new(x))
+    }
+    fn array(self) -> [f64; WIDTH] {
+        self.0.array()
+    }
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        count(|n| n.fused += 1);
+        Self(self.0.times_plus(b.0, c.0))
+    }
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        count(|n| n.fused += 1);
+        Self(self.0.minus_times(b.0, c.0))
+    }
+    fn above(self, other: Self) -> u8 {
+        count(|n| n.others += 1);
+        self.0.above(other.0)
+    }
+    fn shift_up<const N: i32>(self) -> Self {
+        count(|n| n.others += 1);
+        Self(self.0.shift_up::<N>())
+    }
+    fn shift_down<const N: i32>(self) -> Self {
+        count(|n| n.others += 1);
+        Self(self.0.shift_down::<N>())
+    }
+    others! {
+        abs();
+        with_sign(sign: Self);
+        if_above(other: Self, x: Self, y: Self);
+        and_bits(bits: u64);
+        or_bits(bits: u64);
+        and(other: Self);
+        xor(other: Self);
+        add_bits(bits: u64);
+        minus_bits();
+        positive_part();
+        at_least(other: Self);
+        at_most(other: Self);
+    }
+}
+
+fn counted(model: &Model, (t, y): &Moment) -> Operations {
+    let mut ws = Workspace::new(model);
+    let mut dy = vec![0.0; y.len()];
+    COUNTED.set(Operations::default());
+    model.derivative_in::<Counting>(*t, y, &mut dy, &mut ws);
+    COUNTED.get()
+}
+
+/// `rounds` rounds of N independent x * a + b.
+#[inline(always)]
+fn chains<L: Lanes, const N: usize>(rounds: u64, a: f64, b: f64) -> f64 {
+    let (a, b) = (L::splat(a), L::splat(b));
+    let mut x: [L; N] = std::array::from_fn(|k| L::splat(k as f64));
+    for _ in 0..rounds {
+        for x in &mut x {
+            *x = x.times_plus(a, b);
+        }
+    }
+    x.into_iter().map(L::sum).sum()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn chains_avx512(rounds: u64, a: f64, b: f64) -> f64 {
+    chains::<brinell::lanes::Avx512, 12>(rounds, a, b)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn chains_avx2(rounds: u64, a: f64, b: f64) -> f64 {
+    chains::<brinell::lanes::Avx2, 6>(rounds, a, b)
+}
+
+/// Best of several, s: what a machine does when nobody else is at it.
+fn shortest(mut what: impl FnMut()) -> f64 {
+    (0..20)
+        .map(|_| {
+            let begin = Instant::now();
+            what();
+            begin.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Floating-point operations a second of independent fused products and sums with a kernel's instructions.
+fn peak(kernel: Kernel) -> f64 {
+    const ROUNDS: u64 = 1_000_000;
+    let (a, b) = (black_box(0.999_999), black_box(1e-6));
+    let of = |chains: u64, seconds: f64| (2 * WIDTH as u64 * chains * ROUNDS) as f64 / seconds;
+    match kernel {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: asked for only where the processor has these instructions.
+        Kernel::Avx512 => of(
+            12,
+            shortest(|| {
+                black_box(unsafe { chains_avx512(ROUNDS, a, b) });
+            }),
+        ),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Kernel::Avx2 => of(
+            6,
+            shortest(|| {
+                black_box(unsafe { chains_avx2(ROUNDS, a, b) });
+            }),
+        ),
+        // Three groups' worth; as `Portable` they would go through memory.
+        _ => of(
+            3,
+            shortest(|| {
+                let mut x: [f64; 3 * WIDTH] = std::array::from_fn(|k| k as f64);
+                for _ in 0..ROUNDS {
+                    for x in &mut x {
+                        *x = *x * a + b;
+                    }
+                }
+                black_box(x);
+            }),
+        ),
+    }
+}
+
+fn kernels() -> impl Iterator<Item = Kernel> {
+    Kernel::ALL.into_iter().filter(|k| k.is_there())
+}
+
+/// Time of one right-hand side, s: the mean over moments.
+fn time(model: &Model, kernel: Kernel, moments: &[Moment]) -> f64 {
+    let rounds = 20_000 / moments.len();
+    let mut ws = Workspace::with_kernel(model, kernel);
+    let mut dy = vec![0.0; moments[0].1.len()];
+    shortest(|| {
+        for _ in 0..rounds {
+            for (t, y) in moments {
+                model.derivative(*t, black_box(y), &mut dy, &mut ws);
+            }
+        }
+    }) / (rounds * moments.len()) as f64
+}
+
+fn bound(model: &Model, moments: &[Moment; 2]) {
+    for (place, moment) in ["off damage", "on damage"].into_iter().zip(moments) {
+        let n = counted(model, moment);
+        println!(
+            "{place}: {} flops a right-hand side, {} rollers in {} slots; groups of eight: {} fused, {} products, {} sums, {} quotients, \
+             {} comparisons and moves of bits",
+            n.flops(),
+            model.layout.rollers(),
+            model.layout.slots,
+            n.fused,
+            n.products,
+            n.sums,
+            n.quotients,
+            n.others
+        );
+        for kernel in kernels() {
+            let (peak, seconds) = (
+                peak(kernel),
+                time(model, kernel, std::slice::from_ref(moment)),
+            );
+            let rate = n.flops() as f64 / seconds;
+            println!(
+                "  {kernel:?}: {:.0} ns, {:.1} GFLOP/s of a peak of {:.1}: {:.0} %",
+                1e9 * seconds,
+                1e-9 * rate,
+                1e-9 * peak,
+                100.0 * rate / peak
+            );
+        }
+    }
+}
+
+/// Twice the rollers: at most twice the time. Without damage, over many moments: how many groups of contacts are open differs
+/// from one to the next.
+fn rollers() {
+    let mut before: Option<f64> = None;
+    for rollers_per_row in [19, 38, 76, 152] {
+        let mut s = rectangle();
+        s.defects.clear();
+        s.bearing.rollers_per_row = rollers_per_row;
+        s.bearing.row_stagger_deg = 180.0 / rollers_per_row as f64;
+        let model = Model::new(&s).expect("a model");
+        let seconds = time(&model, Kernel::fastest(), &moments(&model));
+        let ratio = before.map_or(String::new(), |b| format!(", {:.2} times", seconds / b));
+        println!(
+            "{} rollers: {:.0} ns{ratio}",
+            model.layout.rollers(),
+            1e9 * seconds
+        );
+        before = Some(seconds);
+    }
+}
+
+fn main() {
+    let mut criterion: Criterion = common::criterion();
+    let model = Model::new(&rectangle()).expect("a model");
+    let places = off_and_on_damage(&model);
+    // `cargo test --benches` only wants to see that it runs.
+    if !std::env::args().any(|a| a == "--test") {
+        bound(&model, &places);
+        rollers();
+    }
+    let mut group = criterion.benchmark_group("right-hand side");
+    for kernel in kernels() {
+        for (place, (t, y)) in ["off damage", "on damage"].into_iter().zip(&places) {
+            let mut ws = Workspace::with_kernel(&model, kernel);
+            let mut dy = vec![0.0; y.len()];
+            group.bench_function(format!("{kernel:?}, {place}"), |b| {
+                b.iter(|| model.derivative(*t, black_box(y), &mut dy, &mut ws));
+            });
+        }
+    }
+    group.finish();
+    criterion.final_summary();
+}
