@@ -1,0 +1,139 @@
+//! Lines that are nobody's damage: the shaft's harmonics and the mains'.
+
+use super::{AnalysisError, Options};
+use crate::signal::{Candidate, DiagnosisOptions, Segments, Spectrum, diagnose, psd};
+
+/// A mains frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mains {
+    /// 50 Hz.
+    Hz50,
+    /// 60 Hz.
+    Hz60,
+}
+
+impl Mains {
+    /// Both.
+    pub const ALL: [Mains; 2] = [Mains::Hz50, Mains::Hz60];
+
+    /// Hz.
+    pub fn frequency(self) -> f64 {
+        match self {
+            Mains::Hz50 => 50.0,
+            Mains::Hz60 => 60.0,
+        }
+    }
+}
+
+/// Chance under noise at which the shaft's lines count as found.
+const SHAFT_LEVEL: f64 = 1e-4;
+/// Bins to either side of a known line that are filled with the noise about it: Hann's skirt and a little wandering.
+const FILL: usize = 3;
+/// Bins beyond the filled ones, to either side, whose median is that noise.
+const AROUND: usize = 12;
+/// A maximum within so many bins of a known line is that line.
+const SAME: f64 = 0.6;
+/// Powers over the median from which a maximum is a line: noise goes beyond in one of 500 (two degrees of freedom).
+const STANDS: f64 = 9.0;
+
+/// Shaft speed, Hz, by its own harmonics in the spectrum within the tolerance; as given where they do not stand.
+pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool), AnalysisError> {
+    // Bins a fortieth of the shaft's frequency apart: 2 % are then a bin or so at the first harmonics.
+    let length = (40.0 * fs / options.shaft).max(256.0) as usize;
+    let length = super::fast_length(length.min(x.len()));
+    let spectrum = psd(x, fs, &Segments::of(length))?;
+    let candidate = Candidate {
+        name: "shaft".into(),
+        frequency: options.shaft,
+        tolerance: options.tolerance * options.shaft,
+        sideband_spacing: None,
+    };
+    let found = diagnose(
+        &spectrum,
+        &[candidate],
+        &DiagnosisOptions {
+            harmonics: options.harmonics,
+            sidebands: 0,
+            level: SHAFT_LEVEL,
+        },
+    )?;
+    let shaft = &found.evidence[0];
+    // Of its lines, those that the mains could not have made; each weighted by its power over noise.
+    let near_mains = |f: f64| {
+        let off = |mains: f64| (f - (f / mains).round() * mains).abs();
+        Mains::ALL
+            .iter()
+            .any(|m| off(m.frequency()) < 2.0 * spectrum.frequency_step)
+    };
+    let (mut above, mut below, mut count) = (0.0, 0.0, 0);
+    for line in shaft
+        .harmonics
+        .standing(1e-3)
+        .filter(|l| !near_mains(l.frequency))
+    {
+        let (order, weight) = (f64::from(line.order), 10f64.powf(0.1 * line.snr_db));
+        above += weight * order * line.frequency;
+        below += weight * order * order;
+        count += 1;
+    }
+    let refined = above / below;
+    let within = (refined / options.shaft - 1.0).abs() <= options.tolerance;
+    Ok(if shaft.stands && count >= 2 && within {
+        (refined, true)
+    } else {
+        (options.shaft, false)
+    })
+}
+
+/// Takes the lines of shaft and mains out of a spectrum, up to `top` Hz; the places where one stood.
+pub(super) fn remove(spectrum: &mut Spectrum, shaft: f64, top: f64) -> Vec<f64> {
+    let mut removed = Vec::new();
+    let combs = Mains::ALL.map(Mains::frequency).into_iter().chain([shaft]);
+    for fundamental in combs {
+        let mut k = 1.0;
+        while k * fundamental < top {
+            if fill(spectrum, k * fundamental) {
+                removed.push(k * fundamental);
+            }
+            k += 1.0;
+        }
+    }
+    removed
+}
+
+/// Fills a line at a frequency with the noise about it; whether there was one.
+fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
+    let a = &spectrum.amplitude;
+    let at = frequency / spectrum.frequency_step;
+    let bin = at.round() as usize;
+    if bin < 2 || bin + FILL + AROUND + 1 >= a.len() {
+        return false;
+    }
+    let Some(peak) = (bin - 1..=bin + 1).max_by(|i, j| a[*i].total_cmp(&a[*j])) else {
+        return false;
+    };
+    if a[peak] < a[peak - 1] || a[peak] < a[peak + 1] {
+        return false;
+    }
+    // Parabola through the logarithms, as Hann's main lobe nearly is.
+    let ln = |i: usize| a[i].max(f64::MIN_POSITIVE).ln();
+    let (l, c, r) = (ln(peak - 1), ln(peak), ln(peak + 1));
+    let bend = l - 2.0 * c + r;
+    let shift = if bend < 0.0 {
+        0.5 * (l - r) / bend
+    } else {
+        0.0
+    };
+    let mut around: Vec<f64> = (bin.saturating_sub(FILL + AROUND)..bin.saturating_sub(FILL))
+        .chain(bin + FILL + 1..=bin + FILL + AROUND)
+        .map(|i| a[i] * a[i])
+        .collect();
+    let middle = around.len() / 2;
+    let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let is_line = (peak as f64 + shift - at).abs() <= SAME && a[peak] * a[peak] >= STANDS * median;
+    if is_line {
+        let first = bin.saturating_sub(FILL).max(1);
+        spectrum.amplitude[first..=bin + FILL].fill(median.sqrt());
+    }
+    is_line
+}
