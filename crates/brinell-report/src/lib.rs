@@ -12,6 +12,7 @@
 //! assert!(headline_png(&report).is_ok());
 //! ```
 
+mod analysis;
 mod chart;
 mod damage;
 mod data;
@@ -21,6 +22,7 @@ mod page;
 mod picture;
 mod plots;
 
+pub use analysis::{AnalysisReport, Table, analysis_html, analysis_pictures};
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
 };

@@ -126,7 +126,7 @@ fn unit_html(unit: &str) -> String {
 }
 
 /// The picture for wide and for narrow pages, with words under it.
-fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Picture, caption: &str) {
+pub(crate) fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Picture, caption: &str) {
     let wide = draw(Layout::Wide).inline(&format!("{id}-w"), "wide");
     let narrow = draw(Layout::Narrow).inline(&format!("{id}-n"), "narrow");
     let _ = write!(page, "<figure>\n{wide}{narrow}");
@@ -136,7 +136,7 @@ fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Picture, caption
     page.push_str("</figure>\n");
 }
 
-fn facts(page: &mut String, facts: &[Fact]) {
+pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
     if facts.is_empty() {
         return;
     }
@@ -677,7 +677,7 @@ fn json(text: &str) -> String {
     quoted
 }
 
-fn base64(bytes: &[u8]) -> String {
+pub(crate) fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {

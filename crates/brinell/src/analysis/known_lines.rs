@@ -1,7 +1,7 @@
 //! Lines that are nobody's damage: the shaft's harmonics and the mains'.
 
 use super::{AnalysisError, Options};
-use crate::signal::{Candidate, DiagnosisOptions, Segments, Spectrum, diagnose, psd};
+use crate::signal::{Segments, Spectrum, harmonics, psd};
 
 /// A mains frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ impl Mains {
     }
 }
 
-/// Chance under noise at which the shaft's lines count as found.
+/// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
 /// Bins to either side of a known line that are filled with the noise about it: Hann's skirt and a little wandering.
 const FILL: usize = 3;
@@ -42,47 +42,31 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
     let length = (40.0 * fs / options.shaft).max(256.0) as usize;
     let length = super::fast_length(length.min(x.len()));
     let spectrum = psd(x, fs, &Segments::of(length))?;
-    let candidate = Candidate {
-        name: "shaft".into(),
-        frequency: options.shaft,
-        tolerance: options.tolerance * options.shaft,
-        sideband_spacing: None,
-    };
-    let found = diagnose(
-        &spectrum,
-        &[candidate],
-        &DiagnosisOptions {
-            harmonics: options.harmonics,
-            sidebands: 0,
-            level: SHAFT_LEVEL,
-        },
-    )?;
-    let shaft = &found.evidence[0];
-    // Of its lines, those that the mains could not have made; each weighted by its power over noise.
+    let step = spectrum.frequency_step;
+    let reach = options.tolerance * options.shaft;
+    let lines = harmonics(&spectrum, options.shaft, reach, options.harmonics)?;
+    // What the mains could have made says nothing of the shaft.
     let near_mains = |f: f64| {
         let off = |mains: f64| (f - (f / mains).round() * mains).abs();
-        Mains::ALL
-            .iter()
-            .any(|m| off(m.frequency()) < 2.0 * spectrum.frequency_step)
+        Mains::ALL.iter().any(|m| off(m.frequency()) < 2.0 * step)
     };
-    let (mut above, mut below, mut count) = (0.0, 0.0, 0);
-    for line in shaft
-        .harmonics
-        .standing(1e-3)
+    let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
         .filter(|l| !near_mains(l.frequency))
-    {
-        let (order, weight) = (f64::from(line.order), 10f64.powf(0.1 * line.snr_db));
-        above += weight * order * line.frequency;
-        below += weight * order * order;
-        count += 1;
-    }
-    let refined = above / below;
-    let within = (refined / options.shaft - 1.0).abs() <= options.tolerance;
-    Ok(if shaft.stands && count >= 2 && within {
-        (refined, true)
-    } else {
-        (options.shaft, false)
-    })
+        .map(|l| (f64::from(l.order), l.frequency))
+        .collect();
+    // The speed that most lines agree on to within a bin, then least squares of those.
+    let agree = |f: f64| {
+        mine.iter()
+            .filter(move |(h, at)| (h * f - at).abs() <= step)
+    };
+    let best = (mine.iter().map(|(h, at)| at / h))
+        .rev()
+        .max_by_key(|f| agree(*f).count());
+    let Some(best) = best.filter(|f| agree(*f).count() >= 2) else {
+        return Ok((options.shaft, false));
+    };
+    let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
+    Ok((above / below, true))
 }
 
 /// Takes the lines of shaft and mains out of a spectrum, up to `top` Hz; the places where one stood.
