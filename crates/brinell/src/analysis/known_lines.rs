@@ -27,8 +27,10 @@ impl Mains {
 
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
-/// Bins to either side of a known line that are filled with the noise about it: Hann's skirt and a little wandering.
-const FILL: usize = 3;
+/// Bins to either side of a known line that are filled with the noise about it: Hann's main lobe.
+const FILL: usize = 2;
+/// A comb with fewer bins from line to line is left alone: filled, it would leave little of the spectrum.
+const CLOSEST: f64 = 10.0;
 /// Bins beyond the filled ones, to either side, whose median is that noise.
 const AROUND: usize = 12;
 /// A maximum within so many bins of a known line is that line.
@@ -69,11 +71,17 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
     Ok((above / below, true))
 }
 
-/// Takes the lines of shaft and mains out of a spectrum, up to `top` Hz; the places where one stood.
+/// Takes the lines of shaft and mains out of a spectrum, up to `top` Hz; the places where one stood. A comb counts only where
+/// its first or second line stands: others would meet its places by coincidence.
 pub(super) fn remove(spectrum: &mut Spectrum, shaft: f64, top: f64) -> Vec<f64> {
     let mut removed = Vec::new();
     let combs = Mains::ALL.map(Mains::frequency).into_iter().chain([shaft]);
     for fundamental in combs {
+        let wide = fundamental >= CLOSEST * spectrum.frequency_step;
+        let present = |k: f64| stands(spectrum, k * fundamental).is_some();
+        if !wide || !(present(1.0) || present(2.0)) {
+            continue;
+        }
         let mut k = 1.0;
         while k * fundamental < top {
             if fill(spectrum, k * fundamental) {
@@ -87,17 +95,25 @@ pub(super) fn remove(spectrum: &mut Spectrum, shaft: f64, top: f64) -> Vec<f64> 
 
 /// Fills a line at a frequency with the noise about it; whether there was one.
 fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
+    let Some((bin, median)) = stands(spectrum, frequency) else {
+        return false;
+    };
+    let first = bin.saturating_sub(FILL).max(1);
+    spectrum.amplitude[first..=bin + FILL].fill(median.sqrt());
+    true
+}
+
+/// The bin of a line at a frequency and the noise about it (power), where there is one.
+fn stands(spectrum: &Spectrum, frequency: f64) -> Option<(usize, f64)> {
     let a = &spectrum.amplitude;
     let at = frequency / spectrum.frequency_step;
     let bin = at.round() as usize;
     if bin < 2 || bin + FILL + AROUND + 1 >= a.len() {
-        return false;
+        return None;
     }
-    let Some(peak) = (bin - 1..=bin + 1).max_by(|i, j| a[*i].total_cmp(&a[*j])) else {
-        return false;
-    };
+    let peak = (bin - 1..=bin + 1).max_by(|i, j| a[*i].total_cmp(&a[*j]))?;
     if a[peak] < a[peak - 1] || a[peak] < a[peak + 1] {
-        return false;
+        return None;
     }
     // Parabola through the logarithms, as Hann's main lobe nearly is.
     let ln = |i: usize| a[i].max(f64::MIN_POSITIVE).ln();
@@ -115,9 +131,5 @@ fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
     let middle = around.len() / 2;
     let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
     let is_line = (peak as f64 + shift - at).abs() <= SAME && a[peak] * a[peak] >= STANDS * median;
-    if is_line {
-        let first = bin.saturating_sub(FILL).max(1);
-        spectrum.amplitude[first..=bin + FILL].fill(median.sqrt());
-    }
-    is_line
+    is_line.then_some((bin, median))
 }

@@ -146,10 +146,16 @@ pub(super) fn find(views: &[View], shaft: f64, options: &Options) -> (Vec<Findin
         }
     }
     let strongest = kept.first().map_or(0.0, |k| k.0);
+    let struck = (kept.first())
+        .filter(|k| k.1.component == Component::Element)
+        .map(|k| k.1.name);
     let findings: Vec<Finding> = (kept.into_iter().enumerate())
         .map(|(rank, (total, mut finding))| {
             if rank == 0 {
                 finding.explained_by.clear();
+            } else if finding.component == Component::Cage && struck.is_some() {
+                // An element's damage passes the load zone once a turn of the cage.
+                finding.explained_by = struck.into_iter().collect();
             } else if total < FURTHER * strongest {
                 finding.strength = Strength::Faint;
             }

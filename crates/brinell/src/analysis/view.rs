@@ -12,6 +12,8 @@ use crate::signal::{
 const RESOLUTIONS: [f64; 2] = [8.0, 40.0];
 /// The envelope is sampled so many times as often as its highest line sought.
 const ENVELOPE_RATE: f64 = 8.0;
+/// Part of the gap between two defect frequencies that a search for either covers.
+const CLEAR: f64 = 0.4;
 /// FTF over the shaft's frequency where nobody said.
 const USUAL_FTF: f64 = 0.4;
 
@@ -36,13 +38,20 @@ pub(super) fn candidates(
     options: &Options,
 ) -> Vec<(Component, &'static str, Candidate)> {
     let cage = options.orders.ftf.map(|o| o * shaft);
+    // Two frequencies closer than their tolerances are each searched on their own side.
+    let nearest = |order: f64| {
+        (options.orders.strikes())
+            .map(|s| (s.2 - order).abs())
+            .filter(|gap| *gap > 0.0)
+            .fold(f64::INFINITY, f64::min)
+    };
     (options.orders.strikes())
         .map(|(component, name, order)| {
             let frequency = order * shaft;
             let candidate = Candidate {
                 name: name.into(),
                 frequency,
-                tolerance: options.tolerance * frequency,
+                tolerance: (options.tolerance * frequency).min(CLEAR * nearest(order) * shaft),
                 sideband_spacing: match component {
                     Component::InnerRace => Some(shaft),
                     Component::Element => cage,
