@@ -79,13 +79,10 @@ impl Finding {
     }
 }
 
-/// Number and strength of the lines that stand, sidebands included.
+/// Number and strength of the harmonics that stand. Sidebands do not count: in a short record those of one frequency meet
+/// another's lines.
 fn weight(e: &Evidence) -> f64 {
-    let sidebands = e.sidebands.iter().flat_map(|s| &s.lines);
-    (e.harmonics.lines.iter().chain(sidebands))
-        .filter(|l| l.false_alarm <= LINE_LEVEL)
-        .map(|l| l.snr_db)
-        .sum()
+    (e.harmonics.standing(LINE_LEVEL)).map(|l| l.snr_db).sum()
 }
 
 /// Findings, the strongest first, and the view that shows most.
@@ -213,12 +210,12 @@ pub(super) fn words(analysis: &Analysis) -> String {
     for other in others {
         let why = if other.explained_by.is_empty() {
             format!(
-                "modulates the envelope by {:.1} % only{}; not called damage",
+                "modulates the envelope by {:.1} %{}; not called damage",
                 100.0 * other.modulation,
                 if other.modulation >= FAINT {
                     " and is far weaker"
                 } else {
-                    ""
+                    " only"
                 }
             )
         } else {
