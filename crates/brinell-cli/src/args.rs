@@ -44,6 +44,8 @@ pub(crate) enum Command {
         #[command(subcommand)]
         command: DefectCommand,
     },
+    /// Say what a measured signal shows: which component's damage, how sure; or lay it over a simulated one
+    Analyze(Box<crate::analyze::AnalyzeArgs>),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

@@ -141,7 +141,11 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
         };
         return Ok((Geometry::of(&loaded.scenario.bearing), speed));
     }
-    let entry = find(bearing)?;
+    geometry_of(find(bearing)?).map(|g| (g, None))
+}
+
+/// Geometry of a catalogue bearing.
+pub(crate) fn geometry_of(entry: &Entry) -> Result<Geometry, Failure> {
     let number = |key: &str| {
         entry
             .values
@@ -157,16 +161,13 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
         number(key)
             .ok_or_else(|| Failure::Usage(format!("{}: the catalogue gives no {key}", entry.name)))
     };
-    Ok((
-        Geometry {
-            inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
-            outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
-            pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
-            roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
-            rollers_per_row: needed("rollers_per_row")? as usize,
-        },
-        None,
-    ))
+    Ok(Geometry {
+        inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
+        outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
+        pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
+        roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
+        rollers_per_row: needed("rollers_per_row")? as usize,
+    })
 }
 
 /// Raceways follow from pitch and rollers.

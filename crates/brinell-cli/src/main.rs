@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done, 1 the run failed, 2 the input is bad, 130 interrupted (what was computed is kept).
 
+mod analyze;
 mod args;
 mod check;
 mod damage;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Command::Bearing { command } => look_up::bearing(&command),
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
+        Command::Analyze(args) => analyze::analyze(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

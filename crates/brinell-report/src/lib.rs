@@ -12,6 +12,7 @@
 //! assert!(headline_png(&report).is_ok());
 //! ```
 
+mod analysis;
 mod chart;
 mod damage;
 mod data;
@@ -31,6 +32,7 @@ mod spectrogram;
 mod tables;
 mod thin;
 
+pub use analysis::{AnalysisReport, Table, analysis_html, analysis_pictures};
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
 };

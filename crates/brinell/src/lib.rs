@@ -1,6 +1,7 @@
 //! Vibration of rolling bearings with real damage, from first principles.
 
 pub mod accuracy;
+pub mod analysis;
 pub mod bearing;
 pub mod cage;
 pub mod channel;

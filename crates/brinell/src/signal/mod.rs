@@ -51,7 +51,7 @@ pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, LineTracker, line_frequency};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
 pub use integrate::{velocity, velocity_trapezoid};
-pub use kurtogram::{Kurtogram, kurtogram};
+pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, LineSet, harmonics, sidebands};
 pub use order::{Angular, Rotation, order_spectrum, resample};
 pub use psd::{Detrend, Segments, density_interval, psd};

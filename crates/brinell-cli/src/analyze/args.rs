@@ -1,0 +1,116 @@
+//! The options of `brinell analyze`.
+
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "What the file does not state has to be given: brinell takes no rate, unit, speed or bearing for granted.\n\n\
+    Examples:\n  \
+    brinell analyze 105.mat --channel DE --rate 12000 --unit g --bearing 6205-2RS\n  \
+    brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
+    brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 135.4x\n  \
+    brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
+    brinell analyze measured.mat ... --against out/my-bearing -o look\n\n\
+    Bearings by name: the catalogue (`brinell bearing list`), and 6205-2RS, 6203-2RS, NICE, ZA-2115, UER204 of public data sets.\n\n\
+    Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, 2 bad input."
+)]
+pub(crate) struct AnalyzeArgs {
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run
+    pub(crate) file: PathBuf,
+    /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
+    #[arg(long, value_name = "NAME|N")]
+    pub(crate) channel: Option<String>,
+    /// Sample rate
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub(crate) rate: Option<f64>,
+    /// Column of times to take the rate from [default: one called t or time]
+    #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
+    pub(crate) time_channel: Option<String>,
+    /// Unit of the times where the file does not say
+    #[arg(long, value_name = "s|ms|us")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of the signal: m/s^2, g, mm/s, m/s, V, ...
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<String>,
+    /// Shaft speed (the inner ring turns, the outer rests)
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    pub(crate) speed: Option<f64>,
+    /// Channel that holds the shaft speed in r/min; its mean counts
+    #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
+    pub(crate) speed_channel: Option<String>,
+    /// Bearing by name
+    #[arg(long, value_name = "NAME")]
+    pub(crate) bearing: Option<String>,
+    /// Rolling elements in a row
+    #[arg(long, value_name = "Z", conflicts_with = "bearing")]
+    pub(crate) rollers: Option<usize>,
+    /// Pitch diameter
+    #[arg(
+        long,
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) pitch: Option<f64>,
+    /// Diameter of a rolling element
+    #[arg(
+        long,
+        value_name = "MM",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) diameter: Option<f64>,
+    /// Contact angle
+    #[arg(
+        long,
+        value_name = "DEG",
+        conflicts_with = "bearing",
+        allow_negative_numbers = true
+    )]
+    pub(crate) contact_angle: Option<f64>,
+    /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next three
+    #[arg(long, value_name = "HZ|Nx")]
+    pub(crate) bpfo: Option<String>,
+    /// Ball-pass frequency of the inner race
+    #[arg(long, value_name = "HZ|Nx")]
+    pub(crate) bpfi: Option<String>,
+    /// Spin frequency of a rolling element (damage strikes twice a turn)
+    #[arg(long, value_name = "HZ|Nx")]
+    pub(crate) bsf: Option<String>,
+    /// Frequency of the cage
+    #[arg(long, value_name = "HZ|Nx")]
+    pub(crate) ftf: Option<String>,
+    /// How far slip and an inexact speed may move a defect frequency
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 2.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) tolerance: f64,
+    /// Band to demodulate [default: several are tried]
+    #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
+    pub(crate) band: Option<Vec<f64>>,
+    /// Skip so much of the signal's beginning
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) start: Option<f64>,
+    /// Analyse so much from there [default: what is there, up to 4194304 samples]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) duration: Option<f64>,
+    /// Lay it over this: another file of signals, or the folder of a run
+    #[arg(long, value_name = "FILE|FOLDER")]
+    pub(crate) against: Option<PathBuf>,
+    /// Channel of the other [default: measured_ay or measured_ax of a run, whichever the load points along]
+    #[arg(long, value_name = "NAME|N", requires = "against")]
+    pub(crate) against_channel: Option<String>,
+    /// Write the result as JSON; `-` prints it instead of words
+    #[arg(long, value_name = "PATH|-")]
+    pub(crate) json: Option<PathBuf>,
+    /// Folder for report.html, analysis.json and plots/
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

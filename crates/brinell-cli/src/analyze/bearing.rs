@@ -1,0 +1,111 @@
+//! Which defect frequencies to look for: from a name, a geometry, given frequencies, or the run that made the file.
+
+use super::args::AnalyzeArgs;
+use super::measured::Measured;
+use crate::failure::Failure;
+use crate::look_up;
+use brinell::analysis::{DefectOrders, NAMED, NamedBearing};
+use brinell::bearing::catalogue;
+use brinell::bearing::kinematics::Geometry;
+
+/// Orders over the shaft's frequency `shaft` (Hz), and where they come from.
+pub(super) fn orders(
+    args: &AnalyzeArgs,
+    measured: &Measured,
+    shaft: f64,
+) -> Result<(DefectOrders, String), Failure> {
+    let (mut orders, mut source) = base(args, measured)?;
+    let given = [
+        ("--bpfo", "BPFO", &args.bpfo, &mut orders.bpfo),
+        ("--bpfi", "BPFI", &args.bpfi, &mut orders.bpfi),
+        ("--bsf", "BSF", &args.bsf, &mut orders.bsf),
+        ("--ftf", "FTF", &args.ftf, &mut orders.ftf),
+    ];
+    let mut named = Vec::new();
+    for (option, name, text, order) in given {
+        if let Some(text) = text {
+            *order = Some(frequency(option, text, shaft)?);
+            named.push(name);
+        }
+    }
+    if !named.is_empty() {
+        let words = format!("{} as given", named.join(", "));
+        source = if source.is_empty() {
+            words
+        } else {
+            format!("{source}; {words}")
+        };
+    }
+    if orders.is_empty() {
+        return Err(Failure::Usage(
+            "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)".into(),
+        ));
+    }
+    Ok((orders, source))
+}
+
+fn base(args: &AnalyzeArgs, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
+    if let Some(name) = &args.bearing {
+        if let Some(known) = NamedBearing::find(name) {
+            return Ok((known.orders(), known.source.to_owned()));
+        }
+        if let Some(entry) = catalogue::find(name) {
+            let geometry = look_up::geometry_of(entry)?;
+            return Ok((
+                DefectOrders::of_bearing(&geometry),
+                format!("{}: {}", entry.name, entry.title),
+            ));
+        }
+        let names: Vec<&str> = (NAMED.iter().map(|b| b.name))
+            .chain(catalogue::all().iter().map(|e| e.name.as_str()))
+            .collect();
+        return Err(Failure::Usage(format!(
+            "--bearing {name}: no such bearing; there are {}. For another give --rollers, --pitch and --diameter, or --bpfo and so on",
+            names.join(", ")
+        )));
+    }
+    let angle = args.contact_angle.unwrap_or(0.0);
+    match (args.rollers, args.pitch, args.diameter) {
+        (Some(z), Some(pitch), Some(d)) => {
+            let orders = DefectOrders::of_geometry(z, d, pitch, angle).ok_or_else(|| {
+                Failure::Usage(format!(
+                    "--rollers {z} --pitch {pitch} --diameter {d} --contact-angle {angle}: expected 3 or more elements, \
+                     0 < diameter < pitch in mm, and an angle of 0 to below 90 degrees"
+                ))
+            })?;
+            let words = format!(
+                "{z} elements of {d} mm on a pitch circle of {pitch} mm, contact angle {angle} degrees"
+            );
+            return Ok((orders, words));
+        }
+        (None, None, None) if args.contact_angle.is_none() => {}
+        _ => {
+            return Err(Failure::Usage(
+                "--rollers, --pitch and --diameter describe a bearing together; one of them is missing".into(),
+            ));
+        }
+    }
+    if args.bpfo.is_none() && args.bpfi.is_none() && args.bsf.is_none() && args.ftf.is_none() {
+        if let Some(run) = &measured.scenario {
+            let geometry = Geometry::of(&run.scenario.bearing);
+            let words = "the scenario of the run in the file".to_owned();
+            return Ok((DefectOrders::of_bearing(&geometry), words));
+        }
+    }
+    Ok((DefectOrders::default(), String::new()))
+}
+
+/// `107.4` in Hz or `3.585x` the shaft, as an order.
+fn frequency(option: &str, text: &str, shaft: f64) -> Result<f64, Failure> {
+    let plain = text.trim();
+    let (number, per) = match plain.strip_suffix(['x', 'X']) {
+        Some(number) => (number, 1.0),
+        None => (plain, shaft),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value / per),
+        _ => Err(Failure::Usage(format!(
+            "{option} {text}: expected a frequency above 0 in Hz, as 107.4, or a multiple of the shaft's, as 3.585x"
+        ))),
+    }
+}

@@ -1,0 +1,527 @@
+//! The signal in a file: which channel, at what rate, in what unit; and what else the file states.
+
+use crate::failure::Failure;
+use brinell::analysis::Unit;
+use brinell::document::{Loaded, read};
+use brinell::scenario::Speed;
+use brinell_io::{Channel, IoError, RateSource, SignalFile, open};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
+pub(super) const MOST: usize = 1 << 22;
+/// Steps between times may differ by so much from their mean, relative, before a rate is refused.
+const UNEVEN: f64 = 0.02;
+
+/// What was asked of a file.
+#[derive(Debug, Default)]
+pub(super) struct Wanted<'a> {
+    pub(super) channel: Option<&'a str>,
+    pub(super) rate: Option<f64>,
+    pub(super) time_channel: Option<&'a str>,
+    pub(super) time_unit: Option<&'a str>,
+    pub(super) unit: Option<&'a str>,
+    pub(super) speed_channel: Option<&'a str>,
+    pub(super) start: Option<f64>,
+    pub(super) duration: Option<f64>,
+}
+
+/// A stretch of one channel, with everything that is known of it.
+pub(super) struct Measured {
+    pub(super) path: PathBuf,
+    pub(super) channel: String,
+    pub(super) x: Vec<f64>,
+    pub(super) rate: f64,
+    pub(super) unit: Unit,
+    /// Where the stretch begins, s.
+    pub(super) start: f64,
+    /// Where rate, unit and channel come from, and what was left out: sentences.
+    pub(super) notes: Vec<String>,
+    /// What deserves attention.
+    pub(super) warnings: Vec<String>,
+    /// Shaft speed that the file states, r/min, and where.
+    pub(super) speed: Option<(f64, String)>,
+    /// The scenario of the run that made the file.
+    pub(super) scenario: Option<Box<Loaded>>,
+}
+
+fn usage(message: String) -> Failure {
+    Failure::Usage(message)
+}
+
+/// Reads what was wanted.
+pub(super) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
+    let path = signals_in(path)?;
+    let mut file = open(&path).map_err(bad)?;
+    let scenario = scenario(&file, &path);
+    let (mut notes, mut warnings) = (Vec::new(), Vec::new());
+    let (name, channel) = channel(&file, wanted.channel, scenario.as_deref(), &mut notes)?;
+    let (rate, rate_note) = rate(
+        &mut file,
+        &channel,
+        wanted,
+        scenario.is_some(),
+        &mut warnings,
+    )?;
+    notes.push(rate_note);
+    let unit = unit(
+        &path,
+        &name,
+        &channel,
+        wanted,
+        scenario.is_some(),
+        &mut notes,
+        &mut warnings,
+    )?;
+
+    let positive = |option: &str, value: Option<f64>, least: f64| match value {
+        Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
+            "{option} {v}: expected {} s",
+            if least == 0.0 {
+                "0 or more"
+            } else {
+                "more than 0"
+            }
+        ))),
+        _ => Ok(()),
+    };
+    positive("--start", wanted.start, 0.0)?;
+    positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
+    let settled = scenario.as_deref().map(settled);
+    let start = match (wanted.start, settled) {
+        (Some(start), _) => start,
+        (None, Some(settled)) => {
+            notes.push(format!(
+                "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
+            ));
+            settled
+        }
+        (None, None) => 0.0,
+    };
+    let skip = (start * rate).round() as usize;
+    let most = wanted
+        .duration
+        .map_or(MOST, |d| ((d * rate).round() as usize).max(1));
+    let (x, more) = stretch(&mut file, &name, skip, most)?;
+    if x.is_empty() {
+        return Err(usage(format!(
+            "{}: `{name}` holds no samples {}",
+            path.display(),
+            if skip > 0 {
+                format!("beyond {start} s")
+            } else {
+                "at all".into()
+            }
+        )));
+    }
+    if more && wanted.duration.is_none() {
+        warnings.push(format!(
+            "the signal goes on; analysed were the first {MOST} samples ({:.1} s) from {start} s on; --start and --duration choose another stretch",
+            MOST as f64 / rate
+        ));
+    }
+    let speed = speed(&mut file, wanted, scenario.as_deref(), &name)?;
+    Ok(Measured {
+        path,
+        channel: name,
+        x,
+        rate,
+        unit,
+        start,
+        notes,
+        warnings,
+        speed,
+        scenario,
+    })
+}
+
+/// Whatever is wrong with a file that is read is bad input.
+fn bad(error: IoError) -> Failure {
+    usage(error.to_string())
+}
+
+/// The file itself, or the signals in the folder of a run.
+fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    ["parquet", "npz", "mat", "csv", "uff", "wav"]
+        .iter()
+        .map(|ending| path.join(format!("signals.{ending}")))
+        .find(|file| file.is_file())
+        .ok_or_else(|| {
+            usage(format!(
+                "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
+                path.display()
+            ))
+        })
+}
+
+/// The scenario that the file carries, or that lies beside it where the file is a run's.
+fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
+    let carried = (file.metadata().pairs.iter())
+        .find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))
+        .map(|(_, text)| text.clone());
+    let beside = || {
+        let own = path.file_stem()? == "signals" && file.channels().first()?.name == "t";
+        let text =
+            own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?;
+        text
+    };
+    let text = carried.or_else(beside)?;
+    read(&text, &[]).ok().map(Box::new)
+}
+
+/// Where a run's statistics begin: after the load ramp and a full turn, or half-way through.
+fn settled(run: &Loaded) -> f64 {
+    let turn = match &run.scenario.operation.speed_rpm {
+        Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
+        _ => 0.0,
+    };
+    (run.scenario.operation.load_ramp_s + turn).min(0.5 * run.scenario.simulation.duration_s)
+}
+
+/// The channel meant, by name, part of a name, or number.
+fn resolve(file: &SignalFile, text: &str, option: &str) -> Result<(String, Channel), Failure> {
+    let channels = file.channels();
+    let whole = |c: &Channel| (c.name.clone(), c.clone());
+    if let Some(found) = channels.iter().find(|c| c.name == text) {
+        return Ok(whole(found));
+    }
+    if let Ok(number) = text.trim().parse::<usize>() {
+        return (number
+            .checked_sub(1)
+            .and_then(|i| channels.get(i))
+            .map(whole))
+        .ok_or_else(|| {
+            usage(format!(
+                "{option} {text}: {} has {} channels; they count from 1: {}",
+                file.path().display(),
+                channels.len(),
+                listed(channels.iter())
+            ))
+        });
+    }
+    // `X(:,2)`: the reader takes it apart; rate and unit are the matrix's.
+    if let Some(open) = text.rfind('(')
+        && let Some(found) = channels.iter().find(|c| c.name == text[..open])
+    {
+        return Ok((text.to_owned(), found.clone()));
+    }
+    let lower = text.to_lowercase();
+    let partly: Vec<&Channel> = (channels.iter())
+        .filter(|c| c.may_be_signal() && c.name.to_lowercase().contains(&lower))
+        .collect();
+    match partly[..] {
+        [only] => Ok(whole(only)),
+        [] => Err(usage(format!(
+            "{option} {text}: {} has no such channel; there are {}",
+            file.path().display(),
+            listed(channels.iter())
+        ))),
+        _ => Err(usage(format!(
+            "{option} {text}: several channels are called like that: {}",
+            listed(partly.into_iter())
+        ))),
+    }
+}
+
+fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
+    let names: Vec<&str> = channels.map(|c| c.name.as_str()).collect();
+    let more = names.len().saturating_sub(20);
+    let shown = names[..names.len() - more].join(", ");
+    match more {
+        0 if shown.is_empty() => "nothing".into(),
+        0 => shown,
+        _ => format!("{shown} and {more} more"),
+    }
+}
+
+fn channel(
+    file: &SignalFile,
+    wanted: Option<&str>,
+    run: Option<&Loaded>,
+    notes: &mut Vec<String>,
+) -> Result<(String, Channel), Failure> {
+    if let Some(text) = wanted {
+        return resolve(file, text, "--channel");
+    }
+    if let Some(run) = run {
+        let load = run.scenario.operation.load_n;
+        let along = if load[1].abs() > load[0].abs() {
+            "measured_ay"
+        } else {
+            "measured_ax"
+        };
+        if let Some(found) = file.channels().iter().find(|c| c.name == along) {
+            notes.push(format!(
+                "channel {along}, along the load, as nobody named one"
+            ));
+            return Ok((found.name.clone(), found.clone()));
+        }
+    }
+    let signals: Vec<&Channel> = (file.channels().iter())
+        .filter(|c| c.may_be_signal() && time_unit(c).is_none() && !is_time(c))
+        .collect();
+    match signals[..] {
+        [only] => Ok((only.name.clone(), only.clone())),
+        [] => Err(usage(format!(
+            "{}: nothing here is a signal; there are {}",
+            file.path().display(),
+            listed(file.channels().iter())
+        ))),
+        _ => Err(usage(format!(
+            "{}: several channels may be the signal; choose one with --channel: {}",
+            file.path().display(),
+            listed(signals.into_iter())
+        ))),
+    }
+}
+
+/// Whether a channel is called like a column of times.
+fn is_time(channel: &Channel) -> bool {
+    let name = channel.name.to_lowercase();
+    let bare = name
+        .split(['[', '('])
+        .next()
+        .unwrap_or("")
+        .trim()
+        .to_owned();
+    ["t", "time", "times", "timestamp", "zeit"].contains(&bare.as_str())
+}
+
+/// Seconds in the unit of a column of times, where its unit is one.
+fn time_unit(channel: &Channel) -> Option<f64> {
+    channel
+        .unit
+        .as_deref()
+        .filter(|_| is_time(channel))
+        .and_then(seconds)
+}
+
+fn seconds(unit: &str) -> Option<f64> {
+    Some(match unit.trim().to_lowercase().as_str() {
+        "s" | "sec" | "second" | "seconds" => 1.0,
+        "ms" | "msec" => 1e-3,
+        "us" | "µs" | "μs" | "usec" => 1e-6,
+        _ => return None,
+    })
+}
+
+fn rate(
+    file: &mut SignalFile,
+    channel: &Channel,
+    wanted: &Wanted,
+    own: bool,
+    warnings: &mut Vec<String>,
+) -> Result<(f64, String), Failure> {
+    let stated = channel.rate.as_ref().map(|rate| {
+        let place = match &rate.source {
+            RateSource::Header(field) => format!("the file's header ({field})"),
+            RateSource::Variable(name) => format!("the variable `{name}` in the file"),
+        };
+        (rate.hz, place)
+    });
+    if let Some(given) = wanted.rate {
+        if !(given > 0.0 && given.is_finite()) {
+            return Err(usage(format!("--rate {given}: expected more than 0 Hz")));
+        }
+        if let Some((hz, place)) = stated.filter(|(hz, _)| (hz / given - 1.0).abs() > 1e-6) {
+            warnings.push(format!(
+                "--rate {given} Hz was taken, but {place} says {hz} Hz"
+            ));
+        }
+        return Ok((given, format!("sample rate {given} Hz, as given")));
+    }
+    if let Some((hz, place)) = stated {
+        return Ok((hz, format!("sample rate {hz} Hz, from {place}")));
+    }
+    let time = match wanted.time_channel {
+        Some(text) => Some(resolve(file, text, "--time-channel")?.1),
+        None => file
+            .channels()
+            .iter()
+            .find(|c| is_time(c) && c.may_be_signal())
+            .cloned(),
+    };
+    let Some(time) = time else {
+        return Err(usage(format!(
+            "{}: the file states no sample rate; give --rate HZ",
+            file.path().display()
+        )));
+    };
+    let unit = match (wanted.time_unit, time.unit.as_deref().and_then(seconds)) {
+        (Some(text), _) => seconds(text)
+            .ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?,
+        (None, Some(unit)) => unit,
+        // By brinell's own contract.
+        (None, None) if own && time.name == "t" => 1.0,
+        (None, None) => {
+            return Err(usage(format!(
+                "{}: the file states no sample rate, and no unit for its times in `{}`; give --rate HZ, or --time-unit s",
+                file.path().display(),
+                time.name
+            )));
+        }
+    };
+    let (times, _) = stretch(file, &time.name, 0, 1 << 16)?;
+    let hz = even(&times, unit).map_err(|why| {
+        usage(format!(
+            "{}: no sample rate follows from `{}`: {why}; give --rate HZ if you know it",
+            file.path().display(),
+            time.name
+        ))
+    })?;
+    Ok((
+        hz,
+        format!("sample rate {hz} Hz, from the times in `{}`", time.name),
+    ))
+}
+
+/// The rate of evenly spaced times; `Err` says what is wrong with them.
+fn even(times: &[f64], unit: f64) -> Result<f64, String> {
+    let n = times.len();
+    if n < 3 {
+        return Err("it has fewer than three values".into());
+    }
+    let step = (times[n - 1] - times[0]) / (n - 1) as f64;
+    if !(step > 0.0 && step.is_finite()) {
+        return Err("its values do not increase".into());
+    }
+    // Printed times are rounded: allow for the digits that large values lose.
+    let largest = times[0].abs().max(times[n - 1].abs());
+    let allowed = (UNEVEN * step).max(4e-16 * largest);
+    let off =
+        (times.windows(2).enumerate()).find(|(_, w)| !((w[1] - w[0] - step).abs() <= allowed));
+    let rounded = times
+        .iter()
+        .enumerate()
+        .all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
+    if let Some((i, w)) = off.filter(|_| !rounded) {
+        return Err(format!(
+            "its steps are uneven ({} after {} values, {step} on average)",
+            w[1] - w[0],
+            i + 1
+        ));
+    }
+    let hz = 1.0 / (step * unit);
+    let round = hz.round();
+    Ok(if (hz / round - 1.0).abs() < 1e-5 {
+        round
+    } else {
+        hz
+    })
+}
+
+#[allow(clippy::too_many_arguments)]
+fn unit(
+    path: &Path,
+    name: &str,
+    channel: &Channel,
+    wanted: &Wanted,
+    own: bool,
+    notes: &mut Vec<String>,
+    warnings: &mut Vec<String>,
+) -> Result<Unit, Failure> {
+    let stated = channel.unit.as_deref().map(Unit::of);
+    if let Some(text) = wanted.unit {
+        let given = Unit::of(text);
+        if let Some(other) = stated.filter(|s| s.name != given.name) {
+            warnings.push(format!(
+                "--unit {} was taken, but the file says {}",
+                given.name, other.name
+            ));
+        }
+        notes.push(format!("unit {}, as given", given.name));
+        return Ok(given);
+    }
+    if let Some(unit) = stated {
+        notes.push(format!("unit {}, from the file", unit.name));
+        return Ok(unit);
+    }
+    if own && (name.ends_with("_ax") || name.ends_with("_ay")) {
+        notes.push("unit m/s^2, as brinell's own channels have it".into());
+        return Ok(Unit::of("m/s^2"));
+    }
+    Err(usage(format!(
+        "{}: the file states no unit for `{name}`; give --unit, such as --unit g or --unit m/s^2",
+        path.display()
+    )))
+}
+
+/// The speed that the file states, or a channel of speeds.
+fn speed(
+    file: &mut SignalFile,
+    wanted: &Wanted,
+    run: Option<&Loaded>,
+    signal: &str,
+) -> Result<Option<(f64, String)>, Failure> {
+    if let Some(text) = wanted.speed_channel {
+        let (name, _) = resolve(file, text, "--speed-channel")?;
+        let (values, _) = stretch(file, &name, 0, MOST)?;
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+        if !mean.is_finite() {
+            return Err(usage(format!(
+                "--speed-channel {name}: holds values that are missing"
+            )));
+        }
+        return Ok(Some((
+            mean,
+            format!("the mean of the channel `{name}`, taken as r/min"),
+        )));
+    }
+    if let Some(run) = run {
+        if let Speed::Constant(rpm) = run.scenario.operation.speed_rpm {
+            return Ok(Some((rpm, "the scenario of the run in the file".into())));
+        }
+        return Ok(None);
+    }
+    // A single number called like a speed, as X097RPM beside X097_DE_time.
+    let prefix: String = signal
+        .chars()
+        .take_while(char::is_ascii_alphanumeric)
+        .collect();
+    let named: Vec<String> = (file.channels().iter())
+        .filter(|c| c.length == Some(1) && c.unreadable.is_none())
+        .map(|c| c.name.clone())
+        .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
+        .collect();
+    let mine: Vec<&String> = named.iter().filter(|n| n.starts_with(&prefix)).collect();
+    let name = match (&mine[..], &named[..]) {
+        ([only], _) => (*only).clone(),
+        (_, [only]) => only.clone(),
+        _ => return Ok(None),
+    };
+    let (values, _) = stretch(file, &name, 0, 1)?;
+    Ok((values.first().filter(|v| v.is_finite())).map(|rpm| {
+        (
+            *rpm,
+            format!("the variable `{name}` in the file, taken as r/min"),
+        )
+    }))
+}
+
+/// Up to `most` samples after the first `skip`, and whether there are more.
+fn stretch(
+    file: &mut SignalFile,
+    name: &str,
+    skip: usize,
+    most: usize,
+) -> Result<(Vec<f64>, bool), Failure> {
+    let (mut values, mut passed, mut more) = (Vec::new(), 0, false);
+    file.read_pieces(name, |piece| {
+        let from = skip.saturating_sub(passed).min(piece.len());
+        passed += piece.len();
+        let room = most - values.len();
+        let rest = &piece[from..];
+        more = rest.len() > room;
+        values.extend_from_slice(&rest[..rest.len().min(room)]);
+        if more {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    })
+    .map_err(bad)?;
+    Ok((values, more))
+}

@@ -1,0 +1,321 @@
+//! `brinell analyze`: a signal from a file to a verdict, in words, as JSON and as a page.
+
+mod args;
+mod bearing;
+mod measured;
+mod page;
+
+pub(crate) use args::AnalyzeArgs;
+
+use crate::failure::Failure;
+use crate::run::make_folder;
+use crate::say::{complain, say, short};
+use brinell::analysis::{
+    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
+    velocity,
+};
+use brinell::signal::{Band, Indicator, VelocityBands};
+use brinell_io::atomic_write;
+use measured::{Measured, Wanted};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Everything that words, JSON and page are made of.
+struct Result_ {
+    measured: Measured,
+    analysis: Analysis,
+    /// Where the speed comes from.
+    speed: String,
+    /// Where the defect frequencies come from.
+    bearing: String,
+    velocity: Option<VelocityBands>,
+    against: Option<Against>,
+}
+
+/// What the signal is laid over, in the signal's unit.
+struct Against {
+    measured: Measured,
+    analysis: Analysis,
+    comparison: Comparison,
+}
+
+pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
+    let measured = measured::load(
+        &args.file,
+        &Wanted {
+            channel: args.channel.as_deref(),
+            rate: args.rate,
+            time_channel: args.time_channel.as_deref(),
+            time_unit: args.time_unit.as_deref(),
+            unit: args.unit.as_deref(),
+            speed_channel: args.speed_channel.as_deref(),
+            start: args.start,
+            duration: args.duration,
+        },
+    )?;
+    let (rpm, speed) = speed(args, &measured)?;
+    let shaft = rpm.abs() / 60.0;
+    let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
+    let mut options = Options::new(shaft, orders);
+    if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
+        return Err(Failure::Usage(format!(
+            "--tolerance {}: expected more than 0 to 10 per cent",
+            args.tolerance
+        )));
+    }
+    options.tolerance = 0.01 * args.tolerance;
+    options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
+    let analysis = look(&measured, &options)?;
+    let velocity = velocities(&measured, shaft);
+    let against = match &args.against {
+        Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
+        None => None,
+    };
+    let result = Result_ {
+        measured,
+        analysis,
+        speed: format!("shaft speed {rpm} r/min, from {speed}"),
+        bearing,
+        velocity,
+        against,
+    };
+    let json = as_json(&result);
+    let mut written = Vec::new();
+    if let Some(folder) = &args.output {
+        write(folder, &result, &json, &mut written)?;
+    }
+    match args.json.as_deref() {
+        Some(path) if path == Path::new("-") => say!("{json}"),
+        Some(path) => {
+            atomic_write(path, (json + "\n").as_bytes())?;
+            written.push(path.to_owned());
+        }
+        None => {}
+    }
+    if !args.quiet {
+        for warning in &result.measured.warnings {
+            complain!("warning: {warning}");
+        }
+        if args.json.as_deref() != Some(Path::new("-")) {
+            tell(&result, &written);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
+    let (rpm, source) = match (args.speed, &measured.speed) {
+        (Some(rpm), _) => (rpm, "--speed".to_owned()),
+        (None, Some((rpm, source))) => (*rpm, source.clone()),
+        (None, None) => {
+            return Err(Failure::Usage(format!(
+                "{}: the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME",
+                measured.path.display()
+            )));
+        }
+    };
+    if !(rpm.is_finite() && rpm != 0.0) {
+        return Err(Failure::Usage(format!(
+            "shaft speed {rpm} r/min, from {source}: expected a speed other than 0; give --speed RPM"
+        )));
+    }
+    Ok((rpm, source))
+}
+
+fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
+    analysis_of(&measured.x, measured.rate, options).map_err(|error| {
+        Failure::Usage(format!(
+            "{}, `{}`: {error}",
+            measured.path.display(),
+            measured.channel
+        ))
+    })
+}
+
+/// Bands of ISO 15242, where the signal is an acceleration.
+fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
+    if measured.unit.quantity != Quantity::Acceleration {
+        return None;
+    }
+    let x: Vec<f64> = measured.x.iter().map(|v| v * measured.unit.to_si).collect();
+    velocity(&x, measured.rate, shaft).ok()
+}
+
+fn lay_over(
+    path: &Path,
+    args: &AnalyzeArgs,
+    measured: &Measured,
+    analysis: &Analysis,
+) -> Result<Against, Failure> {
+    let wanted = |rate, unit| Wanted {
+        channel: args.against_channel.as_deref(),
+        rate,
+        unit,
+        ..Wanted::default()
+    };
+    // What another measurement does not state is the first one's, as the same logger would have it.
+    let mut other = measured::load(path, &wanted(None, None))?;
+    if other.unit.quantity != measured.unit.quantity {
+        return Err(Failure::Usage(format!(
+            "--against {}: `{}` is in {}, and the signal in {}; only signals of one quantity are laid over each other",
+            path.display(),
+            other.channel,
+            other.unit.name,
+            measured.unit.name
+        )));
+    }
+    let factor = other.unit.to_si / measured.unit.to_si;
+    other.x.iter_mut().for_each(|v| *v *= factor);
+    other.unit = measured.unit.clone();
+    let mut options = analysis.options.clone();
+    if let Some((rpm, _)) = &other.speed {
+        options.shaft = rpm.abs() / 60.0;
+    }
+    if let Some(run) = &other.scenario {
+        let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
+        options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);
+    }
+    let found = look(&other, &options)?;
+    let comparison = compare(
+        Side {
+            x: &measured.x,
+            analysis,
+        },
+        Side {
+            x: &other.x,
+            analysis: &found,
+        },
+    )
+    .map_err(|error| Failure::Usage(format!("--against {}: {error}", path.display())))?;
+    Ok(Against {
+        measured: other,
+        analysis: found,
+        comparison,
+    })
+}
+
+fn as_json(result: &Result_) -> String {
+    let m = &result.measured;
+    let comparison = result.against.as_ref().map(|a| &a.comparison);
+    let mut value = to_json(
+        &result.analysis,
+        &m.unit,
+        result.velocity.as_ref(),
+        comparison,
+    );
+    value["brinell"] = brinell::VERSION.into();
+    value["file"] = json!({
+        "path": m.path.display().to_string(),
+        "channel": m.channel,
+        "start_s": m.start,
+        "notes": m.notes,
+        "warnings": m.warnings,
+        "speed": result.speed,
+        "bearing": result.bearing,
+    });
+    if let Some(other) = &result.against {
+        value["against"] = json!({
+            "path": other.measured.path.display().to_string(),
+            "channel": other.measured.channel,
+            "notes": other.measured.notes,
+            "verdict": other.analysis.verdict(),
+        });
+    }
+    serde_json::to_string_pretty(&value).unwrap_or_default()
+}
+
+fn write(
+    folder: &Path,
+    result: &Result_,
+    json: &str,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    make_folder(folder)?;
+    let mut put = |name: &str, bytes: &[u8]| -> Result<(), Failure> {
+        let path = folder.join(name);
+        atomic_write(&path, bytes)?;
+        written.push(path);
+        Ok(())
+    };
+    put("analysis.json", format!("{json}\n").as_bytes())?;
+    let report = page::report(result);
+    put(
+        "report.html",
+        brinell_report::analysis_html(&report).as_bytes(),
+    )?;
+    make_folder(&folder.join("plots"))?;
+    for picture in brinell_report::analysis_pictures(&report) {
+        put(
+            &format!("plots/{}.svg", picture.name),
+            picture.svg().as_bytes(),
+        )?;
+    }
+    Ok(())
+}
+
+fn tell(result: &Result_, written: &[PathBuf]) {
+    let (m, a) = (&result.measured, &result.analysis);
+    say!(
+        "{}, channel {}: {:.3} s, {} samples",
+        m.path.display(),
+        m.channel,
+        a.duration(),
+        a.samples
+    );
+    for note in &m.notes {
+        say!("  {note}");
+    }
+    let refined = if a.shaft_found {
+        format!("; its own lines say {:.2} r/min", 60.0 * a.shaft)
+    } else {
+        "; no line of its own shows it".into()
+    };
+    say!("  {}{refined}", result.speed);
+    say!("  bearing: {}", result.bearing);
+    say!("\n{}\n", a.verdict());
+    let rows: Vec<String> = (a.indicators.iter())
+        .filter(|(i, _)| {
+            [
+                Indicator::Rms,
+                Indicator::Peak,
+                Indicator::CrestFactor,
+                Indicator::Kurtosis,
+            ]
+            .contains(i)
+        })
+        .map(|(i, e)| {
+            let unit = if i.has_unit() {
+                format!(" {}", m.unit.name)
+            } else {
+                String::new()
+            };
+            format!("{} {}{unit}", i.name().replace('_', " "), short(e.value, 4))
+        })
+        .collect();
+    say!("  {}", rows.join(", "));
+    if let Some(other) = &result.against {
+        say!(
+            "  against {}, channel {}: {}",
+            other.measured.path.display(),
+            other.measured.channel,
+            other.analysis.verdict()
+        );
+        let (mean, rms) = other.comparison.level_db;
+        say!(
+            "  the other's third octaves lie {mean:+.1} dB from this one's on average, {rms:.1} dB RMS"
+        );
+        for d in &other.comparison.indicators {
+            say!(
+                "    {:<16} {:>12} {:>12}  x {}",
+                d.indicator.name(),
+                short(d.first, 4),
+                short(d.second, 4),
+                short(d.second / d.first, 3)
+            );
+        }
+    }
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
+}

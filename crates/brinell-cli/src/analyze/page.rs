@@ -1,0 +1,383 @@
+//! The page of an analysis, from its findings.
+
+use super::Result_;
+use crate::say::short;
+use brinell::analysis::{Analysis, Component};
+use brinell::signal::{Estimate, Indicator, Spectrum};
+use brinell_report::{AnalysisReport, Fact, Marker, Series, Table};
+
+/// Most samples of a waveform that the page is given: more are not seen.
+const WAVEFORM: usize = 1 << 20;
+
+pub(super) fn report(result: &Result_) -> AnalysisReport {
+    let (m, a) = (&result.measured, &result.analysis);
+    let name = |m: &super::Measured| {
+        let file = m.path.file_name().map(|n| n.to_string_lossy().into_owned());
+        format!("{} · {}", file.unwrap_or_default(), m.channel)
+    };
+    let quantity = m.unit.quantity.words();
+    let mut notes = m.notes.clone();
+    notes.push(result.speed.clone());
+    notes.push(format!("bearing: {}", result.bearing));
+    notes.push(format!(
+        "mean removed: {} {}",
+        short(a.mean, 4),
+        m.unit.name
+    ));
+    let mut page = AnalysisReport {
+        title: name(m),
+        subtitle: format!(
+            "{:.2} s at {} Hz, shaft {:.1} r/min",
+            a.duration(),
+            m.rate,
+            60.0 * a.shaft
+        ),
+        version: brinell::VERSION.into(),
+        verdict: a.verdict(),
+        damage: a.causes().next().is_some(),
+        warnings: m.warnings.clone(),
+        notes,
+        facts: facts(result),
+        names: vec![name(m)],
+        close_up_s: 10.0 / strike(a),
+        markers: markers(a),
+        ..AnalysisReport::default()
+    };
+    let series = |m: &super::Measured| Series {
+        label: quantity.into(),
+        unit: m.unit.name.clone(),
+        t0_s: 0.0,
+        dt_s: 1.0 / m.rate,
+        values: m.x[..m.x.len().min(WAVEFORM)].to_vec(),
+    };
+    let spectrum = |s: &Spectrum, label: String, note: String| brinell_report::Spectrum {
+        label,
+        df_hz: s.frequency_step,
+        amplitude: s.amplitude.clone(),
+        unit: m.unit.name.clone(),
+        note,
+    };
+    let note = |s: &Spectrum| {
+        format!(
+            "Hann window, lines {} Hz apart, {} averages.",
+            short(s.frequency_step, 3),
+            s.segments
+        )
+    };
+    let band = a.view().band;
+    let (low, high) = (band.band.low, band.band.high);
+    let shaded = format!(
+        " Shaded: the band demodulated, {low:.0} to {high:.0} Hz ({}).",
+        band.choice.words()
+    );
+    let lanes = " Above the plot lie the defect frequencies and their harmonics; those that stand run through it as dashed lines.";
+    page.waveforms.push(series(m));
+    page.band_hz = Some((low, high));
+    let (label, of_envelope) = (
+        format!("{quantity} amplitude"),
+        "Envelope amplitude".to_owned(),
+    );
+    match &result.against {
+        None => {
+            page.spectra = vec![spectrum(&a.spectrum, label, note(&a.spectrum) + &shaded)];
+            let s = &a.view().spectrum;
+            page.envelopes = vec![spectrum(s, of_envelope, note(s) + lanes)];
+        }
+        Some(other) => {
+            page.names
+                .push(format!("against {}", name(&other.measured)));
+            page.waveforms.push(series(&other.measured));
+            let c = &other.comparison;
+            for (s, e) in c.spectra.iter().zip(&c.envelopes) {
+                page.spectra
+                    .push(spectrum(s, label.clone(), note(s) + &shaded));
+                let words = format!(
+                    "{} Both in the band of {low:.0} to {high:.0} Hz.{lanes}",
+                    note(e)
+                );
+                page.envelopes.push(spectrum(e, of_envelope.clone(), words));
+            }
+            page.tables.extend(differences(result));
+        }
+    }
+    page.tables.push(findings(a));
+    page.tables.push(indicators(result));
+    page.tables.push(bands(a));
+    page
+}
+
+/// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.
+fn strike(a: &Analysis) -> f64 {
+    let found = a.findings.first().map(|f| f.evidence.frequency);
+    found.unwrap_or(a.options.orders.bpfo.unwrap_or(1.0) * a.shaft)
+}
+
+fn facts(result: &Result_) -> Vec<Fact> {
+    let (m, a) = (&result.measured, &result.analysis);
+    let mut facts = Vec::new();
+    if let Some(f) = a.findings.first() {
+        let note = format!("pure rolling {:.2} Hz, {}", f.expected, f.clarity());
+        facts.push(Fact::new(f.name, f.evidence.frequency, "Hz", note));
+    }
+    for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
+        if let Some((_, e)) = a.indicators.iter().find(|(k, _)| *k == i) {
+            let unit = if i.has_unit() {
+                m.unit.name.as_str()
+            } else {
+                ""
+            };
+            let label = i.name().replace('_', " ");
+            facts.push(Fact::new(capital(&label), e.value, unit, ""));
+        }
+    }
+    facts
+}
+
+fn capital(text: &str) -> String {
+    match text {
+        "rms" => "RMS".into(),
+        _ => text[..1].to_uppercase() + &text[1..],
+    }
+}
+
+fn markers(a: &Analysis) -> Vec<Marker> {
+    (a.options.orders.strikes())
+        .filter(|(c, name, _)| *c != Component::Element || *name == "2 BSF")
+        .map(|(component, name, order)| {
+            let found = a.causes().find(|f| f.component == component);
+            let at = found.map(|f| match f.name {
+                "BSF" => 2.0 * f.evidence.frequency,
+                _ => f.evidence.frequency,
+            });
+            Marker {
+                label: name.into(),
+                meaning: component.words().into(),
+                frequency_hz: at.unwrap_or(order * a.shaft),
+                harmonics: a.options.harmonics,
+                present: found.is_some(),
+            }
+        })
+        .collect()
+}
+
+fn findings(a: &Analysis) -> Table {
+    let columns = [
+        "Component",
+        "Frequency",
+        "#Pure rolling, Hz",
+        "#Found, Hz",
+        "#Harmonics",
+        "#Sidebands",
+        "#Modulation",
+        "#Chance of noise",
+        "Called",
+    ];
+    let mut rows = Vec::new();
+    for (component, name, order) in a.options.orders.strikes() {
+        let hz = order * a.shaft;
+        let mut row = vec![
+            component.words().to_owned(),
+            name.to_owned(),
+            format!("{hz:.2}"),
+        ];
+        match a.findings.iter().find(|f| f.name == name) {
+            None => row.extend(["–", "–", "–", "–", "–", "does not stand"].map(str::to_owned)),
+            Some(f) => {
+                let called = match (f.is_cause(), f.explained_by.is_empty()) {
+                    (true, _) => format!("damage, {}", f.clarity()),
+                    (false, false) => format!("explained by {}", f.explained_by.join(", ")),
+                    (false, true) => "faint".into(),
+                };
+                row.extend([
+                    format!("{:.2}", f.evidence.frequency),
+                    format!("{} of {}", f.evidence.standing, a.options.harmonics),
+                    f.sidebands().map_or("–".into(), |s| s.0.to_string()),
+                    format!("{:.1} %", 100.0 * f.modulation),
+                    if f.false_alarm < 1e-15 {
+                        "< 1e-15".into()
+                    } else {
+                        format!("{:.0e}", f.false_alarm)
+                    },
+                    called,
+                ]);
+            }
+        }
+        rows.push(row);
+    }
+    Table {
+        title: "Defect frequencies".into(),
+        columns: columns.map(str::to_owned).to_vec(),
+        rows,
+        note: format!(
+            "Searched within {} % in {} envelope spectra. The chance of noise is an upper bound over all of them; {} % is the level at which something stands.",
+            100.0 * a.options.tolerance,
+            a.views.len(),
+            100.0 * a.options.level
+        ),
+    }
+}
+
+fn with_interval(e: &Estimate) -> String {
+    match e.interval {
+        Some(i) => format!("{} to {}", short(i.low, 4), short(i.high, 4)),
+        None => "–".into(),
+    }
+}
+
+fn indicators(result: &Result_) -> Table {
+    let unit = &result.measured.unit.name;
+    let mut rows: Vec<Vec<String>> = (result.analysis.indicators.iter())
+        .map(|(i, e)| {
+            let unit = if i.has_unit() {
+                unit.clone()
+            } else {
+                String::new()
+            };
+            vec![
+                capital(&i.name().replace('_', " ")),
+                short(e.value, 4),
+                with_interval(e),
+                unit,
+            ]
+        })
+        .collect();
+    for b in result.velocity.iter().flatten().flatten() {
+        let cut = if b.cut_short {
+            ", cut short by the sample rate"
+        } else {
+            ""
+        };
+        rows.push(vec![
+            format!(
+                "RMS velocity, {:.0} to {:.0} Hz{cut}",
+                b.band.low, b.band.high
+            ),
+            short(1e3 * b.rms.value, 4),
+            b.rms.interval.map_or("–".into(), |i| {
+                format!("{} to {}", short(1e3 * i.low, 4), short(1e3 * i.high, 4))
+            }),
+            "mm/s".into(),
+        ]);
+    }
+    Table {
+        title: "Indicators".into(),
+        columns: ["Indicator", "#Value", "#95 % interval of a block", "Unit"].map(str::to_owned).to_vec(),
+        rows,
+        note: "Of the signal less its mean; intervals from blocks of revolutions. Bands of velocity are those of ISO 15242 at 1800 r/min, \
+               with sharp edges."
+            .into(),
+    }
+}
+
+fn bands(a: &Analysis) -> Table {
+    let rows = (a.views.iter().enumerate())
+        .map(|(i, v)| {
+            let best = v.diagnosis.causes().next();
+            let shown = if i == a.best { "shown above" } else { "" };
+            let names: Vec<&str> = a.options.orders.strikes().map(|s| s.1).collect();
+            vec![
+                format!("{:.0} to {:.0}", v.band.band.low, v.band.band.high),
+                v.band.choice.words().to_owned(),
+                short(v.spectrum.frequency_step, 3),
+                v.removed.len().to_string(),
+                best.map_or("nothing".into(), |e| names[e.candidate].to_owned()),
+                shown.to_owned(),
+            ]
+        })
+        .collect();
+    Table {
+        title: "Bands searched".into(),
+        columns: ["#Band, Hz", "Why", "#Line spacing, Hz", "#Shaft and mains lines set aside", "Stands first", ""].map(str::to_owned).to_vec(),
+        rows,
+        note: a.kurtogram.map_or(String::new(), |k| {
+            format!(
+                "Kurtogram: largest kurtosis {} in {:.0} to {:.0} Hz, {} standard deviations of what noise scatters.",
+                short(k.kurtosis, 3), k.band.low, k.band.high, short(k.kurtosis / k.noise_scatter, 2)
+            )
+        }),
+    }
+}
+
+fn differences(result: &Result_) -> Vec<Table> {
+    let Some(other) = &result.against else {
+        return Vec::new();
+    };
+    let c = &other.comparison;
+    let unit = &result.measured.unit.name;
+    let indicators = (c.indicators.iter())
+        .map(|d| {
+            let unit = if d.indicator.has_unit() {
+                unit.clone()
+            } else {
+                String::new()
+            };
+            let apart = match d.apart {
+                Some(true) => "intervals apart",
+                Some(false) => "intervals overlap",
+                None => "",
+            };
+            vec![
+                capital(&d.indicator.name().replace('_', " ")),
+                short(d.first, 4),
+                short(d.second, 4),
+                unit,
+                short(d.second / d.first, 3),
+                apart.into(),
+            ]
+        })
+        .collect();
+    let lines = (c.lines.iter())
+        .map(|l| {
+            let pair = |v: [f64; 2], digits: usize| v.map(|v| format!("{v:.digits$}"));
+            let (f, m, s) = (
+                pair(l.frequency, 2),
+                pair(l.modulation.map(|v| 100.0 * v), 1),
+                pair(l.snr_db, 0),
+            );
+            let [fa, fb] = f;
+            let [ma, mb] = m;
+            let [sa, sb] = s;
+            vec![format!("{} × {}", l.order, l.name), fa, fb, ma, mb, sa, sb]
+        })
+        .collect();
+    vec![
+        Table {
+            title: "Differences".into(),
+            columns: [
+                "Indicator",
+                "#This",
+                "#Other",
+                "Unit",
+                "#Other over this",
+                "",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+            rows: indicators,
+            note: format!(
+                "Third octaves from 10 Hz up: the other lies {:+.1} dB from this one on average, {:.1} dB RMS. Verdict on the other: {}",
+                c.level_db.0,
+                c.level_db.1,
+                other.analysis.verdict()
+            ),
+        },
+        Table {
+            title: "Lines of the envelope spectra".into(),
+            columns: [
+                "Line",
+                "#This, Hz",
+                "#Other, Hz",
+                "#This, % of the mean",
+                "#Other, %",
+                "#This, dB over noise",
+                "#Other, dB",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+            rows: lines,
+            note:
+                "Amplitudes over the mean of the envelope in one band; free of the sensor's scale."
+                    .into(),
+        },
+    ]
+}

@@ -1,0 +1,357 @@
+//! The page of an analysed signal: verdict, waveform, spectrum, envelope spectrum; and a second signal over it.
+
+use std::fmt::Write as _;
+
+use crate::chart::{Chart, Domain, Lane, Spec, range};
+use crate::data::{Fact, Marker, Series, Spectrum};
+use crate::embedded::base64;
+use crate::font;
+use crate::page::figure;
+use crate::picture::{Paint, Picture, escape, ink};
+use crate::plots::{Layout, legend, marker_lanes, time_unit};
+use crate::tables::facts;
+
+/// A table of words and numbers as they are to be read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Heading.
+    pub title: String,
+    /// Heads of the columns; one that begins with `#` is set as numbers.
+    pub columns: Vec<String>,
+    /// Rows, a cell for each column.
+    pub rows: Vec<Vec<String>>,
+    /// Under it; may be empty.
+    pub note: String,
+}
+
+/// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AnalysisReport {
+    /// File and channel.
+    pub title: String,
+    /// Bearing, speed, length.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// The verdict in a paragraph.
+    pub verdict: String,
+    /// Whether it speaks of damage.
+    pub damage: bool,
+    /// What deserves attention.
+    pub warnings: Vec<String>,
+    /// Where rate, unit, speed and bearing come from.
+    pub notes: Vec<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// What the curves are: "measured", "simulated".
+    pub names: Vec<String>,
+    /// Waveforms, thinned or not.
+    pub waveforms: Vec<Series>,
+    /// Seconds shown close up, from the middle of the signal.
+    pub close_up_s: f64,
+    /// Amplitude spectra.
+    pub spectra: Vec<Spectrum>,
+    /// Envelope spectra.
+    pub envelopes: Vec<Spectrum>,
+    /// Defect frequencies; `present` for those that stand.
+    pub markers: Vec<Marker>,
+    /// The band demodulated, Hz: shaded in the spectrum.
+    pub band_hz: Option<(f64, f64)>,
+    /// Findings, indicators, differences.
+    pub tables: Vec<Table>,
+}
+
+fn paints() -> [Paint; 2] {
+    [
+        Paint::line(ink::BLUE, 1.1),
+        Paint::line(ink::VERMILLION, 1.1),
+    ]
+}
+
+/// A plot of all curves, with a legend where there are several.
+fn plot(
+    report: &AnalysisReport,
+    layout: Layout,
+    spec: Spec,
+    curves: &[(f64, f64, &[f64])],
+    peak: bool,
+    highlight: Option<(f64, f64)>,
+) -> Picture {
+    let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
+    let mut chart = Chart::new(spec);
+    if curves.iter().all(|c| range(c.2.iter().copied()).is_none()) {
+        chart.say("No samples");
+    }
+    if let Some((lo, hi)) = highlight {
+        chart.highlight(lo, hi);
+    }
+    // The second lies on top, and lets the first shine through.
+    for (index, (x0, dx, values)) in curves.iter().enumerate() {
+        let paint = paints()[index.min(1)];
+        chart.curve(
+            *x0,
+            *dx,
+            values,
+            peak,
+            if index > 0 { paint.faded(0.75) } else { paint },
+        );
+    }
+    let chart = chart.finish();
+    if curves.len() < 2 {
+        return chart;
+    }
+    let entries: Vec<(&str, Paint)> = (report.names.iter().zip(paints()))
+        .map(|(name, paint)| (name.as_str(), paint))
+        .collect();
+    let width = layout.size(0.0).width;
+    let mut picture = Picture::new(&name, &title, width, size.height);
+    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
+    picture.height = top + size.height;
+    picture.place(chart, 0.0, top);
+    picture
+}
+
+fn waveform(report: &AnalysisReport, layout: Layout, close: bool) -> Picture {
+    let first = report.waveforms.first().cloned().unwrap_or_default();
+    let span = |s: &Series| s.dt_s * s.values.len() as f64;
+    let whole = report.waveforms.iter().map(span).fold(0.0, f64::max);
+    let shortest = report
+        .waveforms
+        .iter()
+        .map(span)
+        .fold(f64::INFINITY, f64::min);
+    let (from, to) = if close {
+        let from = (0.5 * (shortest - report.close_up_s)).max(0.0);
+        (from, from + report.close_up_s.min(shortest))
+    } else {
+        (0.0, whole)
+    };
+    let (unit, scale) = time_unit(to - from);
+    let shown = |s: &Series| -> Vec<f64> {
+        let bin = |t: f64| ((t / s.dt_s).max(0.0) as usize).min(s.values.len());
+        s.values[bin(from)..bin(to)].to_vec()
+    };
+    let extremes = report.waveforms.iter().flat_map(shown);
+    let spec = Spec {
+        name: if close { "close-up" } else { "waveform" }.into(),
+        title: format!("Waveform: {}", first.label),
+        size: layout.size(if close { 300.0 } else { 200.0 }),
+        x: Domain::exact(from * scale, to * scale),
+        y: Domain::around(extremes),
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: first.label.clone(),
+        y_unit: first.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    };
+    let curves: Vec<(f64, f64, &[f64])> = (report.waveforms.iter())
+        .map(|s| (0.0, s.dt_s * scale, &s.values[..]))
+        .collect();
+    plot(report, layout, spec, &curves, false, None)
+}
+
+fn spectrum_spec(
+    name: &str,
+    first: &Spectrum,
+    layout: Layout,
+    height: f64,
+    top: f64,
+    y: Domain,
+    lanes: Vec<Lane>,
+) -> Spec {
+    Spec {
+        name: name.into(),
+        title: format!("{name}: {}", first.label),
+        size: layout.size(height),
+        x: Domain::exact(0.0, top),
+        y,
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        y_label: first.label.clone(),
+        y_unit: first.unit.clone(),
+        lanes,
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    }
+}
+
+fn end(spectra: &[Spectrum]) -> f64 {
+    (spectra.iter())
+        .map(|s| s.df_hz * s.amplitude.len().saturating_sub(1) as f64)
+        .fold(0.0, f64::max)
+}
+
+fn curves(spectra: &[Spectrum]) -> Vec<(f64, f64, &[f64])> {
+    (spectra.iter())
+        .map(|s| (0.0, s.df_hz, &s.amplitude[..]))
+        .collect()
+}
+
+fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
+    let first = report.spectra.first().cloned().unwrap_or_default();
+    let all: Vec<f64> = (report.spectra.iter())
+        .flat_map(|s| s.amplitude.iter().skip(2).copied())
+        .collect();
+    let height = if layout == Layout::Wide { 320.0 } else { 280.0 };
+    let y = Domain::decades(&all);
+    let spec = spectrum_spec(
+        "spectrum",
+        &first,
+        layout,
+        height,
+        end(&report.spectra),
+        y,
+        vec![],
+    );
+    plot(
+        report,
+        layout,
+        spec,
+        &curves(&report.spectra),
+        true,
+        report.band_hz,
+    )
+}
+
+fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
+    let first = report.envelopes.first().cloned().unwrap_or_default();
+    let all = (report.envelopes.iter()).flat_map(|s| s.amplitude.iter().skip(3).copied());
+    let height = if layout == Layout::Wide { 400.0 } else { 360.0 };
+    let lanes = marker_lanes(&report.markers);
+    let y = Domain::from_zero(all);
+    let top = end(&report.envelopes);
+    let spec = spectrum_spec("envelope-spectrum", &first, layout, height, top, y, lanes);
+    plot(report, layout, spec, &curves(&report.envelopes), true, None)
+}
+
+/// The page's pictures, drawn wide.
+pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
+    let wide = Layout::Wide;
+    vec![
+        waveform(report, wide, false),
+        waveform(report, wide, true),
+        spectrum(report, wide),
+        envelope(report, wide),
+    ]
+}
+
+/// The self-contained page.
+pub fn analysis_html(report: &AnalysisReport) -> String {
+    let mut page = String::with_capacity(1 << 19);
+    let title = escape(&report.title);
+    let _ = write!(
+        page,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n"
+    );
+    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
+        let _ = writeln!(
+            page,
+            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
+            base64(face)
+        );
+    }
+    page.push_str(include_str!("page.css"));
+    let _ = write!(
+        page,
+        "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p class=\"subtitle\">{}</p>\n<p class=\"version\">Analysed by brinell {}</p>\n",
+        escape(&report.subtitle),
+        escape(&report.version)
+    );
+    for warning in &report.warnings {
+        let _ = writeln!(
+            page,
+            "<p class=\"partial\" role=\"alert\">{}</p>",
+            escape(warning)
+        );
+    }
+    page.push_str("</header>\n<main>\n<section id=\"verdict\">\n<h2>Verdict</h2>\n");
+    let class = if report.damage { "bad" } else { "good" };
+    let word = if report.damage {
+        "damage"
+    } else {
+        "nothing stands out"
+    };
+    let _ = writeln!(
+        page,
+        "<p><span class=\"tag {class}\">{word}</span></p>\n<p>{}</p>",
+        escape(&report.verdict)
+    );
+    facts(&mut page, &report.facts);
+    page.push_str("</section>\n<section id=\"waveform\">\n<h2>Waveform</h2>\n");
+    figure(
+        &mut page,
+        "whole",
+        |layout| waveform(report, layout, false),
+        "",
+    );
+    figure(
+        &mut page,
+        "close",
+        |layout| waveform(report, layout, true),
+        "A stretch from the middle, about ten strikes of the frequency that matters most long.",
+    );
+    page.push_str("</section>\n<section id=\"spectrum\">\n<h2>Spectrum</h2>\n");
+    let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
+    figure(
+        &mut page,
+        "spectrum",
+        |layout| spectrum(report, layout),
+        &note(&report.spectra),
+    );
+    page.push_str("</section>\n<section id=\"envelope\">\n<h2>Envelope spectrum</h2>\n");
+    figure(
+        &mut page,
+        "envelope",
+        |layout| envelope(report, layout),
+        &note(&report.envelopes),
+    );
+    page.push_str("</section>\n");
+    for one in &report.tables {
+        table(&mut page, one);
+    }
+    page.push_str("<section id=\"given\">\n<h2>What was given</h2>\n<ul>\n");
+    for note in &report.notes {
+        let _ = writeln!(page, "<li>{}</li>", escape(note));
+    }
+    page.push_str(
+        "</ul>\n</section>\n</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest \
+         value, in spectra its largest.</footer>\n</body>\n</html>\n",
+    );
+    page
+}
+
+fn table(page: &mut String, table: &Table) {
+    let _ = write!(
+        page,
+        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>",
+        escape(&table.title)
+    );
+    let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
+    let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
+    for (i, column) in table.columns.iter().enumerate() {
+        let _ = write!(
+            page,
+            "<th{}>{}</th>",
+            class(i),
+            escape(column.trim_start_matches('#'))
+        );
+    }
+    page.push_str("</tr></thead><tbody>\n");
+    for row in &table.rows {
+        page.push_str("<tr>");
+        for (i, cell) in row.iter().enumerate() {
+            let _ = write!(page, "<td{}>{}</td>", class(i), escape(cell));
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></div>\n");
+    if !table.note.is_empty() {
+        let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
+    }
+    page.push_str("</section>\n");
+}

@@ -1,0 +1,103 @@
+//! Which bands are demodulated.
+
+use super::{AnalysisError, Options};
+use crate::signal::{Band, KurtogramBand, kurtogram};
+
+/// Multiple of the highest defect frequency above which a carrier is sought.
+pub(super) const BROAD: f64 = 3.0;
+/// Least width of a band over the highest defect frequency: its sidebands of first and second order fit in.
+pub(super) const NARROWEST: f64 = 3.0;
+/// Halvings of the kurtogram.
+const DEPTH: usize = 6;
+/// Longest part of a signal that the kurtogram looks at, samples: it chooses a band, and that takes no more.
+const LONGEST: usize = 1 << 18;
+
+/// Why a band was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BandChoice {
+    /// The user's.
+    Given,
+    /// The largest kurtosis of the fast kurtogram.
+    Kurtogram,
+    /// Everything above three times the highest defect frequency.
+    Broad,
+    /// One octave of a tiling.
+    Octave,
+}
+
+impl BandChoice {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            BandChoice::Given => "given",
+            BandChoice::Kurtogram => "most impulsive by the fast kurtogram",
+            BandChoice::Broad => "everything above three times the highest defect frequency",
+            BandChoice::Octave => "an octave",
+        }
+    }
+}
+
+/// A band to demodulate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChosenBand {
+    /// Its edges, Hz; the upper one at most half the sample rate.
+    pub band: Band,
+    /// Why.
+    pub choice: BandChoice,
+}
+
+/// The bands, and the kurtogram's.
+pub(super) fn choose(
+    x: &[f64],
+    fs: f64,
+    options: &Options,
+) -> Result<(Vec<ChosenBand>, Option<KurtogramBand>), AnalysisError> {
+    let top = 0.5 * fs;
+    if let Some(band) = options.band {
+        let fits = band.low >= 0.0 && band.low < band.high && band.low < top;
+        if !fits {
+            let range = "0 to below the upper edge and half the sample rate";
+            return Err(super::out_of_range(
+                "lower edge of the band (Hz)",
+                band.low,
+                range,
+            ));
+        }
+        let band = Band::between(band.low, band.high.min(top));
+        let choice = BandChoice::Given;
+        return Ok((vec![ChosenBand { band, choice }], None));
+    }
+    let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft;
+    let narrowest = NARROWEST * highest;
+    let map = kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH)?;
+    let best = map.best(narrowest);
+    let mut bands = Vec::new();
+    if let Some(best) = best
+        && best.bandwidth() < 0.99 * top
+    {
+        bands.push(ChosenBand {
+            band: best.band,
+            choice: BandChoice::Kurtogram,
+        });
+    }
+    let low = BROAD * highest;
+    bands.push(ChosenBand {
+        band: Band::between(low, top),
+        choice: BandChoice::Broad,
+    });
+    let mut edge = low;
+    while top - edge >= 2.0 * narrowest {
+        let mut next = (2.0 * edge).max(edge + narrowest);
+        if top - next < narrowest {
+            next = top;
+        }
+        if edge > low || next < top {
+            bands.push(ChosenBand {
+                band: Band::between(edge, next),
+                choice: BandChoice::Octave,
+            });
+        }
+        edge = next;
+    }
+    Ok((bands, best))
+}

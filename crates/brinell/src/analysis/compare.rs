@@ -1,0 +1,203 @@
+//! One signal over another: how their indicators, spectra and defect lines differ.
+
+use super::view::candidates;
+use super::{Analysis, AnalysisError};
+use crate::signal::{Indicator, Segments, Spectrum, envelope, harmonics, psd};
+
+/// A quantity of both signals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// What it is: an indicator's name.
+    pub indicator: Indicator,
+    /// Of the first signal.
+    pub first: f64,
+    /// Of the second.
+    pub second: f64,
+    /// Whether their 95 % intervals are apart; `None` where one has none.
+    pub apart: Option<bool>,
+}
+
+/// One harmonic of a defect frequency in both envelope spectra.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineDifference {
+    /// Name of the frequency: `BPFO`.
+    pub name: &'static str,
+    /// Order of the harmonic.
+    pub order: i32,
+    /// Frequency in the first and in the second, Hz.
+    pub frequency: [f64; 2],
+    /// Amplitude over the envelope's mean.
+    pub modulation: [f64; 2],
+    /// Power over the noise about it, dB.
+    pub snr_db: [f64; 2],
+}
+
+/// Both signals side by side, in one unit and on one frequency axis.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Indicators.
+    pub indicators: Vec<Difference>,
+    /// Amplitude spectra with lines equally far apart, up to the lower of the two half sample rates.
+    pub spectra: [Spectrum; 2],
+    /// Envelope spectra of one band.
+    pub envelopes: [Spectrum; 2],
+    /// Means of the two envelopes.
+    pub envelope_means: [f64; 2],
+    /// The band, Hz.
+    pub band: (f64, f64),
+    /// Harmonics of the defect frequencies.
+    pub lines: Vec<LineDifference>,
+    /// Mean and root mean square difference of the spectra's levels, second over first, dB, over third octaves.
+    pub level_db: (f64, f64),
+}
+
+/// A signal with its analysis.
+#[derive(Debug, Clone, Copy)]
+pub struct Side<'a> {
+    /// Samples, in the unit of both.
+    pub x: &'a [f64],
+    /// What was found in it.
+    pub analysis: &'a Analysis,
+}
+
+/// Lays `second` over `first`, in the band that shows most in the first, as far as both sample rates hold it.
+///
+/// # Errors
+/// [`AnalysisError`] where the band lies above what the lower sample rate holds, or a signal is too short for a spectrum.
+pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
+    let sides = [first, second];
+    let rates = sides.map(|s| s.analysis.sample_rate);
+    let top = 0.5 * rates[0].min(rates[1]);
+    let mut band = first.analysis.view().band.band;
+    band.high = band.high.min(top);
+    if band.low >= band.high {
+        let range = "below half of both sample rates";
+        return Err(super::out_of_range("band (Hz)", band.low, range));
+    }
+    let shortest = sides
+        .map(|s| s.analysis.duration())
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    let step = (4.0 / shortest).max(1.0);
+    let view = first.analysis.view();
+    let envelope_step = (1.0 / shortest).max(view.spectrum.frequency_step);
+    let lines_top = view.spectrum.frequency_step * view.spectrum.amplitude.len() as f64;
+    let [a, b] = sides.map(|s| one(s, step, top, band, envelope_step, lines_top));
+    let ((sa, ea, ma), (sb, eb, mb)) = (a?, b?);
+    let spectra = [sa, sb];
+    let envelopes = [ea, eb];
+    let envelope_means = [ma, mb];
+    let lines = lines(&sides, &envelopes, &envelope_means)?;
+    Ok(Comparison {
+        indicators: indicators(&sides),
+        level_db: level(&spectra),
+        spectra,
+        envelopes,
+        envelope_means,
+        band: (band.low, band.high),
+        lines,
+    })
+}
+
+fn one(
+    side: Side,
+    step: f64,
+    top: f64,
+    band: crate::signal::Band,
+    envelope_step: f64,
+    envelope_top: f64,
+) -> Result<(Spectrum, Spectrum, f64), AnalysisError> {
+    let fs = side.analysis.sample_rate;
+    let x: Vec<f64> = side.x.iter().map(|v| v - side.analysis.mean).collect();
+    let length = |step: f64| ((fs / step).round() as usize).clamp(64, x.len().max(64));
+    let mut spectrum = psd(&x, fs, &Segments::of(length(step)))?;
+    spectrum
+        .amplitude
+        .truncate((top / spectrum.frequency_step) as usize + 1);
+    let mut e = envelope(&x, fs, band).unwrap_or_default();
+    let mean = e.iter().sum::<f64>() / e.len().max(1) as f64;
+    e.iter_mut().for_each(|v| *v -= mean);
+    let mut of_envelope = psd(&e, fs, &Segments::of(length(envelope_step)))?;
+    let bins = (envelope_top / of_envelope.frequency_step) as usize + 1;
+    of_envelope.amplitude.truncate(bins.max(64));
+    Ok((spectrum, of_envelope, mean))
+}
+
+fn indicators(sides: &[Side; 2]) -> Vec<Difference> {
+    let of = |side: &Side, i: Indicator| {
+        let found = side.analysis.indicators.iter().find(|(k, _)| *k == i);
+        found.map(|(_, e)| *e)
+    };
+    (Indicator::ALL.into_iter())
+        .filter_map(|i| {
+            let (a, b) = (of(&sides[0], i)?, of(&sides[1], i)?);
+            let apart = (a.interval.zip(b.interval)).map(|(a, b)| a.high < b.low || b.high < a.low);
+            Some(Difference {
+                indicator: i,
+                first: a.value,
+                second: b.value,
+                apart,
+            })
+        })
+        .collect()
+}
+
+fn lines(
+    sides: &[Side; 2],
+    envelopes: &[Spectrum; 2],
+    means: &[f64; 2],
+) -> Result<Vec<LineDifference>, AnalysisError> {
+    let mut all = Vec::new();
+    let options = &sides[0].analysis.options;
+    for (_, name, order) in options.orders.strikes().filter(|s| s.1 != "BSF") {
+        let mut sets = Vec::new();
+        for (side, spectrum) in sides.iter().zip(envelopes) {
+            let analysis = side.analysis;
+            // Where its comb was found, or where pure rolling has it.
+            let place = candidates(analysis.shaft, &analysis.options)
+                .iter()
+                .position(|c| c.1 == name)
+                .map(|i| &analysis.view().diagnosis.evidence[i])
+                .filter(|e| e.stands)
+                .map_or(order * analysis.shaft, |e| e.frequency);
+            sets.push(harmonics(
+                spectrum,
+                place,
+                0.005 * place,
+                options.harmonics,
+            )?);
+        }
+        for (a, b) in sets[0].lines.iter().zip(&sets[1].lines) {
+            if a.order == b.order {
+                all.push(LineDifference {
+                    name,
+                    order: a.order,
+                    frequency: [a.frequency, b.frequency],
+                    modulation: [a.amplitude / means[0], b.amplitude / means[1]],
+                    snr_db: [a.snr_db, b.snr_db],
+                });
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Mean and RMS difference of levels over third octaves from 10 Hz up.
+fn level(spectra: &[Spectrum; 2]) -> (f64, f64) {
+    let top = spectra
+        .iter()
+        .map(|s| s.frequency_step * s.amplitude.len() as f64)
+        .fold(f64::INFINITY, f64::min);
+    let (mut low, mut count, mut sum, mut squares) = (10.0, 0.0f64, 0.0, 0.0);
+    let third = 2f64.powf(1.0 / 3.0);
+    while low * third < top {
+        let [a, b] = [0, 1].map(|i| spectra[i].band_rms(low, low * third));
+        if a > 0.0 && b > 0.0 {
+            let db = 20.0 * (b / a).log10();
+            (count, sum, squares) = (count + 1.0, sum + db, squares + db * db);
+        }
+        low *= third;
+    }
+    let count = count.max(1.0);
+    (sum / count, (squares / count).sqrt())
+}

@@ -1,0 +1,64 @@
+//! Why there is no analysis.
+
+use crate::signal::SignalError;
+
+/// What is wrong with the signal, or with what was asked of it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AnalysisError {
+    /// The sample rate leaves no room for the defect frequencies.
+    #[error(
+        "sampled at {rate_hz} Hz the signal holds nothing above {:.1} Hz, and {name} lies at {frequency_hz:.1} Hz: \
+         it takes {needed_hz:.0} Hz or more for two of its harmonics in an envelope", rate_hz / 2.0
+    )]
+    RateTooLow {
+        /// Sample rate, Hz.
+        rate_hz: f64,
+        /// The defect frequency that does not fit.
+        name: &'static str,
+        /// Its value, Hz.
+        frequency_hz: f64,
+        /// The least that would do, Hz.
+        needed_hz: f64,
+    },
+    /// Too few revolutions.
+    #[error(
+        "{seconds:.3} s are {revolutions:.1} revolutions of the shaft; it takes {needed_s:.3} s or more, {FEWEST_REVOLUTIONS} revolutions"
+    )]
+    TooShort {
+        /// Length of the signal, s.
+        seconds: f64,
+        /// The same in revolutions.
+        revolutions: f64,
+        /// Length needed, s.
+        needed_s: f64,
+    },
+    /// Samples that are not numbers.
+    #[error(
+        "{count} of {samples} samples are missing or infinite, the first at sample {first} (counted from 1)"
+    )]
+    NotFinite {
+        /// How many.
+        count: usize,
+        /// Of how many.
+        samples: usize,
+        /// The first, counted from 1.
+        first: usize,
+    },
+    /// A signal that never changes.
+    #[error("all {samples} samples are {value}: a constant is no vibration")]
+    Constant {
+        /// Samples.
+        samples: usize,
+        /// Their value.
+        value: f64,
+    },
+    /// No defect frequency to look for.
+    #[error("no defect frequency is known, so there is nothing to look for")]
+    NoFrequencies,
+    /// A parameter out of its range.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+}
+
+/// Fewest revolutions that are analysed: below, neighbouring defect frequencies can hardly be told apart.
+pub const FEWEST_REVOLUTIONS: f64 = 8.0;

@@ -1,0 +1,232 @@
+//! Where damage would strike, as orders of the shaft: from a geometry, from given frequencies, or by a bearing's name.
+//!
+//! T. A. Harris and M. N. Kotzalas, "Rolling bearing analysis", 5th ed. (2006), vol. 1, chapter 8: with Z elements of diameter
+//! d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at rest, pure rolling:
+//! FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
+
+use crate::bearing::kinematics::{Geometry, Kinematics};
+use std::f64::consts::TAU;
+
+/// What can be damaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Component {
+    /// Raceway of the outer ring, at rest.
+    OuterRace,
+    /// Raceway of the inner ring, turning.
+    InnerRace,
+    /// A roller or ball.
+    Element,
+    /// The cage.
+    Cage,
+}
+
+impl Component {
+    /// In words: `outer race`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Component::OuterRace => "outer race",
+            Component::InnerRace => "inner race",
+            Component::Element => "rolling element",
+            Component::Cage => "cage",
+        }
+    }
+
+    /// In files: `outer_race`.
+    pub fn key(self) -> &'static str {
+        match self {
+            Component::OuterRace => "outer_race",
+            Component::InnerRace => "inner_race",
+            Component::Element => "rolling_element",
+            Component::Cage => "cage",
+        }
+    }
+}
+
+/// Defect frequencies over the shaft's; `None` where nobody said.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DefectOrders {
+    /// Turns of the cage.
+    pub ftf: Option<f64>,
+    /// Elements passing a point of the outer raceway.
+    pub bpfo: Option<f64>,
+    /// Elements passing a point of the inner raceway.
+    pub bpfi: Option<f64>,
+    /// Turns of an element relative to the cage; damage on it strikes both raceways, 2 BSF.
+    pub bsf: Option<f64>,
+}
+
+impl DefectOrders {
+    /// Of Z elements of diameter `d` on a pitch circle `pitch` (one unit), contact angle in degrees. `None` unless
+    /// 0 < d < pitch, Z is 3 or more and the angle is 0 to below 90.
+    pub fn of_geometry(
+        elements: usize,
+        d: f64,
+        pitch: f64,
+        contact_angle_deg: f64,
+    ) -> Option<Self> {
+        let fits = d > 0.0 && d < pitch && pitch.is_finite() && elements >= 3;
+        if !fits || !(0.0..90.0).contains(&contact_angle_deg) {
+            return None;
+        }
+        let g = d / pitch * contact_angle_deg.to_radians().cos();
+        let z = elements as f64;
+        Some(DefectOrders {
+            ftf: Some(0.5 * (1.0 - g)),
+            bpfo: Some(0.5 * z * (1.0 - g)),
+            bpfi: Some(0.5 * z * (1.0 + g)),
+            bsf: Some(0.5 * pitch / d * (1.0 - g * g)),
+        })
+    }
+
+    /// Of a cylindrical roller bearing of the catalogue or a scenario.
+    pub fn of_bearing(geometry: &Geometry) -> Self {
+        let k = Kinematics::pure_rolling(geometry, TAU);
+        DefectOrders {
+            ftf: Some(k.ftf),
+            bpfo: Some(k.bpfo),
+            bpfi: Some(k.bpfi),
+            bsf: Some(k.bsf),
+        }
+    }
+
+    /// Whether there is nothing to look for.
+    pub fn is_empty(&self) -> bool {
+        self.strikes().next().is_none()
+    }
+
+    /// What to look for: component, name, order of its strikes.
+    pub fn strikes(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
+        [
+            (Component::OuterRace, "BPFO", self.bpfo),
+            (Component::InnerRace, "BPFI", self.bpfi),
+            (Component::Element, "2 BSF", self.bsf.map(|o| 2.0 * o)),
+            (Component::Element, "BSF", self.bsf),
+            (Component::Cage, "FTF", self.ftf),
+        ]
+        .into_iter()
+        .filter_map(|(component, name, order)| Some((component, name, order?)))
+    }
+}
+
+/// A bearing of a public data set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NamedBearing {
+    /// Name that a command takes.
+    pub name: &'static str,
+    /// Rolling elements in a row.
+    pub elements: usize,
+    /// Their diameter, mm.
+    pub diameter_mm: f64,
+    /// Pitch diameter, mm.
+    pub pitch_mm: f64,
+    /// Contact angle, degrees.
+    pub contact_angle_deg: f64,
+    /// Who printed these numbers.
+    pub source: &'static str,
+}
+
+const INCH: f64 = 25.4;
+
+/// Bearings of public data sets that the catalogue of cylindrical roller bearings does not hold.
+pub const NAMED: [NamedBearing; 5] = [
+    NamedBearing {
+        name: "6205-2RS",
+        elements: 9,
+        diameter_mm: 0.3126 * INCH,
+        pitch_mm: 1.537 * INCH,
+        contact_angle_deg: 0.0,
+        source: "SKF 6205-2RS JEM, drive end: Case Western Reserve University Bearing Data Center, bearing information",
+    },
+    NamedBearing {
+        name: "6203-2RS",
+        elements: 8,
+        diameter_mm: 0.2656 * INCH,
+        pitch_mm: 1.122 * INCH,
+        contact_angle_deg: 0.0,
+        source: "SKF 6203-2RS JEM, fan end: Case Western Reserve University Bearing Data Center, bearing information",
+    },
+    NamedBearing {
+        name: "NICE",
+        elements: 8,
+        diameter_mm: 0.235 * INCH,
+        pitch_mm: 1.245 * INCH,
+        contact_angle_deg: 0.0,
+        source: "NICE bearing: E. Bechhoefer, MFPT bearing fault data set (2013)",
+    },
+    NamedBearing {
+        name: "ZA-2115",
+        elements: 16,
+        diameter_mm: 0.331 * INCH,
+        pitch_mm: 2.815 * INCH,
+        contact_angle_deg: 15.17,
+        source: "Rexnord ZA-2115: H. Qiu et al., J. Sound Vib. 289 (2006) 1066-1090 (IMS run-to-failure data)",
+    },
+    NamedBearing {
+        name: "UER204",
+        elements: 8,
+        diameter_mm: 7.92,
+        pitch_mm: 34.55,
+        contact_angle_deg: 0.0,
+        source: "LDK UER204: B. Wang et al., IEEE Trans. Reliab. 69 (2020) 401-412 (XJTU-SY data)",
+    },
+];
+
+impl NamedBearing {
+    /// The bearing whose name begins alike; case, spaces and hyphens do not matter, and `6205` or `LDK UER204` will do.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        let plain = |text: &str| -> String {
+            (text.chars().filter(|c| c.is_alphanumeric()))
+                .flat_map(char::to_lowercase)
+                .collect()
+        };
+        let wanted = plain(name);
+        let maker = |known: &str| {
+            ["skf", "ldk", "rexnord"]
+                .iter()
+                .any(|m| wanted == format!("{m}{known}"))
+        };
+        NAMED.iter().find(|b| {
+            let known = plain(b.name);
+            let short = known.trim_end_matches("2rs");
+            wanted == known || wanted == short || maker(&known) || maker(short)
+        })
+    }
+
+    /// Its orders.
+    pub fn orders(&self) -> DefectOrders {
+        DefectOrders::of_geometry(
+            self.elements,
+            self.diameter_mm,
+            self.pitch_mm,
+            self.contact_angle_deg,
+        )
+        .unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Orders printed by the data sets: CWRU's table, MFPT and IMS from their papers' frequencies.
+    #[test]
+    fn lit_orders_of_public_data_sets() {
+        for (name, bpfo, bpfi, ftf, element) in [
+            ("6205", 3.5848, 5.4152, 0.39828, 4.7135),
+            ("6203", 3.0530, 4.9469, 0.3817, 3.9874),
+            ("NICE", 3.245, 4.755, 0.4056, 5.1095),
+            ("ZA-2115", 7.092, 8.908, 0.4433, 8.389),
+            ("LDK UER204", 3.083, 4.917, 0.3854, 4.133),
+        ] {
+            let o = NamedBearing::find(name).unwrap().orders();
+            let near = |a: Option<f64>, b: f64| {
+                assert!((a.unwrap() / b - 1.0).abs() < 8e-4, "{name} {a:?} {b}")
+            };
+            near(o.bpfo, bpfo);
+            near(o.bpfi, bpfi);
+            near(o.ftf, ftf);
+            near(o.bsf.map(|b| 2.0 * b), element);
+        }
+        assert!(NamedBearing::find("6").is_none() && NamedBearing::find("").is_none());
+    }
+}

@@ -1,0 +1,263 @@
+//! Analysis of one vibration signal: samples in, a verdict with its evidence out.
+//!
+//! The chain is that of R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst. Signal
+//! Process. 25 (2011) 485-520: the mean is removed, several bands are demodulated (the most impulsive one by the fast
+//! kurtogram, everything above three times the highest defect frequency, and a tiling by octaves), and each envelope
+//! spectrum is searched for every defect frequency within the slip's tolerance, with harmonics and sidebands
+//! ([`crate::signal::diagnosis`]), at two resolutions: jitter smears lines that a fine one would lose.
+//!
+//! Lines of the shaft's harmonics and of 50 and 60 Hz mains are taken out of the envelope spectrum before it is searched, so
+//! that nobody's damage is made of them. Every search is one more chance for noise, so the level is shared among them
+//! (Bonferroni): for noise whose spectrum is smooth, the chance that *any* damage is reported is at most [`Options::level`].
+//!
+//! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
+//!
+//! ```
+//! use brinell::analysis::{NamedBearing, Options, analyze};
+//!
+//! let fs = 12_000.0;
+//! let bearing = NamedBearing::find("6205-2RS").unwrap().orders();
+//! // Impacts on the outer race, 3.585 a revolution at 30 Hz, ringing at 3 kHz.
+//! let x: Vec<f64> = (0..24_000)
+//!     .map(|i| {
+//!         let since = (f64::from(i) / fs) % (1.0 / (3.585 * 30.0));
+//!         (-since / 4e-4).exp() * (6.283 * 3000.0 * since).sin() + 1e-3 * f64::from(i * 7919 % 101)
+//!     })
+//!     .collect();
+//! let analysis = analyze(&x, fs, &Options::new(30.0, bearing)).unwrap();
+//! assert_eq!(analysis.causes().next().unwrap().name, "BPFO");
+//! ```
+
+mod bands;
+mod compare;
+mod error;
+mod frequencies;
+mod json;
+mod known_lines;
+mod unit;
+mod verdict;
+mod view;
+
+pub use bands::{BandChoice, ChosenBand};
+pub use compare::{Comparison, Difference, LineDifference, Side, compare};
+pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
+pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
+pub use json::to_json;
+pub use known_lines::Mains;
+pub use unit::{Quantity, Unit};
+pub use verdict::{Finding, Strength};
+pub use view::View;
+
+use crate::signal::{
+    Band, Blocks, Estimate, Indicator, KurtogramBand, Segments, Spectrum, VelocityBands, psd,
+};
+
+/// What is known beside the samples, and how sure to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Shaft speed, Hz.
+    pub shaft: f64,
+    /// Defect frequencies over the shaft's.
+    pub orders: DefectOrders,
+    /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 unless told.
+    pub tolerance: f64,
+    /// The band to demodulate; `None` searches for it.
+    pub band: Option<Band>,
+    /// Chance at most that noise alone is called damage; 0.01 unless told.
+    pub level: f64,
+    /// Harmonics of each defect frequency that are searched; 5 unless told.
+    pub harmonics: usize,
+}
+
+impl Options {
+    /// With the usual tolerance, level and harmonics.
+    pub fn new(shaft: f64, orders: DefectOrders) -> Self {
+        Options {
+            shaft,
+            orders,
+            tolerance: 0.02,
+            band: None,
+            level: 0.01,
+            harmonics: 5,
+        }
+    }
+}
+
+/// Everything that was found.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    /// What was asked.
+    pub options: Options,
+    /// Sample rate, Hz.
+    pub sample_rate: f64,
+    /// Samples analysed.
+    pub samples: usize,
+    /// Mean that was removed.
+    pub mean: f64,
+    /// Shaft speed, Hz, as refined from the shaft's own lines, or as given.
+    pub shaft: f64,
+    /// Whether the signal itself shows the shaft's speed.
+    pub shaft_found: bool,
+    /// Indicators of the signal less its mean, with intervals from blocks of revolutions.
+    pub indicators: Vec<(Indicator, Estimate)>,
+    /// Amplitude spectrum, averaged.
+    pub spectrum: Spectrum,
+    /// The most impulsive band, where there is one.
+    pub kurtogram: Option<KurtogramBand>,
+    /// Every envelope spectrum that was searched.
+    pub views: Vec<View>,
+    /// The one that shows most, by index.
+    pub best: usize,
+    /// What stands out, the strongest first; empty where nothing does.
+    pub findings: Vec<Finding>,
+}
+
+impl Analysis {
+    /// Findings that are called damage and that no stronger one explains, the strongest first.
+    pub fn causes(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|f| f.is_cause())
+    }
+
+    /// The verdict in plain words.
+    pub fn verdict(&self) -> String {
+        verdict::words(self)
+    }
+
+    /// The envelope spectrum that shows most.
+    pub fn view(&self) -> &View {
+        &self.views[self.best]
+    }
+
+    /// Length of what was analysed, s.
+    pub fn duration(&self) -> f64 {
+        self.samples as f64 / self.sample_rate
+    }
+}
+
+/// Analyses `x`, sampled at `fs` Hz.
+///
+/// # Errors
+/// [`AnalysisError`] where a sample is not finite, the signal is constant, shorter than [`FEWEST_REVOLUTIONS`] revolutions, or
+/// sampled too slowly for the defect frequencies, or an option is out of range.
+pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
+    check(x, fs, options)?;
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+    let blocks = Blocks::of(&x, fs / options.shaft);
+    let indicators = (Indicator::ALL.into_iter())
+        .filter(|i| *i != Indicator::Mean && *i != Indicator::StandardDeviation)
+        .filter_map(|i| Some((i, blocks.estimate(i)?)))
+        .collect();
+    let spectrum = psd(&x, fs, &Segments::of(spectrum_length(x.len(), fs)))?;
+    let (bands, kurtogram) = bands::choose(&x, fs, options)?;
+    let (shaft, shaft_found) = known_lines::shaft(&x, fs, options)?;
+    let views = view::all(&x, fs, shaft, &bands, options)?;
+    let (findings, best) = verdict::find(&views, shaft, options);
+    Ok(Analysis {
+        options: options.clone(),
+        sample_rate: fs,
+        samples: x.len(),
+        mean,
+        shaft,
+        shaft_found,
+        indicators,
+        spectrum,
+        kurtogram,
+        views,
+        best,
+        findings,
+    })
+}
+
+/// RMS velocity in the bands of ISO 15242, m/s, of an acceleration in m/s^2 sampled at `fs` Hz; see
+/// [`crate::signal::velocity_bands`] for what differs from a measurement by the standard.
+///
+/// # Errors
+/// As [`crate::signal::velocity_bands()`].
+pub fn velocity(x: &[f64], fs: f64, shaft: f64) -> Result<VelocityBands, AnalysisError> {
+    use crate::signal::velocity_bands::NOMINAL;
+    Ok(crate::signal::velocity_bands(x, fs, &NOMINAL, 1.0 / shaft)?)
+}
+
+fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
+    let positive = |name, value: f64| match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(out_of_range(name, value, "above 0")),
+    };
+    positive("sample rate (Hz)", fs)?;
+    positive("shaft speed (Hz)", options.shaft)?;
+    if !(options.tolerance > 0.0 && options.tolerance <= 0.1) {
+        let range = "above 0 to 0.1";
+        return Err(out_of_range("tolerance", options.tolerance, range));
+    }
+    let missing = x.iter().filter(|v| !v.is_finite()).count();
+    if let Some(first) = x.iter().position(|v| !v.is_finite()) {
+        return Err(AnalysisError::NotFinite {
+            count: missing,
+            samples: x.len(),
+            first: first + 1,
+        });
+    }
+    if let Some(&value) = x.first()
+        && x.iter().all(|v| *v == value)
+    {
+        return Err(AnalysisError::Constant {
+            samples: x.len(),
+            value,
+        });
+    }
+    let strikes = || options.orders.strikes();
+    for (_, name, order) in strikes() {
+        positive(name, order)?;
+    }
+    let Some((_, name, highest)) = strikes().max_by(|a, b| a.2.total_cmp(&b.2)) else {
+        return Err(AnalysisError::NoFrequencies);
+    };
+    let frequency = highest * options.shaft;
+    // Below: a band to demodulate that is twice as wide as the second harmonic, above three times the frequency.
+    let needed = 2.0 * (bands::BROAD + bands::NARROWEST) * frequency;
+    if fs < needed {
+        return Err(AnalysisError::RateTooLow {
+            rate_hz: fs,
+            name,
+            frequency_hz: frequency,
+            needed_hz: needed,
+        });
+    }
+    let seconds = x.len() as f64 / fs;
+    let revolutions = seconds * options.shaft;
+    if revolutions < FEWEST_REVOLUTIONS {
+        return Err(AnalysisError::TooShort {
+            seconds,
+            revolutions,
+            needed_s: FEWEST_REVOLUTIONS / options.shaft,
+        });
+    }
+    Ok(())
+}
+
+fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
+    crate::signal::SignalError::OutOfRange { name, value, range }.into()
+}
+
+/// Samples of a segment of the shown spectrum: lines about 1 Hz apart, eight averages where the signal is long enough.
+fn spectrum_length(samples: usize, fs: f64) -> usize {
+    let wanted = (fs as usize).clamp(256, 1 << 16);
+    fast_length(wanted.min((samples / 4).max(256)))
+}
+
+/// The longest length up to `n` without prime factors above 5: others are transformed several times slower.
+fn fast_length(n: usize) -> usize {
+    let smooth = |mut m: usize| {
+        for p in [2, 3, 5] {
+            while m % p == 0 {
+                m /= p;
+            }
+        }
+        m == 1
+    };
+    (1..=n)
+        .rev()
+        .find(|m| m % 2 == 0 && smooth(*m))
+        .unwrap_or(n)
+}

@@ -1,0 +1,296 @@
+//! From what stands in the envelope spectra to findings, and to words.
+
+use super::Analysis;
+use super::Options;
+use super::frequencies::Component;
+use super::view::{View, candidates};
+use crate::signal::{Evidence, Line};
+
+/// A line stands where noise would show as much less often than this.
+pub(super) const LINE_LEVEL: f64 = 1e-3;
+/// Modulation below which lines may stand and still be no damage: the load on a healthy race changes with every element,
+/// and a long record shows that, however weak it is. An assumption of this program, stated with the verdict.
+pub(super) const FAINT: f64 = 0.015;
+/// A cage's lines lie close to the shaft's and to zero: fewer than this many are not called the cage's.
+const FEWEST_OF_CAGE: usize = 3;
+/// A further cause has at least this share of the strongest one's weight.
+const FURTHER: f64 = 0.25;
+
+/// How much a finding says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strength {
+    /// Lines stand, and the envelope is modulated by more than a healthy bearing's.
+    Damage,
+    /// Lines stand, but hardly modulate the envelope, or are far weaker than another's.
+    Faint,
+}
+
+/// A defect frequency that stands out.
+#[derive(Debug, Clone)]
+pub struct Finding {
+    /// What is struck.
+    pub component: Component,
+    /// Name of its frequency: `BPFO`.
+    pub name: &'static str,
+    /// Where pure rolling has it, Hz.
+    pub expected: f64,
+    /// Its lines in the view that shows them best; `frequency` is where they stand.
+    pub evidence: Evidence,
+    /// That view, by index.
+    pub view: usize,
+    /// Views in which it stands.
+    pub standing_in: usize,
+    /// Chance that noise alone shows as much anywhere that was searched: an upper bound.
+    pub false_alarm: f64,
+    /// RMS of its standing lines times sqrt 2 over the envelope's mean: depth of modulation.
+    pub modulation: f64,
+    /// How much it says.
+    pub strength: Strength,
+    /// Stronger findings whose lines account for all of this one's.
+    pub explained_by: Vec<&'static str>,
+    /// Others that claim some of its lines.
+    pub alternatives: Vec<&'static str>,
+}
+
+impl Finding {
+    /// Whether it is called damage: strong enough, and not explained by a stronger one.
+    pub fn is_cause(&self) -> bool {
+        self.strength == Strength::Damage && self.explained_by.is_empty()
+    }
+
+    /// Its harmonics that stand by themselves.
+    pub fn standing(&self) -> impl Iterator<Item = &Line> {
+        self.evidence.harmonics.standing(LINE_LEVEL)
+    }
+
+    /// `very clear`, `clear` or `weak`, by the number of its lines and the chance of noise.
+    pub fn clarity(&self) -> &'static str {
+        match (self.evidence.standing, self.false_alarm) {
+            (4.., p) if p < 1e-6 => "very clear",
+            (3.., p) if p < 1e-3 => "clear",
+            _ => "weak",
+        }
+    }
+
+    /// Its standing sidebands and their distance, Hz, where more than one stands and noise would not show them.
+    pub fn sidebands(&self) -> Option<(usize, f64)> {
+        let s = self.evidence.sidebands.as_ref()?;
+        (s.standing >= 2 && s.false_alarm < 0.01).then_some((s.standing, s.spacing))
+    }
+}
+
+/// Number and strength of the harmonics that stand. Sidebands do not count: in a short record those of one frequency meet
+/// another's lines.
+fn weight(e: &Evidence) -> f64 {
+    (e.harmonics.standing(LINE_LEVEL)).map(|l| l.snr_db).sum()
+}
+
+/// Findings, the strongest first, and the view that shows most.
+pub(super) fn find(views: &[View], shaft: f64, options: &Options) -> (Vec<Finding>, usize) {
+    let candidates = candidates(shaft, options);
+    let mut found: Vec<(f64, Finding)> = Vec::new();
+    for (i, (component, name, candidate)) in candidates.iter().enumerate() {
+        let fewest = match component {
+            Component::Cage => FEWEST_OF_CAGE,
+            _ => 2,
+        };
+        let stands = |v: &View| {
+            let e = &v.diagnosis.evidence[i];
+            e.stands && e.standing >= fewest
+        };
+        let standing = || views.iter().enumerate().filter(|(_, v)| stands(v));
+        let total: f64 = standing()
+            .map(|(_, v)| weight(&v.diagnosis.evidence[i]))
+            .sum();
+        let best = standing().max_by(|a, b| {
+            let of = |v: &View| weight(&v.diagnosis.evidence[i]);
+            of(a.1).total_cmp(&of(b.1))
+        });
+        let Some((view, v)) = best else { continue };
+        let evidence = v.diagnosis.evidence[i].clone();
+        let power: f64 = (evidence.harmonics.standing(LINE_LEVEL))
+            .map(|l| l.amplitude * l.amplitude)
+            .sum();
+        let modulation = power.sqrt() / v.mean.max(f64::MIN_POSITIVE);
+        let named = |indices: Vec<usize>| indices.into_iter().map(|j| candidates[j].1).collect();
+        found.push((
+            total,
+            Finding {
+                component: *component,
+                name,
+                expected: candidate.frequency,
+                view,
+                standing_in: standing().count(),
+                false_alarm: (evidence.false_alarm * views.len() as f64).min(1.0),
+                modulation,
+                strength: if modulation >= FAINT {
+                    Strength::Damage
+                } else {
+                    Strength::Faint
+                },
+                explained_by: named(evidence.explained_by.clone()),
+                alternatives: named(evidence.alternatives.iter().map(|a| a.0).collect()),
+                evidence,
+            },
+        ));
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    // One finding a component: BSF and 2 BSF are one element's.
+    let mut kept: Vec<(f64, Finding)> = Vec::new();
+    for (total, finding) in found {
+        if kept.iter().all(|(_, k)| k.component != finding.component) {
+            kept.push((total, finding));
+        }
+    }
+    let strongest = kept.first().map_or(0.0, |k| k.0);
+    let struck = (kept.first())
+        .filter(|k| k.1.component == Component::Element)
+        .map(|k| k.1.name);
+    let findings: Vec<Finding> = (kept.into_iter().enumerate())
+        .map(|(rank, (total, mut finding))| {
+            if rank == 0 {
+                finding.explained_by.clear();
+            } else if finding.component == Component::Cage && struck.is_some() {
+                // An element's damage passes the load zone once a turn of the cage.
+                finding.explained_by = struck.into_iter().collect();
+            } else if total < FURTHER * strongest {
+                finding.strength = Strength::Faint;
+            }
+            finding
+        })
+        .collect();
+    let best = findings
+        .first()
+        .map_or_else(|| quiet_view(views), |f| f.view);
+    (findings, best)
+}
+
+/// The view to show where nothing stands: the broad band at the fine resolution.
+fn quiet_view(views: &[View]) -> usize {
+    use super::bands::BandChoice::{Broad, Given};
+    (views.iter())
+        .rposition(|v| matches!(v.band.choice, Broad | Given))
+        .unwrap_or(0)
+}
+
+/// The verdict, one paragraph.
+pub(super) fn words(analysis: &Analysis) -> String {
+    let causes: Vec<&Finding> = analysis.causes().collect();
+    let others: Vec<&Finding> = (analysis.findings.iter())
+        .filter(|f| !f.is_cause())
+        .collect();
+    let mut text = Vec::new();
+    match causes.split_first() {
+        None if others.is_empty() => text.push(format!(
+            "Nothing stands out: no envelope spectrum shows lines of {} above what noise shows{}.",
+            searched(analysis),
+            removed(analysis)
+        )),
+        None => text.push("Nothing stands out that would be called damage.".into()),
+        Some((first, rest)) => {
+            text.push(format!(
+                "{} damage: {}.",
+                capital(first.component.words()),
+                told(analysis, first)
+            ));
+            text.push(format!(
+                "The evidence is {}: noise alone would show as much with a chance of at most {}.",
+                first.clarity(),
+                power(first.false_alarm)
+            ));
+            for other in rest {
+                text.push(format!(
+                    "Also the {}: {}; a second damage, or the same one seen otherwise.",
+                    other.component.words(),
+                    told(analysis, other)
+                ));
+            }
+        }
+    }
+    for other in others {
+        let why = if other.explained_by.is_empty() {
+            format!(
+                "modulates the envelope by {:.1} %{}; not called damage",
+                100.0 * other.modulation,
+                if other.modulation >= FAINT {
+                    " and is far weaker"
+                } else {
+                    " only"
+                }
+            )
+        } else {
+            format!(
+                "has no line that {} does not account for",
+                other.explained_by.join(" and ")
+            )
+        };
+        text.push(format!(
+            "{} ({}) stands at {:.2} Hz but {why}.",
+            other.name,
+            other.component.words(),
+            other.evidence.frequency
+        ));
+    }
+    text.join(" ")
+}
+
+fn told(analysis: &Analysis, finding: &Finding) -> String {
+    let orders: Vec<String> = finding.standing().map(|l| l.order.to_string()).collect();
+    let view = &analysis.views[finding.view];
+    let mut text = format!(
+        "{} stands at {:.2} Hz ({:+.2} % of pure rolling's {:.2} Hz) in the envelope of {:.0} to {:.0} Hz, harmonics {} of {}, \
+         up to {:.0} dB above the floor, modulating the envelope by {:.0} %",
+        finding.name,
+        finding.evidence.frequency,
+        100.0 * (finding.evidence.frequency / finding.expected - 1.0),
+        finding.expected,
+        view.band.band.low,
+        view.band.band.high,
+        orders.join(", "),
+        analysis.options.harmonics,
+        finding.standing().map(|l| l.snr_db).fold(0.0, f64::max),
+        100.0 * finding.modulation,
+    );
+    if let Some((count, spacing)) = finding.sidebands() {
+        let whose = match finding.component {
+            Component::Element => "cage",
+            _ => "shaft",
+        };
+        text += &format!(", with {count} sidebands at the {whose}'s {spacing:.2} Hz");
+    }
+    text
+}
+
+fn searched(analysis: &Analysis) -> String {
+    let names: Vec<String> = (candidates(analysis.shaft, &analysis.options).iter())
+        .map(|(_, name, c)| format!("{name} ({:.1} Hz)", c.frequency))
+        .collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+fn removed(analysis: &Analysis) -> String {
+    match analysis.view().removed.len() {
+        0 => String::new(),
+        n => format!(" ({n} lines of shaft or mains were set aside)"),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// A small probability, rounded up to a power of ten.
+fn power(p: f64) -> String {
+    if p < 1e-15 {
+        return "1e-15".into();
+    }
+    if p >= 0.1 {
+        return format!("{p:.1}");
+    }
+    format!("1e{}", p.log10().ceil() as i32)
+}
