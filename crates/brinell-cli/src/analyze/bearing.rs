@@ -85,12 +85,15 @@ fn base(args: &AnalyzeArgs, measured: &Measured) -> Result<(DefectOrders, String
             ));
         }
     }
-    if args.bpfo.is_none() && args.bpfi.is_none() && args.bsf.is_none() && args.ftf.is_none() {
-        if let Some(run) = &measured.scenario {
-            let geometry = Geometry::of(&run.scenario.bearing);
-            let words = "the scenario of the run in the file".to_owned();
-            return Ok((DefectOrders::of_bearing(&geometry), words));
-        }
+    if args.bpfo.is_none()
+        && args.bpfi.is_none()
+        && args.bsf.is_none()
+        && args.ftf.is_none()
+        && let Some(run) = &measured.scenario
+    {
+        let geometry = Geometry::of(&run.scenario.bearing);
+        let words = "the scenario of the run in the file".to_owned();
+        return Ok((DefectOrders::of_bearing(&geometry), words));
     }
     Ok((DefectOrders::default(), String::new()))
 }

@@ -164,9 +164,7 @@ fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
         .map(|(_, text)| text.clone());
     let beside = || {
         let own = path.file_stem()? == "signals" && file.channels().first()?.name == "t";
-        let text =
-            own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?;
-        text
+        own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?
     };
     let text = carried.or_else(beside)?;
     read(&text, &[]).ok().map(Box::new)
@@ -391,8 +389,10 @@ fn even(times: &[f64], unit: f64) -> Result<f64, String> {
     // Printed times are rounded: allow for the digits that large values lose.
     let largest = times[0].abs().max(times[n - 1].abs());
     let allowed = (UNEVEN * step).max(4e-16 * largest);
-    let off =
-        (times.windows(2).enumerate()).find(|(_, w)| !((w[1] - w[0] - step).abs() <= allowed));
+    let off = (times.windows(2).enumerate()).find(|(_, w)| {
+        let off = (w[1] - w[0] - step).abs();
+        off.is_nan() || off > allowed
+    });
     let rounded = times
         .iter()
         .enumerate()

@@ -250,7 +250,7 @@ fn spectrum_length(samples: usize, fs: f64) -> usize {
 fn fast_length(n: usize) -> usize {
     let smooth = |mut m: usize| {
         for p in [2, 3, 5] {
-            while m % p == 0 {
+            while m.is_multiple_of(p) {
                 m /= p;
             }
         }
