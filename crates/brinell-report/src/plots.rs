@@ -614,7 +614,7 @@ pub fn headline_png(report: &Report) -> Result<Vec<u8>, Error> {
     headline(report).png(HEADLINE_SCALE)
 }
 
-/// Angles of equal bins around the circle, degrees: what [`RowLoad::angle_deg`] holds.
+/// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.
 pub fn bin_centres(bins: usize) -> Vec<f64> {
     (0..bins)
         .map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees())

@@ -170,7 +170,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
 }
 
 /// RMS velocity in the bands of ISO 15242, m/s, of an acceleration in m/s^2 sampled at `fs` Hz; see
-/// [`crate::signal::velocity_bands`] for what differs from a measurement by the standard.
+/// [`crate::signal::velocity_bands()`] for what differs from a measurement by the standard.
 ///
 /// # Errors
 /// As [`crate::signal::velocity_bands()`].

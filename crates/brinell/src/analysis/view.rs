@@ -28,7 +28,7 @@ pub struct View {
     pub mean: f64,
     /// Lines of shaft and mains that were taken out before the search, Hz.
     pub removed: Vec<f64>,
-    /// What stands, among the candidates of [`candidates`], in their order.
+    /// What stands, among the candidates of `candidates`, in their order.
     pub diagnosis: Diagnosis,
 }
 
