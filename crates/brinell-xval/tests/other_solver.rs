@@ -117,7 +117,8 @@ fn coordinates(model: &Model) -> Vec<(usize, f64)> {
     }
     let mass = model.mass();
     let (half, pads) = (l.dof(), mass.iter().filter(|m| **m == 0.0).count());
-    assert_eq!(pads, 3 * (l.slots - l.rollers()), "only pads weigh nothing");
+    let inert = 3 * (l.slots - l.rollers()) + (half - (l.outer() + 2));
+    assert_eq!(pads, inert, "only pads weigh nothing");
     (0..2 * half)
         .filter(|k| mass[k % half] > 0.0)
         .map(|k| (k, lever[k % half]))
