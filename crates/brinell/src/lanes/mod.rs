@@ -76,20 +76,6 @@ pub trait Lanes:
         Self::splat(0.0)
     }
 
-    /// The first eight of a slice.
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        let mut out = [0.0; WIDTH];
-        out.copy_from_slice(&from[..WIDTH]);
-        Self::new(out)
-    }
-
-    /// Into the first eight of a slice.
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        to[..WIDTH].copy_from_slice(&self.array());
-    }
-
     /// Whether any lane is above 0.
     #[inline(always)]
     fn any_positive(self) -> bool {

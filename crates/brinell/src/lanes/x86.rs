@@ -97,18 +97,6 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        let from = &from[..WIDTH];
-        unsafe { Self(_mm512_loadu_pd(from.as_ptr())) }
-    }
-
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        let to = &mut to[..WIDTH];
-        unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) };
-    }
-
-    #[inline(always)]
     fn times_plus(self, b: Self, c: Self) -> Self {
         unsafe { Self(_mm512_fmadd_pd(self.0, b.0, c.0)) }
     }
@@ -251,34 +239,22 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn new(x: [f64; WIDTH]) -> Self {
-        Self::load(&x)
-    }
-
-    #[inline(always)]
-    fn array(self) -> [f64; WIDTH] {
-        let mut out = [0.0; WIDTH];
-        self.store(&mut out);
-        out
-    }
-
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        let from = &from[..WIDTH];
         unsafe {
             Self(
-                _mm256_loadu_pd(from.as_ptr()),
-                _mm256_loadu_pd(from[4..].as_ptr()),
+                _mm256_loadu_pd(x.as_ptr()),
+                _mm256_loadu_pd(x[4..].as_ptr()),
             )
         }
     }
 
     #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        let to = &mut to[..WIDTH];
+    fn array(self) -> [f64; WIDTH] {
+        let mut out = [0.0; WIDTH];
         unsafe {
-            _mm256_storeu_pd(to.as_mut_ptr(), self.0);
-            _mm256_storeu_pd(to[4..].as_mut_ptr(), self.1);
+            _mm256_storeu_pd(out.as_mut_ptr(), self.0);
+            _mm256_storeu_pd(out[4..].as_mut_ptr(), self.1);
         }
+        out
     }
 
     #[inline(always)]
