@@ -5,7 +5,7 @@ use crate::say::short;
 use brinell::defect::section::{Section, sections};
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Angles, Defect, Shape, Side, acting, wrap};
-use brinell::derived::Derived;
+use brinell::derived::defect_passes;
 use brinell::model::{Model, ModelError};
 use brinell::observe::load_zone::static_load_zone;
 use brinell::observe::passes::place;
@@ -56,7 +56,7 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
         defects: Vec::new(),
         ..s.clone()
     })?;
-    let derived = Derived::new(&model, s.simulation.accuracy);
+    let passes = defect_passes(&model);
     let statics = static_load_zone(&healthy).ok();
     let mut all = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
@@ -83,8 +83,8 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             mean_depth_um: 1e6 * extent.depth,
             deepest_um: 1e6 * deepest,
             raised_um: 1e6 * raised,
-            pass_ms: 1e3 * derived.defect_passes[k],
-            speed_rpm: 60.0 * derived.top_speed / TAU,
+            pass_ms: 1e3 * passes[k],
+            speed_rpm: 60.0 * model.rotation.max_speed() / TAU,
             load_zone_share: match defect.surface {
                 Surface::Roller(_) => None,
                 _ => zone.map(|[from, to]| arc / (to - from)),

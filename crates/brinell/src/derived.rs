@@ -2,9 +2,10 @@
 
 use crate::accuracy::settings;
 use crate::bearing::Kinematics;
+use crate::defect::Defect;
 use crate::model::Model;
 use crate::observe::load_zone::{StaticLoadZone, static_load_zone};
-use crate::scenario::{Accuracy, LoadOn};
+use crate::scenario::{Accuracy, LoadOn, Surface};
 use crate::statics::NoBalance;
 use std::f64::consts::TAU;
 
@@ -37,6 +38,22 @@ pub struct Derived {
     pub longest_step: f64,
     /// Load times clearance bound of section 12: the support's force over the clearance, N, and the load, N.
     pub support_share: (f64, f64),
+}
+
+/// Time that a roller takes over each defect at the top speed, s.
+pub fn defect_passes(model: &Model) -> Vec<f64> {
+    let kinematics = model.kinematics(model.rotation.max_speed());
+    let pass = |d: &Defect| {
+        let (first, last) = d.shape.arc();
+        let (_, frequency) = kinematics.struck_by(d.surface);
+        // One turn of the surface past the contacts takes Z (raceways) or 2 (a roller) strikes.
+        let strikes = match d.surface {
+            Surface::Roller(_) => 2.0,
+            _ => model.layout.rollers_per_row as f64,
+        };
+        (last - first) / (TAU * d.radius * frequency / strikes)
+    };
+    model.defects.iter().map(pass).collect()
 }
 
 impl Derived {
@@ -79,20 +96,7 @@ impl Derived {
             ],
             centrifugal_force,
             roller_period: 1.0 / kinematics.bpfo,
-            defect_passes: model
-                .defects
-                .iter()
-                .map(|d| {
-                    let (first, last) = d.shape.arc();
-                    let (_, frequency) = kinematics.struck_by(d.surface);
-                    // One turn of the surface past the contacts takes Z (raceways) or 2 (a roller) strikes.
-                    let strikes = match d.surface {
-                        crate::scenario::Surface::Roller(_) => 2.0,
-                        _ => model.layout.rollers_per_row as f64,
-                    };
-                    (last - first) / (TAU * d.radius * frequency / strikes)
-                })
-                .collect(),
+            defect_passes: defect_passes(model),
             longest_step: settings(model, accuracy).max_step,
             support_share: (
                 loaded.stiffness * g.clearance.max(0.0),
