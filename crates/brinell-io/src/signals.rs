@@ -80,6 +80,12 @@ impl Metadata {
         Some(hz).filter(|hz: &f64| hz.is_finite() && *hz > 0.0)
     }
 
+    /// The sample rate in hertz, or what a file that cannot do without says.
+    pub(crate) fn needed_sample_rate(&self) -> Result<f64, String> {
+        self.sample_rate()
+            .ok_or_else(|| format!("it needs a sample rate, `{}`", keys::SAMPLE_RATE_HZ))
+    }
+
     /// The value of a key: the first, should a file repeat it.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.pairs

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::spool::Spool;
 use crate::atomic::PartialFile;
 use crate::signals::{check_columns, check_row, without_time};
-use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
+use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
 /// Values of one function: the field for its bytes has twelve digits, the one for their number ten.
 const MAX_ROWS: u64 = 9_999_999_999;
@@ -26,7 +26,7 @@ pub struct UffWriter {
 }
 
 impl UffWriter {
-    /// Starts the file. The metadata must hold [`keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first instant and is not
+    /// Starts the file. The metadata must hold [`crate::keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first instant and is not
     /// written itself.
     pub fn create(
         path: impl AsRef<Path>,
@@ -40,12 +40,7 @@ impl UffWriter {
             format: "UFF 58",
             why,
         };
-        let rate_hz = metadata.sample_rate().ok_or_else(|| {
-            refused(format!(
-                "it needs a sample rate, `{}`",
-                keys::SAMPLE_RATE_HZ
-            ))
-        })?;
+        let rate_hz = metadata.needed_sample_rate().map_err(refused)?;
         let kept = without_time(columns);
         if kept.is_empty() {
             return Err(refused("there is no channel but the time".into()));

@@ -44,12 +44,7 @@ impl WavWriter {
             format: "WAV",
             why,
         };
-        let rate = metadata.sample_rate().ok_or_else(|| {
-            refused(format!(
-                "it needs a sample rate, `{}`",
-                keys::SAMPLE_RATE_HZ
-            ))
-        })?;
+        let rate = metadata.needed_sample_rate().map_err(refused)?;
         if rate.fract() != 0.0 || rate > f64::from(u32::MAX / 4) {
             return Err(refused(format!(
                 "its sample rate is a whole number of hertz, and not {rate}"
