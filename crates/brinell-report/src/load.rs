@@ -1,5 +1,7 @@
 //! Load distribution around the bearing, as a polar picture.
 
+use std::f64::consts::TAU;
+
 use crate::chart::{Size, range};
 use crate::data::RowLoad;
 use crate::font;
@@ -155,4 +157,11 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
         picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
     }
     picture
+}
+
+/// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.
+pub fn bin_centres(bins: usize) -> Vec<f64> {
+    (0..bins)
+        .map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees())
+        .collect()
 }

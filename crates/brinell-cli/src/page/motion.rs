@@ -9,7 +9,7 @@ use brinell_report::{
 };
 use std::f64::consts::TAU;
 
-pub(crate) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
+pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
     let Some(s) = &parts.findings.spectrogram else {
         return Spectrogram::default();
     };
@@ -34,7 +34,7 @@ pub(crate) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
     }
 }
 
-pub(crate) fn cage_orbits(parts: &Parts) -> CageOrbits {
+pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
     let model = parts.simulation.model();
     let orbit = &parts.findings.cage_orbit;
     let guide = match model.guidance {
@@ -66,7 +66,7 @@ pub(crate) fn cage_orbits(parts: &Parts) -> CageOrbits {
     }
 }
 
-pub(crate) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
+pub(super) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
     let course = &parts.findings.slip_course;
     let dt = course.samples_per_stretch() as f64 / parts.simulation.sample_rate();
     let percent = |values: Vec<f64>| values.into_iter().map(|x| 100.0 * x).collect();
@@ -88,7 +88,7 @@ pub(crate) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
         .collect()
 }
 
-pub(crate) fn motion(parts: &Parts) -> Motion {
+pub(super) fn motion(parts: &Parts) -> Motion {
     let model = parts.simulation.model();
     let (l, g) = (&model.layout, &model.geometry);
     let kept = &parts.findings.motion;
