@@ -46,6 +46,8 @@ pub(crate) enum Command {
     },
     /// Say what a measured signal shows: which component's damage, how sure; or lay it over a simulated one
     Analyze(Box<crate::analyze::AnalyzeArgs>),
+    /// Vary keys over lists and ranges, many runs in parallel, one table and plots; goes on where it stopped
+    Sweep(crate::sweep::SweepArgs),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

@@ -4,6 +4,7 @@
 
 mod analyze;
 mod args;
+mod campaign;
 mod check;
 mod damage;
 mod defect;
@@ -15,6 +16,7 @@ mod plan;
 mod progress;
 mod run;
 mod say;
+mod sweep;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

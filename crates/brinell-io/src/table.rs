@@ -7,7 +7,6 @@
 use crate::atomic::PartialFile;
 use crate::signals::check_columns;
 use crate::{Column, IoError, Metadata};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// A column's cells, one a row.

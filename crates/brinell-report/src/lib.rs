@@ -29,6 +29,7 @@ mod raster;
 mod shape;
 mod slip;
 mod spectrogram;
+mod sweep;
 mod tables;
 mod thin;
 
@@ -51,3 +52,7 @@ pub use plots::{
 };
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};
+pub use sweep::{
+    IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,
+    sweep_pictures,
+};

@@ -14,5 +14,5 @@ mod run;
 pub use axis::Axis;
 pub use plan::{MOST_POINTS, Plan, PlanError};
 pub use quantities::{Quantity, Spread, indicator_name, names, quantities};
-pub use row::{Row, fingerprint};
+pub use row::{Row, digest, fingerprint};
 pub use run::{Finished, Labelled, Unfinished, finish, run, run_all};

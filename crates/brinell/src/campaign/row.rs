@@ -21,7 +21,12 @@ pub struct Row {
 /// Which scenario it is: SHA-256 of its text with every key given, in hexadecimal. Scenarios that mean the same have the same, however
 /// their files were written; files of damage count by what was read from them.
 pub fn fingerprint(scenario: &Scenario) -> String {
-    let digest = Sha256::digest(scenario.to_toml().as_bytes());
+    digest(&scenario.to_toml())
+}
+
+/// SHA-256 of a text, in hexadecimal.
+pub fn digest(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
