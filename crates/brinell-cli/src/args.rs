@@ -48,6 +48,8 @@ pub(crate) enum Command {
     Analyze(Box<crate::analyze::AnalyzeArgs>),
     /// Vary keys over lists and ranges, many runs in parallel, one table and plots; goes on where it stopped
     Sweep(crate::sweep::SweepArgs),
+    /// Lay scenarios side by side: signals, spectra, contact over the defect, impacts, ratios with intervals
+    Compare(crate::compare::CompareArgs),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

@@ -6,6 +6,7 @@ mod analyze;
 mod args;
 mod campaign;
 mod check;
+mod compare;
 mod damage;
 mod defect;
 mod failure;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Compare(args) => compare::side_by_side(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

@@ -27,6 +27,7 @@ mod picture;
 mod plots;
 mod raster;
 mod shape;
+mod side_by_side;
 mod slip;
 mod spectrogram;
 mod sweep;
@@ -49,6 +50,10 @@ pub use picture::{Error, Picture};
 pub use plots::{
     Layout, detail_window, envelope_spectrum, headline, headline_png, overview, pass, pictures,
     spectrum, waveform,
+};
+pub use side_by_side::{
+    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,
+    side_by_side_pictures,
 };
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};

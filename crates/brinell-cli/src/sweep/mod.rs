@@ -14,6 +14,7 @@ pub(crate) use args::SweepArgs;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
+pub(crate) use page::words;
 use page::{plural, usual};
 use points::{FromSource, Points};
 use serde_json::{Value, json};

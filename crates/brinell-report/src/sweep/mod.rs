@@ -107,10 +107,11 @@ pub fn sweep_html(report: &SweepReport) -> String {
     if report.plots.is_empty() {
         none(&mut page, "No indicator was chosen, or no point has one.");
     }
+    none(&mut page, &legend(&report.plots));
     for (index, plot) in report.plots.iter().enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
         let draw = |layout| indicator_plot(plot, layout);
-        figure(&mut page, &format!("plot{index}"), draw, &caption(plot));
+        figure(&mut page, &format!("plot{index}"), draw, "");
     }
     page.push_str("</section>\n");
     if !report.failures.is_empty() {
@@ -141,8 +142,9 @@ pub fn sweep_html(report: &SweepReport) -> String {
 }
 
 /// What the marks mean, of those that are there.
-fn caption(plot: &IndicatorPlot) -> String {
-    let points = || plot.lines.iter().flat_map(|line| &line.points);
+fn legend(plots: &[IndicatorPlot]) -> String {
+    let lines = || plots.iter().flat_map(|plot| &plot.lines);
+    let points = || lines().flat_map(|line| &line.points);
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
         parts.push("Dots: mean over blocks of whole revolutions, with its 95 % interval.");
@@ -156,7 +158,7 @@ fn caption(plot: &IndicatorPlot) -> String {
     if points().any(|p| !p.value.is_finite()) {
         parts.push("Crosses on the axis: no value.");
     }
-    if plot.lines.len() > 1 {
+    if plots.iter().any(|plot| plot.lines.len() > 1) {
         parts.push("Lines stand a little beside each other, so that intervals can be told apart.");
     }
     parts.join(" ")

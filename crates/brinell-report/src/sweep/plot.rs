@@ -71,7 +71,7 @@ pub fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let step = BESIDE.min(BESIDE_ALL / count.max(1) as f64);
     for (k, line) in plot.lines.iter().enumerate() {
         let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
-        draw(&mut chart, line, paint(k), beside);
+        draw(&mut chart, line, paint(k), beside, !named);
     }
     let mut drawn = chart.finish();
     if named {
@@ -142,7 +142,7 @@ fn name_x(chart: &mut Chart, plot: &IndicatorPlot, size: f64) {
     chart.picture.text(label);
 }
 
-fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64) {
+fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, joined: bool) {
     let at = |chart: &Chart, p: &IndicatorPoint| chart.x.at(p.x) + beside;
     let solid = Paint {
         dash: &[],
@@ -174,7 +174,8 @@ fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64) {
             bars.push(vec![(x - 7.0, y), (x + 7.0, y)]);
         }
     }
-    strokes.retain(|stroke| stroke.len() > 1);
+    // Between names there is nothing.
+    strokes.retain(|stroke| joined && stroke.len() > 1);
     let mut path = |lines: Vec<Vec<(f64, f64)>>, paint: Paint, clip| {
         if !lines.is_empty() {
             chart.picture.shapes.push(Shape::Path {

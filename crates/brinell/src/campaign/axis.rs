@@ -122,7 +122,7 @@ fn one(text: &str) -> Result<(String, Vec<String>), PlanError> {
 }
 
 /// The parts between separators that no bracket and no quote holds.
-fn split(text: &str, separator: char) -> Vec<&str> {
+pub fn split(text: &str, separator: char) -> Vec<&str> {
     let (mut depth, mut quote, mut from) = (0_i32, None, 0);
     let mut parts = Vec::new();
     let mut escaped = false;

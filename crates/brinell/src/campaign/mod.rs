@@ -3,15 +3,17 @@
 //! A [`Plan`] spans a grid of settings; each of its points is a list of overrides for [`crate::document::read`]. [`run`] is one scenario
 //! from start to [`Finished`]; [`run_all`] does a list of them over threads. [`quantities`] boils a finished run down to named numbers with
 //! intervals, and a [`Row`] is those with what they belong to: it goes to JSON and comes back bit for bit, so that a finished point
-//! need not be run again. [`fingerprint`] says whether it is the same point.
+//! need not be run again. [`fingerprint`] says whether it is the same point. [`compare`] lays finished runs side by side.
 
 mod axis;
+mod compare;
 mod plan;
 mod quantities;
 mod row;
 mod run;
 
-pub use axis::Axis;
+pub use axis::{Axis, split};
+pub use compare::{Compared, compare};
 pub use plan::{MOST_POINTS, Plan, PlanError};
 pub use quantities::{Quantity, Spread, indicator_name, names, quantities};
 pub use row::{Row, digest, fingerprint};

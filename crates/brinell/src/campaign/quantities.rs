@@ -5,6 +5,7 @@
 //! names; what a run does not have (slip in the reference model, a defect's frequency in a short run) is there without a value.
 //! No wall time is among them: the same scenario gives the same numbers.
 
+use crate::observe::impacts::{Impacts, impacts};
 use crate::observe::{Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::peak_near;
@@ -141,6 +142,12 @@ fn lines(
     of("2bsf", 2.0 * k.bsf, all);
 }
 
+/// `defect1.entry_peak` or `defect1.exit_peak`.
+pub(super) fn impact_name(impacts: &Impacts) -> String {
+    let what = if impacts.enters { "entry" } else { "exit" };
+    format!("defect{}.{what}_peak", impacts.defect + 1)
+}
+
 fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let passes = findings.passes.best();
     for index in 0..simulation.model().defects.len() {
@@ -176,6 +183,10 @@ fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>
             "N",
             pass.map(|p| p.peak),
         ));
+    }
+    for one in impacts(simulation, findings) {
+        let interval = one.interval.map(|i| (i.low, i.high));
+        all.push(Quantity::new(impact_name(&one), "m/s^2", one.peak).within(interval));
     }
 }
 
