@@ -16,7 +16,8 @@ use std::path::PathBuf;
         brinell init bearing.toml           write a commented scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
         brinell run bearing.toml -o out     simulate; then open out/report.html\n\n\
-        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 interrupted (what was computed is kept)."
+        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 a run interrupted (what was computed is kept; an \
+        interrupted sweep or comparison ends with 1)."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -1,6 +1,7 @@
 //! `brinell compare`: scenarios side by side, each against the first.
 
 mod args;
+mod curves;
 mod page;
 mod sides;
 mod table;

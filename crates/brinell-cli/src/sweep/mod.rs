@@ -107,10 +107,12 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
 
 /// What is plotted; a name that no point will have is refused before anything runs.
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
-    let simulation = Simulation::new(&points.example).map_err(Failure::Run)?;
-    let names = brinell::campaign::names(&points.example, &simulation);
+    // A point without a model is a row with its reason, and says nothing of the others' numbers.
+    let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| {
+        brinell::campaign::names(&points.example, &simulation)
+    });
     for name in &args.plot {
-        if names.contains(name) {
+        if names.is_empty() || names.contains(name) {
             continue;
         }
         let part = name.split('.').next_back().unwrap_or(name);

@@ -9,6 +9,8 @@ use brinell_report::{
     Fact, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
 };
 
+/// Points and failures that the page lists; beyond that, nobody reads them there.
+const LISTED: usize = 1000;
 /// Lines of one picture; more go to further pictures.
 const LINES: usize = 12;
 
@@ -22,7 +24,7 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
             usual.push(format!("{channel}_a{axis}.{indicator}"));
         }
     }
-    usual.retain(|name| names.contains(name));
+    usual.retain(|name| names.is_empty() || names.contains(name));
     usual
 }
 
@@ -73,7 +75,7 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
             .iter()
             .flat_map(|name| pictures(points, standings, name))
             .collect(),
-        failures: failures.collect(),
+        failures: failures.take(LISTED).collect(),
         table: table(points, standings, plots),
         scenario_toml: points.source.text(),
     }
@@ -232,7 +234,8 @@ fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
         };
         columns.push(format!("#{name}{unit}"));
     }
-    let rows = standings.iter().enumerate().map(|(k, standing)| {
+    let listed = standings.iter().enumerate().take(LISTED);
+    let rows = listed.map(|(k, standing)| {
         let mut row = vec![(k + 1).to_string()];
         row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
         row.push(standing.word().into());
@@ -243,13 +246,17 @@ fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
         row.extend(plots.iter().map(cell));
         row
     });
+    let more = match standings.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!("{more} more points are in sweep.csv. "),
+    };
+    let note = "Values over the whole run; in brackets the 95 % interval of the mean over blocks of whole revolutions, which an extreme of \
+                the whole run may lie above.";
     Table {
         title: "Points".into(),
         columns,
         rows: rows.collect(),
-        note: "Values over the whole run; in brackets the 95 % interval of the mean over blocks of whole revolutions, which an extreme of \
-               the whole run may lie above."
-            .into(),
+        note: more + note,
     }
 }
 

@@ -153,8 +153,9 @@ fn reason(failure: &Failure) -> String {
             let errors = problems
                 .iter()
                 .filter(|p| p.severity == brinell::document::Severity::Error);
-            let texts: Vec<String> = errors.map(ToString::to_string).collect();
-            texts.join("; ")
+            let said = errors.map(ToString::to_string);
+            let texts = said.map(|text| text.trim_start_matches("error: ").to_owned());
+            texts.collect::<Vec<_>>().join("; ")
         }
         other => other.words(),
     };

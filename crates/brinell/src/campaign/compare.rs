@@ -1,8 +1,8 @@
 //! Runs side by side: every number of each, and how it stands to the first run's.
 
+use super::impacts::impacts;
 use super::quantities::{Quantity, indicator_name};
 use super::run::Finished;
-use crate::observe::impacts::impacts;
 use crate::signal::ratio::{Ratio, ratio};
 use crate::signal::{Indicator, Interval};
 use std::collections::HashMap;

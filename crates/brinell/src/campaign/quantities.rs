@@ -5,7 +5,7 @@
 //! names; what a run does not have (slip in the reference model, a defect's frequency in a short run) is there without a value.
 //! No wall time is among them: the same scenario gives the same numbers.
 
-use crate::observe::impacts::{Impacts, impacts};
+use super::impacts::{Impacts, impacts};
 use crate::observe::{Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::peak_near;
