@@ -7,9 +7,9 @@ use brinell::defect::simplify::Extent;
 use brinell::defect::{Angles, Defect, Shape, Side, acting, wrap};
 use brinell::derived::defect_passes;
 use brinell::model::{Model, ModelError};
-use brinell::observe::load_zone::static_load_zone;
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
+use brinell::statics::static_load_zone;
 use brinell_report::{DamageCurve, DamagePanel, DamageView, DepthPatch, Fact, Value};
 use std::f64::consts::TAU;
 

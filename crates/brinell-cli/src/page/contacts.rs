@@ -2,8 +2,8 @@
 
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::defect::Side;
-use brinell::observe::load_zone::StaticLoadZone;
 use brinell::observe::passes::{Pass, place};
+use brinell::statics::StaticLoadZone;
 use brinell::summary::Parts;
 use brinell_report::RowLoad;
 
