@@ -2,7 +2,19 @@
 "use strict";
 (() => {
   const charts = {};
-  const decode = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+  // 64 values share a scale: its ends as 32-bit floats, then 16 bits a value; spectra in the logarithm.
+  function decode(text, count, log) {
+    const bytes = atob(text), view = new DataView(new ArrayBuffer(bytes.length)), values = new Float32Array(count);
+    for (let i = 0; i < bytes.length; i++) view.setUint8(i, bytes.charCodeAt(i));
+    for (let at = 0, k = 0; k < count; at += 8 + 2 * 64) {
+      const lo = view.getFloat32(at, true), hi = view.getFloat32(at + 4, true);
+      for (let i = 0; i < 64 && k < count; i++, k++) {
+        const code = view.getUint16(at + 8 + 2 * i, true), v = lo + (hi - lo) * code / 65533;
+        values[k] = code === 65535 ? undefined : code === 65534 ? 0 : log ? Math.exp(v) : v;
+      }
+    }
+    return values;
+  }
   const shown = (svg) => svg.getBoundingClientRect().width > 0;
   const short = (v, digits) => {
     if (!Number.isFinite(v)) return "no value";
@@ -314,7 +326,7 @@
 
   document.querySelectorAll("script[data-chart]").forEach((script) => {
     const chart = JSON.parse(script.textContent);
-    chart.values = decode(chart.values);
+    chart.values = decode(chart.values, chart.count, chart.peak);
     chart.plots = [];
     chart.picked = new Set(chart.toggles.flatMap((toggle, index) => toggle[3] && chart.lanes.length ? [index] : []));
     charts[script.dataset.chart] = chart;
