@@ -434,13 +434,20 @@ fn passage(
 }
 
 fn section(defect: &Defect, thickness: f64) -> (Vec<f64>, Vec<DamagePanel>) {
-    let all = sections(
+    let under = sections(
         &defect.shape,
         defect.depth,
         defect.roller_length,
         thickness,
         POINTS,
     );
+    // The whole section to both sides, to hold the damaged one against.
+    let whole = Section::new(defect.roller_length, thickness, 0.0, 0.0);
+    let (first, last) = defect.shape.arc();
+    let pad = 0.1 * (last - first);
+    let mut all = vec![(first - pad, whole), (first, whole)];
+    all.extend(under);
+    all.extend([(last, whole), (last + pad, whole)]);
     let of = |name: &str, f: &dyn Fn(&Section) -> f64| DamageCurve {
         name: name.into(),
         values: all.iter().map(|(_, x)| f(x)).collect(),
