@@ -411,7 +411,14 @@ fn passage(
                 curve("damaged, L_s", damaged),
             ],
         ),
-        panel("Depth h_s", "μm", depth),
+        panel(
+            match defect.shape {
+                Shape::DepthMap(_) => "Mean depth h_s",
+                _ => "Depth h_s",
+            },
+            "μm",
+            depth,
+        ),
     ];
     for &(side, delta) in sides {
         let mut k = Vec::new();

@@ -82,15 +82,15 @@ fn shade(chart: &mut Chart, (xs, ys): &Curve, paint: Paint) {
     let (Some(first), Some(second)) = (xs.first(), xs.get(1)) else {
         return;
     };
-    let wanted = (chart.frame.width() / SWING).max(1.0);
-    let group = (ys.len() as f64 / wanted).ceil().max(1.0) as usize;
-    let (low, high): (Vec<f64>, Vec<f64>) = ys
-        .chunks(group)
+    let groups = ((chart.frame.width() / SWING) as usize).clamp(1, ys.len());
+    let (low, high): (Vec<f64>, Vec<f64>) = (0..groups)
+        .map(|k| &ys[k * ys.len() / groups..(k + 1) * ys.len() / groups])
         .map(|g| range(g.iter().copied()).unwrap_or((f64::NAN, f64::NAN)))
         .unzip();
     let dx = second - first;
+    let group = dx * ys.len() as f64 / groups as f64;
     let fill = Paint::fill(paint.stroke, SHADE);
-    chart.band(first - 0.5 * dx, dx * group as f64, &low, &high, fill);
+    chart.band(first - 0.5 * dx, group, &low, &high, fill);
 }
 
 /// Means of groups, at their middles.
