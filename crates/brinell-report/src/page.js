@@ -377,7 +377,7 @@
       picks.className = "tools picks";
       picks.append("Harmonics of");
       chart.toggles.forEach(([label, frequency, color], index) => {
-        const node = button(label, `Mark the harmonics of ${label}, ${short(frequency, 6)} ${chart.xUnit}`, () => {
+        const node = button(label, `Mark the harmonics of ${label}, ${short(frequency, 6)} ${chart.xUnit}: ${title}`, () => {
           chart.picked[chart.picked.has(index) ? "delete" : "add"](index);
           node.setAttribute("aria-pressed", chart.picked.has(index));
           chart.plots.forEach((plot) => draw(plot, plot.view));
