@@ -7,9 +7,9 @@ use brinell::defect::simplify::Extent;
 use brinell::defect::{Angles, Defect, Shape, Side, acting, wrap};
 use brinell::derived::defect_passes;
 use brinell::model::{Model, ModelError};
-use brinell::observe::load_zone::static_load_zone;
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
+use brinell::statics::static_load_zone;
 use brinell_report::{DamageCurve, DamagePanel, DamageView, DepthPatch, Fact, Value};
 use std::f64::consts::TAU;
 
@@ -411,7 +411,14 @@ fn passage(
                 curve("damaged, L_s", damaged),
             ],
         ),
-        panel("Depth h_s", "μm", depth),
+        panel(
+            match defect.shape {
+                Shape::DepthMap(_) => "Mean depth h_s",
+                _ => "Depth h_s",
+            },
+            "μm",
+            depth,
+        ),
     ];
     for &(side, delta) in sides {
         let mut k = Vec::new();
@@ -434,13 +441,20 @@ fn passage(
 }
 
 fn section(defect: &Defect, thickness: f64) -> (Vec<f64>, Vec<DamagePanel>) {
-    let all = sections(
+    let under = sections(
         &defect.shape,
         defect.depth,
         defect.roller_length,
         thickness,
         POINTS,
     );
+    // The whole section to both sides, to hold the damaged one against.
+    let whole = Section::new(defect.roller_length, thickness, 0.0, 0.0);
+    let (first, last) = defect.shape.arc();
+    let pad = 0.1 * (last - first);
+    let mut all = vec![(first - pad, whole), (first, whole)];
+    all.extend(under);
+    all.extend([(last, whole), (last + pad, whole)]);
     let of = |name: &str, f: &dyn Fn(&Section) -> f64| DamageCurve {
         name: name.into(),
         values: all.iter().map(|(_, x)| f(x)).collect(),

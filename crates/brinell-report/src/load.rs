@@ -8,6 +8,7 @@ use crate::font;
 use crate::number::{linear_ticks, tick_labels};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 use crate::plots::{Layout, legend};
+use crate::thin::straightened;
 
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
 pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
@@ -28,7 +29,10 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
             "mean force",
             Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18),
         ),
-        ("static equilibrium", Paint::fill(ink::BLACK, 1.0)),
+        (
+            "static equilibrium",
+            Paint::line(ink::BLACK, 1.8).dashed(&[1.5, 3.5]),
+        ),
     ];
     let mut picture = Picture::new(
         "load-distribution",
@@ -119,19 +123,20 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
                 clip: None,
             });
         }
-        for (angle, force) in row
+        let mut known: Vec<(f64, f64)> = row
             .static_points
             .iter()
-            .filter(|(a, f)| a.is_finite() && f.is_finite())
-        {
-            let (x, y) = at(*angle, *force);
-            picture.shapes.push(Shape::Circle {
-                x,
-                y,
-                r: 3.2,
-                paint: Paint::line("#ffffff", 1.0).filled(ink::BLACK, 1.0),
-            });
-        }
+            .copied()
+            .filter(|(angle, force)| angle.is_finite() && force.is_finite())
+            .collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let around = known.iter().map(|(angle, force)| at(*angle, *force));
+        picture.shapes.push(Shape::Path {
+            lines: straightened(vec![around.collect()]),
+            close: true,
+            paint: entries[2].1,
+            clip: None,
+        });
         // Numbers where the load usually is not: the bottom, a little aside.
         for (ring, label) in rings.iter().zip(&labels) {
             let (x, y) = at(247.5, *ring);

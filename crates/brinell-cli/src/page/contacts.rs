@@ -2,8 +2,8 @@
 
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::defect::Side;
-use brinell::observe::load_zone::StaticLoadZone;
 use brinell::observe::passes::{Pass, place};
+use brinell::statics::StaticLoadZone;
 use brinell::summary::Parts;
 use brinell_report::RowLoad;
 
@@ -55,7 +55,7 @@ pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
             .collect();
         static_points.sort_by(|a, b| a.0.total_cmp(&b.0));
         RowLoad {
-            title: format!("Row {}, outer contact", row + 1),
+            title: format!("Row {}, force at the outer contact", row + 1),
             angle_deg: brinell_report::bin_centres(load.max.len()),
             mean_n: load.mean(),
             max_n: load.max.clone(),

@@ -1,5 +1,6 @@
 //! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
+use crate::say::short;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
 use brinell::scenario::{Guidance, Surface};
@@ -28,8 +29,8 @@ pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
         bins: s.bins,
         density: s.density.clone(),
         note: format!(
-            "The whole run; Hann windows of {:.3} ms that overlap by half{averaged}.",
-            1e3 / s.frequency_step
+            "The whole run; Hann windows of {} ms that overlap by half{averaged}.",
+            short(1e3 / s.frequency_step, 3)
         ),
     }
 }

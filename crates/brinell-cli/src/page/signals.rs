@@ -96,9 +96,13 @@ pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
         amplitude: e.spectrum.amplitude.clone(),
         unit: "m/s^2".into(),
         note: format!(
-            "Envelope of the measured acceleration between {:.1} and {:.1} kHz.",
+            "Envelope of the measured acceleration between {:.1} and {:.1} kHz.{}",
             1e-3 * band.low,
-            1e-3 * band.high
+            1e-3 * band.high,
+            match parts.loaded.scenario.operation.speed_rpm {
+                Speed::Constant(_) => "",
+                Speed::Profile(_) => " The speed varies, so no defect frequency is a line here.",
+            }
         ),
     }
 }

@@ -133,6 +133,21 @@ impl Chart {
         }
     }
 
+    /// Words over the curves, at the top left.
+    pub(crate) fn remark(&mut self, words: &str) {
+        let font = self.spec.size.font - 1.0;
+        let (x, y) = (self.frame.left + 6.0, self.frame.top + 1.4 * font);
+        let text = Text::with_unit(x, y, font, Anchor::Start, words);
+        let back = Rect {
+            left: self.frame.left + 1.0,
+            right: (x + text.width() + 5.0).min(self.frame.right),
+            top: self.frame.top + 1.0,
+            bottom: y + 0.5 * font,
+        };
+        self.picture.rect(back, Paint::fill("#ffffff", 0.85));
+        self.picture.text(text);
+    }
+
     /// Words where a curve should be.
     pub(crate) fn say(&mut self, words: &str) {
         let x = 0.5 * (self.frame.left + self.frame.right);

@@ -87,6 +87,7 @@ fn stack(
         .collect();
     let left = specs.iter().map(left_margin).fold(0.0, f64::max);
     specs.iter_mut().for_each(|spec| spec.left = left);
+    let title = if shown.is_empty() { title } else { shown };
     let mut picture = Picture::new(name, title, size.width, 0.0);
     let mut top = heading(&mut picture, shown, left, size.width, size.font);
     for (spec, panel) in specs.into_iter().zip(panels) {

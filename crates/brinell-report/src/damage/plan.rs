@@ -37,7 +37,11 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     // From the room between the margins follows the scale, from the scale the height.
     let spec = |height: f64, left: f64, half: f64| Spec {
         name: format!("damage-{}", index + 1),
-        title: view.title.clone(),
+        title: if view.plan_title.is_empty() {
+            view.title.clone()
+        } else {
+            view.plan_title.clone()
+        },
         size: Size {
             width,
             height,

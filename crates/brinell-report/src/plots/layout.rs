@@ -72,7 +72,7 @@ pub(crate) fn legend(
     for (label, paint) in entries {
         let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, label);
         let width = 26.0 + words.width() + 18.0;
-        if x > left && x + width > right + 18.0 {
+        if x > left && x + width > right + 12.0 {
             x = left;
             y += 1.6 * font;
         }

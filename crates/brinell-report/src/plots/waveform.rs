@@ -4,6 +4,7 @@ use super::layout::{CURVE, Layout, known, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{EventKind, MinMax, Report, Series};
+use crate::number::significant;
 use crate::picture::{Paint, Picture, ink};
 
 fn span(series: &Series) -> (f64, f64) {
@@ -24,6 +25,27 @@ pub fn detail_window(report: &Report) -> (f64, f64) {
     ((last - width).max(first), last)
 }
 
+/// Of the run, this share is its start.
+const START: f64 = 0.05;
+/// The start is cut off where it is as many times as large as all that follows.
+const OUTSHINES: f64 = 2.0;
+
+/// What the overview's axis shows, and from where to where the start goes where it is cut off: else a bearing that drops into its load zone
+/// would flatten the run to a line.
+fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
+    let whole = || min.iter().chain(max).copied();
+    let first = ((START * min.len() as f64) as usize).max(1).min(min.len());
+    let later = range(min[first..].iter().chain(&max[first..]).copied());
+    match (range(whole()), later) {
+        (Some((lo, hi)), Some((low, high))) if high > low && hi - lo > OUTSHINES * (high - low) => {
+            // Room at the top for the words that say so.
+            let shown = [low, high + 0.2 * (high - low)];
+            (Domain::around(shown), Some((lo, hi)))
+        }
+        _ => (Domain::around(whole()), None),
+    }
+}
+
 /// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
 pub fn overview(report: &Report, layout: Layout) -> Picture {
     let series = &report.waveform.series;
@@ -41,12 +63,13 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     );
     let end = t0 + dt * count as f64;
     let (unit, scale) = time_unit(end - t0);
+    let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
     let mut chart = Chart::new(Spec {
         name: "overview".into(),
         title: format!("Whole run: {}", series.label),
         size: layout.size(if layout == Layout::Wide { 190.0 } else { 170.0 }),
         x: Domain::exact(t0 * scale, end * scale),
-        y: Domain::around(bins.min.iter().chain(&bins.max).copied()),
+        y,
         x_label: "Time".into(),
         x_unit: unit.into(),
         y_label: "Acceleration".into(),
@@ -64,6 +87,15 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
         chart.band(t0 * scale, dt * scale, low, high, paint);
         let (lo, hi) = detail_window(report);
         chart.highlight(lo * scale, hi * scale);
+        if let Some((lo, hi)) = cut {
+            let words = format!(
+                "Cut off: the start reaches from {} to {} {}",
+                significant(lo, 3),
+                significant(hi, 3),
+                series.unit
+            );
+            chart.remark(&words);
+        }
     }
     chart.interactive("overview");
     chart.finish()

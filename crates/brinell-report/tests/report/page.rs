@@ -2,7 +2,9 @@
 
 use crate::checks::{check, check_pictures};
 use crate::sample::{filled, ordinary};
-use brinell_report::{Fact, Layout, Report, detail_window, headline_png, html, load_distribution};
+use brinell_report::{
+    Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
+};
 use proptest::prelude::*;
 
 const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
@@ -68,6 +70,26 @@ fn regress_the_close_up_spans_five_periods_of_the_damage() {
     report.markers.clear();
     let (lo, hi) = detail_window(&report);
     assert!((hi - lo - 0.02).abs() < 1e-9);
+}
+
+/// A start that outshines the run is cut off and said to be; one that does not is shown whole.
+#[test]
+fn regress_the_start_does_not_flatten_the_overview() {
+    let mut report = ordinary();
+    let bins = |first: f64| MinMax {
+        t0_s: 0.0,
+        dt_s: 0.01,
+        min: [vec![-first; 10], vec![-1.0; 990]].concat(),
+        max: vec![1.0; 1000],
+    };
+    report.waveform.overview = Some(bins(650.0));
+    let svg = overview(&report, Layout::Wide).svg();
+    assert!(
+        svg.contains("the start reaches from −650 to 1 m/s²"),
+        "{svg}"
+    );
+    report.waveform.overview = Some(bins(2.5));
+    assert!(!overview(&report, Layout::Wide).svg().contains("Cut off"));
 }
 
 #[test]

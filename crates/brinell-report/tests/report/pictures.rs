@@ -1,8 +1,8 @@
 //! Pictures: places and lengths in them against what they are to show.
 
 use brinell_report::{
-    CageOrbit, CageOrbits, Layout, Motion, MotionRow, Spectrogram, bearing_motion, cage_orbit,
-    spectrogram,
+    CageOrbit, CageOrbits, Layout, Motion, MotionRow, SlipRow, Spectrogram, bearing_motion,
+    cage_orbit, slip_over_time, spectrogram,
 };
 
 /// A quarter turn on, a roller that orbits at (r, 0) stands at (0, r), its force's line above it; the scale is the same both ways.
@@ -124,5 +124,49 @@ fn analytic_the_spectrogram_puts_a_tone_where_it_is() {
     assert!(lightness(10.5, 15.5) < 150, "{}", lightness(10.5, 15.5));
     for (column, row) in [(9.2, 15.5), (11.8, 15.5), (10.5, 14.2), (10.5, 16.8)] {
         assert!(lightness(column, row) > 650);
+    }
+}
+
+/// Few swings are drawn as they are; too many for the width become a shade from smallest to largest and their mean.
+#[test]
+fn analytic_slip_that_swings_too_often_is_drawn_by_its_mean_and_extremes() {
+    let row = |swings: f64| {
+        let wave: Vec<f64> = (0..1000)
+            .map(|k| 0.5 + 2.0 * (swings * std::f64::consts::TAU * f64::from(k) / 1000.0).sin())
+            .collect();
+        SlipRow {
+            name: "row 1".into(),
+            t0_s: 0.005,
+            dt_s: 0.01,
+            cage: wave.clone(),
+            orbit: wave.clone(),
+            spin: wave,
+            ..SlipRow::default()
+        }
+    };
+    for layout in [Layout::Wide, Layout::Narrow] {
+        let calm = slip_over_time(&[row(5.0)], layout).svg();
+        assert!(!calm.contains("shade") && !calm.contains("fill-opacity"));
+        let svg = slip_over_time(&[row(200.0)], layout).svg();
+        assert!(svg.contains("row 1, mean") && svg.contains("shade: smallest to largest"));
+        let heights = |part: &str| -> (f64, f64) {
+            let d = part.split('"').next().unwrap();
+            d.split(['M', 'L'])
+                .filter_map(|p| p.trim_end_matches('Z').split_once(' '))
+                .filter_map(|p| p.1.parse().ok())
+                .fold((f64::MAX, f64::MIN), |(a, b), y: f64| (a.min(y), b.max(y)))
+        };
+        let paths = || svg.split("<path d=\"");
+        let (top, bottom) = heights(paths().find(|p| p.contains("fill-opacity")).unwrap());
+        let mean = paths().find(|p| p.matches('L').count() > 3 && p.contains("fill=\"none\""));
+        let (highest, lowest) = heights(mean.unwrap());
+        // The shade spans the wave, 4 %; the mean stays near its middle.
+        assert!(bottom - top > 60.0, "{top} {bottom}");
+        assert!(
+            lowest - highest < 0.1 * (bottom - top),
+            "{highest} {lowest}"
+        );
+        let middle = 0.5 * (top + bottom);
+        assert!((0.5 * (highest + lowest) - middle).abs() < 0.05 * (bottom - top));
     }
 }
