@@ -11,7 +11,7 @@ use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
 use brinell_io::{IoError, Journal, Outcome, SignalWriter};
 use serde_json::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -21,14 +21,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) const JOURNAL: &str = "journal.jsonl";
 
 /// A folder's journal and the points that are finished.
-pub(crate) struct Finder {
+pub(crate) struct Ledger {
     journal: Journal,
     rows: HashMap<String, Row>,
-    /// Rows of other versions of this program.
-    pub(crate) outdated: usize,
+    /// Scenarios that another version of this program finished.
+    outdated: HashSet<String>,
 }
 
-impl Finder {
+impl Ledger {
     /// Opens the journal of `folder`, which exists, for the campaign that `header` describes: an object with `campaign`, its kind, and
     /// whatever tells it from others. Another campaign's journal is refused, with `words` for what to do; `extend` makes it this one's.
     pub(crate) fn open(
@@ -51,12 +51,12 @@ impl Finder {
             None if !lines.is_empty() => return Err(Failure::Usage(words(&Value::Null))),
             _ => journal.append(header)?,
         }
-        let (mut rows, mut outdated) = (HashMap::new(), 0);
+        let (mut rows, mut outdated) = (HashMap::new(), HashSet::new());
         for row in lines.iter().filter_map(Row::from_json) {
             if row.version == brinell::VERSION {
                 rows.insert(row.scenario.clone(), row);
             } else {
-                outdated += 1;
+                outdated.insert(row.scenario);
             }
         }
         Ok(Self {
@@ -69,6 +69,11 @@ impl Finder {
     /// The row of a scenario that is finished.
     pub(crate) fn row(&self, fingerprint: &str) -> Option<&Row> {
         self.rows.get(fingerprint)
+    }
+
+    /// Whether a scenario is finished, but by another version of this program.
+    pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
+        self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
     }
 
     fn add(&mut self, row: Row) -> Result<(), Failure> {
@@ -114,7 +119,7 @@ pub(crate) struct Went {
 pub(crate) fn run(
     tasks: &[Task],
     work: &impl Work,
-    finder: &mut Finder,
+    ledger: &mut Ledger,
     threads: NonZeroUsize,
     quiet: bool,
     stop: &AtomicBool,
@@ -138,7 +143,7 @@ pub(crate) fn run(
             match result {
                 Ok(Some(row)) => {
                     if failure.is_none() {
-                        failure = finder.add(row).err();
+                        failure = ledger.add(row).err();
                     }
                 }
                 Ok(None) => interrupted = true,

@@ -91,6 +91,15 @@ pub(crate) fn warn_idle(patterns: &[String]) {
     }
 }
 
+/// What a scenario's file is called without its ending.
+pub(crate) fn stem(path: &Path) -> String {
+    if is_stdin(path) {
+        return "stdin".into();
+    }
+    let stem = path.file_stem().unwrap_or(path.as_os_str());
+    stem.to_string_lossy().into_owned()
+}
+
 /// `-` is standard input.
 pub(crate) fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")

@@ -135,6 +135,14 @@ pub(super) fn called(runs: &[&Finished], defect: usize) -> String {
     format!("defect {} ({place})", defect + 1)
 }
 
+/// Name of the picture, quantity, unit, and how a point of a pass gives it.
+type Shown = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&PassPoint) -> f64,
+);
+
 /// Contact length, stiffness and force of the heaviest pass of each run.
 pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
     let passes: Vec<_> = runs
@@ -156,14 +164,14 @@ pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
     } else {
         "N/m^n"
     };
-    let quantities: [(&str, &str, &str, fn(&PassPoint) -> f64); 3] = [
+    let quantities: [Shown; 3] = [
         ("length", "Effective contact length", "mm", |p| {
             1e3 * p.length
         }),
         ("stiffness", "Contact stiffness", stiffness, |p| p.stiffness),
         ("force", "Contact force", "N", |p| p.force),
     ];
-    let overlay = |(name, label, unit, value): (&str, &str, &str, fn(&PassPoint) -> f64)| {
+    let overlay = |(name, label, unit, value): Shown| {
         let curves = passes.iter().enumerate().filter_map(|(of, pass)| {
             let points = &pass.as_ref()?.points;
             let degrees = points.iter().map(|p| p.angle.to_degrees());

@@ -7,7 +7,7 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
-use crate::files;
+use crate::files::{self, stem};
 use crate::progress::Joint;
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
@@ -33,8 +33,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
             files::warn_idle(simulation.idle_patterns());
         }
     }
-    let stem = args.scenarios[0].file_stem().unwrap_or_default();
-    let named = || Path::new("out").join(format!("compare-{}", stem.to_string_lossy()));
+    let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
     make_folder(&folder)?;
     let Some(runs) = run(args, &sides)? else {

@@ -3,7 +3,7 @@
 use super::CompareArgs;
 use crate::args::ScenarioArgs;
 use crate::failure::Failure;
-use crate::files::{Source, is_stdin, setting};
+use crate::files::{Source, setting, stem};
 use brinell::campaign::{Labelled, split};
 use brinell::document::Loaded;
 use std::path::Path;
@@ -72,11 +72,7 @@ pub(super) fn read(args: &CompareArgs) -> Result<Vec<Side>, Failure> {
 
 /// The name of a scenario file without its ending; of a file that is called like a number, with it.
 fn label(path: &Path) -> Result<String, Failure> {
-    if is_stdin(path) {
-        return Ok("stdin".into());
-    }
-    let stem = path.file_stem().unwrap_or(path.as_os_str());
-    let stem = stem.to_string_lossy();
+    let stem = stem(path);
     if stem.parse::<f64>().is_ok() {
         let name = path.file_name().unwrap_or(path.as_os_str());
         return sound(&name.to_string_lossy());

@@ -6,8 +6,9 @@ mod page;
 mod points;
 mod table;
 
-use crate::campaign::{self, Finder, JOURNAL, Task};
+use crate::campaign::{self, JOURNAL, Ledger, Task};
 use crate::failure::Failure;
+use crate::files::stem;
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
@@ -32,8 +33,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let threads = |jobs| args.jobs.unwrap_or(brinell::many::threads(jobs));
     let points = Points::read(args, threads(usize::MAX))?;
     let plots = plots(args, &points)?;
-    let stem = args.scenario.file_stem().unwrap_or_default();
-    let named = || Path::new("out").join(format!("sweep-{}", stem.to_string_lossy()));
+    let named = || Path::new("out").join(format!("sweep-{}", stem(&args.scenario)));
     let folder = args.output.clone().unwrap_or_else(named);
     let work = FromSource {
         source: &points.source,
@@ -47,10 +47,10 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     make_folder(&folder)?;
     let header = points.header();
     let words = |other: &Value| other_sweep(&folder, other);
-    let mut finder = Finder::open(&folder, &header, args.extend, words)?;
+    let mut ledger = Ledger::open(&folder, &header, args.extend, words)?;
     let finished = |task: &&Task| {
         let kept = work.path(&task.fingerprint);
-        let row = finder.row(&task.fingerprint);
+        let row = ledger.row(&task.fingerprint);
         row.is_some_and(|row| row.result.is_err() || kept.is_none_or(|path| path.exists()))
     };
     let good = || points.tasks.iter().flatten();
@@ -65,17 +65,19 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     if !args.quiet {
         let before = good().filter(finished).count();
         tell_plan(&points, &tasks, before, &work, threads);
-        if finder.outdated > 0 {
+        let outdated = |task: &&Task| ledger.is_outdated(&task.fingerprint);
+        let outdated = good().filter(outdated).count();
+        if outdated > 0 {
             say!(
-                "  {} of another version of brinell are run again",
-                plural(finder.outdated, "finished point")
+                "  {} of another version of brinell, to be run again",
+                plural(outdated, "finished point")
             );
         }
     }
     let stop = stop_flag()?;
-    let went = campaign::run(&tasks, &work, &mut finder, threads, args.quiet, &stop)?;
+    let went = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
-    let standings = standings(&points, |fingerprint| finder.row(fingerprint));
+    let standings = standings(&points, |fingerprint| ledger.row(fingerprint));
     let written = write(args, &points, &standings, &plots, &folder)?;
     let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));

@@ -2,7 +2,9 @@
 //!
 //! With block means a and b, their standard errors s_a and s_b from n_a and n_b blocks, and r = a / b:
 //!
-//!     ln r +- t(0.975, nu) sqrt(u_a + u_b),   u = (s / mean)^2,   nu = (u_a + u_b)^2 / (u_a^2 / (n_a - 1) + u_b^2 / (n_b - 1))
+//! ```text
+//! ln r +- t(0.975, nu) sqrt(u_a + u_b),   u = (s / mean)^2,   nu = (u_a + u_b)^2 / (u_a^2 / (n_a - 1) + u_b^2 / (n_b - 1))
+//! ```
 //!
 //! The variance of a logarithm to first order, and Welch and Satterthwaite's degrees of freedom, rounded down. It supposes positive
 //! indicators, runs that scatter independently, and relative standard errors that are small: beyond [`LARGEST_ERROR`] the first order no
