@@ -30,6 +30,7 @@ mod shape;
 mod side_by_side;
 mod slip;
 mod spectrogram;
+mod study;
 mod sweep;
 mod tables;
 mod thin;
@@ -57,6 +58,9 @@ pub use side_by_side::{
 };
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};
+pub use study::{
+    Chapter, ClaimCard, ClaimPart, Study, StudyPiece, Tagged, Tone, study_html, study_pictures,
+};
 pub use sweep::{
     IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,
     sweep_pictures,

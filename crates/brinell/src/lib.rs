@@ -17,6 +17,7 @@ pub mod many;
 pub mod model;
 pub mod observe;
 pub mod operation;
+pub mod paper;
 pub mod scenario;
 pub mod signal;
 pub mod simulate;

@@ -1,0 +1,315 @@
+//! The page of a study: chapters of curves, trends, tables, and claims with their verdicts. What they are is the caller's.
+
+use std::fmt::Write as _;
+
+use crate::analysis::{Table, table};
+use crate::data::Fact;
+use crate::page::{figure, head, none};
+use crate::picture::{Picture, escape};
+use crate::plots::Layout;
+use crate::side_by_side::{Overlay, overlay};
+use crate::sweep::{IndicatorPlot, indicator_plot};
+use crate::tables::facts;
+
+/// How a verdict is coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// It holds.
+    Good,
+    /// It does not.
+    Bad,
+    /// Neither.
+    #[default]
+    Plain,
+}
+
+impl Tone {
+    fn class(self) -> &'static str {
+        match self {
+            Self::Good => "tag good",
+            Self::Bad => "tag bad",
+            Self::Plain => "tag",
+        }
+    }
+}
+
+/// A word with its colour.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tagged {
+    /// "holds".
+    pub word: String,
+    /// Its colour.
+    pub tone: Tone,
+}
+
+/// A statement under a claim.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClaimPart {
+    /// What came out.
+    pub verdict: Tagged,
+    /// What is stated.
+    pub words: String,
+    /// The numbers behind the verdict.
+    pub ours: String,
+}
+
+/// Somebody's sentence, held against numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClaimCard {
+    /// Where it stands.
+    pub place: String,
+    /// Its words.
+    pub sentence: String,
+    /// What its author prints; may be empty.
+    pub printed: String,
+    /// What came out.
+    pub verdict: Tagged,
+    /// What it depends on; may be empty.
+    pub depends: String,
+    /// What was checked.
+    pub parts: Vec<ClaimPart>,
+    /// What to know; may be empty.
+    pub note: String,
+}
+
+/// A piece of a chapter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StudyPiece {
+    /// A paragraph.
+    Words(String),
+    /// Curves, and the names that they belong to.
+    Curves(Overlay, Vec<String>),
+    /// Numbers with intervals against a quantity.
+    Trend(IndicatorPlot),
+    /// Words and numbers; its title is a heading.
+    Table(Table),
+    /// Claims.
+    Claims(Vec<ClaimCard>),
+}
+
+/// A heading and what is under it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chapter {
+    /// Its place in links: letters, digits, hyphens.
+    pub id: String,
+    /// In the list of contents.
+    pub short: String,
+    /// The heading.
+    pub title: String,
+    /// In this order.
+    pub pieces: Vec<StudyPiece>,
+}
+
+/// Everything that the page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Study {
+    /// Heading of the page.
+    pub title: String,
+    /// One line under it.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// What deserves attention.
+    pub warnings: Vec<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The chapters.
+    pub chapters: Vec<Chapter>,
+    /// At the end.
+    pub footer: String,
+}
+
+/// The page's pictures, drawn wide.
+pub fn study_pictures(study: &Study) -> Vec<Picture> {
+    let pieces = study.chapters.iter().flat_map(|chapter| &chapter.pieces);
+    pieces
+        .filter_map(|piece| draw(piece, Layout::Wide))
+        .collect()
+}
+
+fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
+    match piece {
+        StudyPiece::Curves(one, names) => Some(overlay(one, names, layout)),
+        StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
+        _ => None,
+    }
+}
+
+/// The self-contained page.
+pub fn study_html(study: &Study) -> String {
+    let mut page = String::with_capacity(1 << 20);
+    head(&mut page, &study.title);
+    let _ = writeln!(
+        page,
+        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
+        escape(&study.subtitle),
+        escape(&study.version)
+    );
+    for warning in &study.warnings {
+        let _ = writeln!(
+            page,
+            "<p class=\"partial\" role=\"alert\">{}</p>",
+            escape(warning)
+        );
+    }
+    page.push_str("</header>\n<nav aria-label=\"Contents\"><ul>");
+    for chapter in &study.chapters {
+        let _ = write!(
+            page,
+            "<li><a href=\"#{}\">{}</a></li>",
+            chapter.id,
+            escape(&chapter.short)
+        );
+    }
+    page.push_str("</ul></nav>\n<main>\n");
+    facts(&mut page, &study.facts);
+    let mut count = 0;
+    for chapter in &study.chapters {
+        let _ = writeln!(
+            page,
+            "<section id=\"{}\">\n<h2>{}</h2>",
+            chapter.id,
+            escape(&chapter.title)
+        );
+        for piece in &chapter.pieces {
+            count += 1;
+            write_piece(&mut page, piece, count);
+        }
+        page.push_str("</section>\n");
+    }
+    let _ = writeln!(
+        page,
+        "</main>\n<footer>{}</footer>\n</body>\n</html>",
+        escape(&study.footer)
+    );
+    page
+}
+
+fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
+    let (title, caption) = match piece {
+        StudyPiece::Words(words) => {
+            let _ = writeln!(page, "<p>{}</p>", escape(words));
+            return;
+        }
+        StudyPiece::Table(one) => return table(page, one),
+        StudyPiece::Claims(cards) if cards.is_empty() => {
+            return none(page, "No claim belongs to what was run.");
+        }
+        StudyPiece::Claims(cards) => return cards.iter().for_each(|card| claim(page, card)),
+        StudyPiece::Curves(one, _) => (&one.title, escape(&one.note)),
+        StudyPiece::Trend(plot) => (&plot.label, String::new()),
+    };
+    if !title.is_empty() {
+        let _ = writeln!(page, "<h3>{}</h3>", escape(title));
+    }
+    let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
+    figure(page, &format!("study{count}"), draw, &caption);
+}
+
+fn tag(tagged: &Tagged) -> String {
+    format!(
+        "<span class=\"{}\">{}</span>",
+        tagged.tone.class(),
+        escape(&tagged.word)
+    )
+}
+
+fn claim(page: &mut String, card: &ClaimCard) {
+    let _ = write!(
+        page,
+        "<article class=\"claim\">\n<p class=\"place\">{} {}</p>\n<blockquote>{}</blockquote>\n",
+        escape(&card.place),
+        tag(&card.verdict),
+        escape(&card.sentence)
+    );
+    if !card.printed.is_empty() {
+        let _ = writeln!(
+            page,
+            "<p class=\"note\">Printed: {}</p>",
+            escape(&card.printed)
+        );
+    }
+    if !card.depends.is_empty() {
+        let _ = writeln!(
+            page,
+            "<p class=\"depends\">Depends on {}</p>",
+            escape(&card.depends)
+        );
+    }
+    if !card.parts.is_empty() {
+        page.push_str("<ul>\n");
+        for part in &card.parts {
+            let _ = writeln!(
+                page,
+                "<li>{} {}<br><span class=\"ours\">{}</span></li>",
+                tag(&part.verdict),
+                escape(&part.words),
+                escape(&part.ours)
+            );
+        }
+        page.push_str("</ul>\n");
+    }
+    if !card.note.is_empty() {
+        let _ = writeln!(page, "<p class=\"note\">{}</p>", escape(&card.note));
+    }
+    page.push_str("</article>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_every_piece_is_on_the_page_and_nothing_is_markup() {
+        let card = ClaimCard {
+            place: "4.2".into(),
+            sentence: "a < b & c".into(),
+            verdict: Tagged {
+                word: "holds".into(),
+                tone: Tone::Good,
+            },
+            depends: "the filter".into(),
+            parts: vec![ClaimPart {
+                words: "RMS".into(),
+                ours: "<script>".into(),
+                ..ClaimPart::default()
+            }],
+            ..ClaimCard::default()
+        };
+        let study = Study {
+            title: "T".into(),
+            chapters: vec![Chapter {
+                id: "one".into(),
+                short: "One".into(),
+                title: "Chapter one".into(),
+                pieces: vec![
+                    StudyPiece::Words("some words".into()),
+                    StudyPiece::Curves(Overlay::default(), vec![]),
+                    StudyPiece::Trend(IndicatorPlot::default()),
+                    StudyPiece::Table(Table {
+                        title: "A table".into(),
+                        ..Table::default()
+                    }),
+                    StudyPiece::Claims(vec![card]),
+                    StudyPiece::Claims(vec![]),
+                ],
+            }],
+            ..Study::default()
+        };
+        let page = study_html(&study);
+        for part in [
+            "href=\"#one\"",
+            "Chapter one",
+            "some words",
+            "A table",
+            "a &lt; b &amp; c",
+            "tag good",
+            "Depends on the filter",
+            "&lt;script&gt;",
+            "No claim belongs",
+        ] {
+            assert!(page.contains(part), "{part}");
+        }
+        assert_eq!(study_pictures(&study).len(), 2);
+    }
+}

@@ -1,0 +1,166 @@
+//! What the cases gave, by name.
+
+use crate::campaign::{Row, Spread};
+use crate::observe::passes::PassPoint;
+use crate::signal::Interval;
+use std::collections::BTreeMap;
+
+/// One number with what is known of its scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// The mean over blocks where there is an interval, or else the value.
+    pub value: f64,
+    /// Its 95 % interval.
+    pub interval: Option<Interval>,
+}
+
+impl Number {
+    /// A number that does not scatter.
+    pub fn exact(value: f64) -> Self {
+        Self {
+            value,
+            interval: None,
+        }
+    }
+}
+
+/// Numbers by case and name: `("irregular", "outer_ax.rms")`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Numbers {
+    all: BTreeMap<(String, String), Number>,
+}
+
+impl Numbers {
+    /// Adds one.
+    pub fn insert(&mut self, case: &str, name: &str, number: Number) {
+        self.all.insert((case.to_owned(), name.to_owned()), number);
+    }
+
+    /// Adds everything of a finished run. Degrees of freedom are those of its blocks, also where there were more instants than blocks.
+    pub fn add(&mut self, case: &str, row: &Row) {
+        let count = |name: &str| row.quantity(name).and_then(|q| q.value).unwrap_or(0.0);
+        let (blocks, turns) = (count("blocks") as usize, count("turns_per_block") as u64);
+        for quantity in row.result.as_deref().unwrap_or(&[]) {
+            let number = match (quantity.spread, quantity.value) {
+                (Spread::Interval(low, high), Some(_)) => {
+                    let center = 0.5 * (low + high);
+                    Number {
+                        value: center,
+                        interval: Some(Interval {
+                            center,
+                            low,
+                            high,
+                            blocks,
+                            periods_per_block: turns,
+                        }),
+                    }
+                }
+                (_, Some(value)) => Number::exact(value),
+                (_, None) => continue,
+            };
+            self.insert(case, &quantity.name, number);
+        }
+    }
+
+    /// A number, where the case has it.
+    pub fn get(&self, case: &str, name: &str) -> Option<Number> {
+        self.all.get(&(case.to_owned(), name.to_owned())).copied()
+    }
+
+    /// The same, the outer ring's accelerations being those behind the anti-alias filter.
+    #[must_use]
+    pub fn behind_filter(&self) -> Self {
+        let mut all = self.all.clone();
+        for ((case, name), number) in &self.all {
+            if let Some(rest) = name.strip_prefix("measured_a") {
+                all.insert((case.clone(), format!("outer_a{rest}")), *number);
+            }
+        }
+        Self { all }
+    }
+}
+
+/// Share of the drop in contact stiffness that a roller meets within the first tenth of its way over the damage, `length` (rad) long around
+/// the angle 0; `None` where the pass does not tell.
+pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
+    let healthy = points.iter().map(|p| p.stiffness).max_by(f64::total_cmp)?;
+    let inside = |p: &&PassPoint| p.angle.abs() <= 0.5 * length;
+    let lowest = points.iter().filter(inside).map(|p| p.stiffness);
+    let lowest = lowest.min_by(f64::total_cmp)?;
+    // Rollers orbit with increasing angle where the shaft turns counter-clockwise; whichever way, a pass begins at its first point.
+    let forward = points.last()?.angle > points.first()?.angle;
+    let along = |p: &PassPoint| 0.5 * length + if forward { p.angle } else { -p.angle };
+    let early = |p: &&PassPoint| (0.0..=0.1 * length).contains(&along(p));
+    let early = points.iter().filter(early).map(|p| p.stiffness);
+    let early = early.min_by(f64::total_cmp)?;
+    let share = (healthy - early) / (healthy - lowest);
+    share.is_finite().then_some(share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Quantity;
+
+    fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
+        let point = |k: i32| {
+            let angle = f64::from(k) * 0.01;
+            PassPoint {
+                t: f64::from(k),
+                angle,
+                length: 6e-3,
+                stiffness: stiffness(angle),
+                force: 1.0,
+            }
+        };
+        (-100..=100).map(point).collect()
+    }
+
+    #[test]
+    fn analytic_entry_drop_of_a_step_and_of_a_ramp() {
+        let step = pass(|u| if u.abs() <= 0.5 { 1.0 } else { 3.0 });
+        assert_eq!(entry_drop(&step, 1.0), Some(1.0));
+        // From 3 down to 1 in the middle: a tenth of the way is a fifth of the drop.
+        let ramp = pass(|u| 1.0 + 4.0 * u.abs().min(0.5));
+        assert!((entry_drop(&ramp, 1.0).unwrap() - 0.2).abs() < 1e-9);
+        let back: Vec<_> = ramp.into_iter().rev().collect();
+        assert!((entry_drop(&back, 1.0).unwrap() - 0.2).abs() < 1e-9);
+        assert_eq!(entry_drop(&pass(|_| 3.0), 1.0), None);
+        assert_eq!(entry_drop(&[], 1.0), None);
+    }
+
+    #[test]
+    fn prop_rows_become_numbers() {
+        let quantity = |name: &str, value, spread| Quantity {
+            name: name.into(),
+            unit: "1".into(),
+            value,
+            spread,
+        };
+        let row = Row {
+            settings: vec![],
+            scenario: String::new(),
+            version: String::new(),
+            result: Ok(vec![
+                quantity("outer_ax.rms", Some(3.3), Spread::Interval(2.0, 4.0)),
+                quantity("measured_ax.rms", Some(2.0), Spread::Interval(1.0, 2.0)),
+                quantity("none", None, Spread::Unknown),
+                quantity("blocks", Some(12.0), Spread::Without),
+                quantity("turns_per_block", Some(2.0), Spread::Without),
+            ]),
+        };
+        let mut numbers = Numbers::default();
+        numbers.add("a", &row);
+        let rms = numbers.get("a", "outer_ax.rms").unwrap();
+        let interval = rms.interval.unwrap();
+        assert_eq!(
+            (rms.value, interval.blocks, interval.periods_per_block),
+            (3.0, 12, 2)
+        );
+        assert_eq!(numbers.get("a", "none"), None);
+        assert_eq!(numbers.get("b", "outer_ax.rms"), None);
+        assert_eq!(numbers.get("a", "blocks"), Some(Number::exact(12.0)));
+        let filtered = numbers.behind_filter();
+        assert_eq!(filtered.get("a", "outer_ax.rms").unwrap().value, 1.5);
+    }
+}
