@@ -51,6 +51,8 @@ pub(crate) enum Command {
     Sweep(crate::sweep::SweepArgs),
     /// Lay scenarios side by side: signals, spectra, contact over the defect, impacts, ratios with intervals
     Compare(crate::compare::CompareArgs),
+    /// Run the experiments of Li et al. (2023) and hold each of the paper's sentences against them
+    Reproduce(crate::reproduce::ReproduceArgs),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

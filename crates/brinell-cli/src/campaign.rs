@@ -5,10 +5,10 @@
 
 use crate::failure::Failure;
 use crate::progress::Joint;
-use brinell::campaign::{Finished, Row, finish};
+use brinell::campaign::{Finished, Quantity, Row, finish};
 use brinell::channel::Frame;
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{IoError, Journal, Outcome, SignalWriter};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -106,6 +106,11 @@ pub(crate) trait Work: Sync {
         scenario: &Scenario,
         simulation: &Simulation,
     ) -> Result<Option<Box<dyn SignalWriter>>, Failure>;
+
+    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row.
+    fn finished(&self, _: &Task, _: &Finished) -> Result<Vec<Quantity>, Failure> {
+        Ok(Vec::new())
+    }
 }
 
 /// How the tasks went.
@@ -204,14 +209,13 @@ fn one(
     if let Some(writer) = recorder.writer {
         writer.finish(outcome)?;
     }
-    Ok(Some(row(numbers(&finished).map_err(|e| e.to_string()))))
-}
-
-fn numbers(finished: &Finished) -> Result<Vec<brinell::campaign::Quantity>, RunError> {
-    match &finished.outcome.end {
-        End::Failed(error) => Err(error.clone()),
-        _ => Ok(finished.quantities()),
-    }
+    Ok(Some(row(match &finished.outcome.end {
+        End::Failed(error) => Err(error.to_string()),
+        _ => {
+            let more = work.finished(task, &finished)?;
+            Ok([finished.quantities(), more].concat())
+        }
+    })))
 }
 
 /// Rows to a file, time to the bar.

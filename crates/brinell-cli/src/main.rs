@@ -15,6 +15,7 @@ mod look_up;
 mod page;
 mod plan;
 mod progress;
+mod reproduce;
 mod run;
 mod say;
 mod sweep;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::side_by_side(&args),
+        Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

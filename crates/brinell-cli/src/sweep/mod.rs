@@ -15,8 +15,9 @@ pub(crate) use args::SweepArgs;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
+pub(crate) use page::plural;
+use page::usual;
 pub(crate) use page::words;
-use page::{plural, usual};
 use points::{FromSource, Points};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;

@@ -1,0 +1,67 @@
+//! The command line of `brinell reproduce`.
+
+use crate::args::PlotFormat;
+use brinell::paper::FIGURES;
+use clap::Args;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(after_help = "Files in the folder:\n  \
+    reproduce.html       the claims and the figures; one file, no network\n  \
+    claims.csv, claims.json   each statement with its verdict, numbers and intervals\n  \
+    plots/               with --plots\n  \
+    journal.jsonl        finished runs, each on the disk when it is done; curves/ beside it holds what pictures need of them\n\n\
+    The same command again goes on where it stopped; runs of the same scenario and the same version of brinell are not run again, so \
+    --figure, --quick and --sensitivity share what they have in common. Files depend on the options alone, not on --jobs or \
+    interruptions.\n\n\
+    Exit codes: 0 every run is done (whatever the verdicts), 1 a run failed or Ctrl-C stopped it (what is finished is kept), 2 bad input.\n\n\
+    Examples:\n  \
+    brinell reproduce --quick\n  \
+    brinell reproduce --figure 18\n  \
+    brinell reproduce --sensitivity --book docs/src/reproduction")]
+pub(crate) struct ReproduceArgs {
+    /// Only these figures of the paper, 9 to 20 [default: all]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = figure)]
+    pub(crate) figure: Vec<u32>,
+    /// Shorter runs, wider intervals
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Also vary what the paper does not state, one assumption at a time, and search for a set that agrees with it best
+    #[arg(long, conflicts_with = "figure")]
+    pub(crate) sensitivity: bool,
+    /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
+    #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = clap::value_parser!(u32).range(3..=100_000))]
+    pub(crate) turns: Option<u32>,
+    /// Folder for the results
+    #[arg(short, long, value_name = "FOLDER", default_value = "out/reproduce")]
+    pub(crate) output: PathBuf,
+    /// Runs at a time [default: one a core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Also write each picture into FOLDER/plots, as files of these formats
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
+    pub(crate) plots: Vec<PlotFormat>,
+    /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the folder above
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) book: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+fn figure(text: &str) -> Result<u32, String> {
+    let allowed = || {
+        format!(
+            "allowed: {} to {}, the figures of section 4",
+            FIGURES.start(),
+            FIGURES.end()
+        )
+    };
+    let number: u32 = text.parse().map_err(|_| allowed())?;
+    if FIGURES.contains(&number) {
+        Ok(number)
+    } else {
+        Err(allowed())
+    }
+}

@@ -1,0 +1,113 @@
+//! The reproduction as a chapter's text: Markdown, pictures beside it.
+
+use super::Came;
+use super::claims::{Told, counts, ours};
+use brinell_report::{Study, StudyPiece, Table};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The text. Pictures are linked as from the folder above `book`, where the file that includes this one stands.
+pub(super) fn text(study: &Study, came: &Came, book: &Path) -> String {
+    let folder = book
+        .file_name()
+        .map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
+    let mut text =
+        String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
+    let counts: Vec<String> = counts(&came.told)
+        .iter()
+        .map(|(verdict, n)| format!("{} {n}", verdict.words()))
+        .collect();
+    let _ = writeln!(text, "{}. Claims: {}.\n", study.subtitle, counts.join(", "));
+    for warning in &study.warnings {
+        let _ = writeln!(text, "> {warning}\n");
+    }
+    for chapter in &study.chapters {
+        let _ = writeln!(text, "## {}\n", chapter.title);
+        for piece in &chapter.pieces {
+            match piece {
+                StudyPiece::Words(words) => {
+                    let _ = writeln!(text, "{words}\n");
+                }
+                StudyPiece::Claims(_) => claims(&mut text, &came.told),
+                StudyPiece::Table(one) => table(&mut text, one),
+                StudyPiece::Curves(one, _) => picture(&mut text, &folder, &one.name, &one.title),
+                StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
+            }
+        }
+    }
+    text
+}
+
+fn picture(text: &mut String, folder: &str, name: &str, words: &str) {
+    let _ = writeln!(text, "![{words}]({folder}{name}.svg)\n");
+}
+
+fn cell(words: &str) -> String {
+    words.replace('|', "\\|").replace(['\n', '\r'], " ")
+}
+
+fn claims(text: &mut String, all: &[Told]) {
+    text.push_str("| The paper | Verdict | Printed | Ours |\n| --- | --- | --- | --- |\n");
+    for told in all {
+        let mut ours_all = Vec::new();
+        for (statement, (verdict, found)) in
+            told.claim.statements.iter().zip(&told.judged.statements)
+        {
+            ours_all.push(format!(
+                "{} — {}: {}",
+                statement.words,
+                verdict.words(),
+                ours(found)
+            ));
+        }
+        if !told.claim.note.is_empty() {
+            ours_all.push(told.claim.note.to_owned());
+        }
+        let mut verdict = told.judged.verdict.words().to_owned();
+        if !told.flips.is_empty() {
+            verdict = format!("{verdict}; depends on {}", told.depends());
+        }
+        let _ = writeln!(
+            text,
+            "| {} ({}) | {} | {} | {} |",
+            cell(told.claim.sentence),
+            told.claim.place,
+            cell(&verdict),
+            cell(told.claim.paper),
+            ours_all
+                .iter()
+                .map(|o| cell(o))
+                .collect::<Vec<_>>()
+                .join("<br>")
+        );
+    }
+    text.push('\n');
+}
+
+fn table(text: &mut String, table: &Table) {
+    let _ = writeln!(text, "### {}\n", table.title);
+    if table.columns == ["TOML"] {
+        text.push_str("```toml\n");
+        for row in &table.rows {
+            let _ = writeln!(text, "{}", row.join(""));
+        }
+        text.push_str("```\n\n");
+        return;
+    }
+    let heads: Vec<String> = table
+        .columns
+        .iter()
+        .map(|c| cell(c.trim_start_matches('#')))
+        .collect();
+    let rule = |c: &String| if c.starts_with('#') { "---:" } else { "---" };
+    let rules: Vec<&str> = table.columns.iter().map(rule).collect();
+    let _ = writeln!(text, "| {} |\n| {} |", heads.join(" | "), rules.join(" | "));
+    for row in &table.rows {
+        let cells: Vec<String> = row.iter().map(|c| cell(c)).collect();
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    text.push('\n');
+    if !table.note.is_empty() {
+        let _ = writeln!(text, "{}\n", table.note);
+    }
+}

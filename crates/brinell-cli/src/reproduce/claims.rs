@@ -1,0 +1,174 @@
+//! The claims as the page, the tables and the book show them.
+
+use super::figures::told;
+use super::sensitivity::Flip;
+use crate::failure::Failure;
+use brinell::paper::{Claim, Found, Judged, Verdict};
+use brinell_io::{Cells, Column, Table};
+use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// A claim with what came out, and which assumptions turn it.
+pub(super) struct Told {
+    pub(super) claim: &'static Claim,
+    pub(super) judged: Judged,
+    pub(super) flips: Vec<Flip>,
+}
+
+impl Told {
+    /// The verdict, "depends" where an assumption turns it.
+    pub(super) fn words(&self) -> &'static str {
+        if self.flips.is_empty() {
+            self.judged.verdict.words()
+        } else {
+            "depends"
+        }
+    }
+
+    /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
+    pub(super) fn depends(&self) -> String {
+        let one = |flip: &Flip| {
+            format!(
+                "{} ({}: {})",
+                flip.variant.aspect.words(),
+                flip.variant.words,
+                flip.verdict.words()
+            )
+        };
+        self.flips.iter().map(one).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// A verdict with its colour.
+pub(super) fn tagged(verdict: Verdict) -> Tagged {
+    Tagged {
+        word: verdict.words().into(),
+        tone: match verdict {
+            Verdict::Holds => Tone::Good,
+            Verdict::Fails => Tone::Bad,
+            _ => Tone::Plain,
+        },
+    }
+}
+
+/// Numbers behind a verdict, on one line.
+pub(super) fn ours(found: &[Found]) -> String {
+    let one = |f: &Found| {
+        // Lengths read better in millimetres.
+        let (scale, unit) = match f.unit {
+            "m" => (1e3, " mm"),
+            "m/s^2" => (1.0, " m/s²"),
+            "Hz" => (1.0, " Hz"),
+            _ => (1.0, ""),
+        };
+        let interval = f.interval.map(|(low, high)| (scale * low, scale * high));
+        format!(
+            "{} {}{unit}",
+            f.what,
+            told(f.value.map(|x| scale * x), interval)
+        )
+    };
+    found.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+/// As the page shows it.
+pub(super) fn card(told: &Told) -> ClaimCard {
+    let parts = told.claim.statements.iter().zip(&told.judged.statements);
+    ClaimCard {
+        place: format!("{} · {}", told.claim.id, told.claim.place),
+        sentence: told.claim.sentence.into(),
+        printed: told.claim.paper.into(),
+        verdict: tagged(told.judged.verdict),
+        depends: told.depends(),
+        parts: parts
+            .map(|(statement, (verdict, found))| ClaimPart {
+                verdict: tagged(*verdict),
+                words: statement.words.into(),
+                ours: ours(found),
+            })
+            .collect(),
+        note: told.claim.note.into(),
+    }
+}
+
+/// Verdicts and how many claims have each, in a fixed order.
+pub(super) fn counts(all: &[Told]) -> Vec<(Verdict, usize)> {
+    use Verdict::{Fails, Holds, Missing, NotCheckable, Partly, Undecided};
+    [Holds, Partly, Fails, Undecided, Missing, NotCheckable]
+        .into_iter()
+        .map(|v| (v, all.iter().filter(|t| t.judged.verdict == v).count()))
+        .filter(|(_, count)| *count > 0)
+        .collect()
+}
+
+/// claims.csv and claims.json.
+pub(super) fn write(all: &[Told], header: &Value, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let csv = table(all).write_csv(folder.join("claims.csv"))?;
+    let mut object = header.clone();
+    object["claims"] = all.iter().map(claim_json).collect();
+    let path = folder.join("claims.json");
+    let text = serde_json::to_string_pretty(&object).unwrap_or_default() + "\n";
+    brinell_io::atomic_write(&path, text.as_bytes())?;
+    Ok(vec![csv, path])
+}
+
+fn claim_json(told: &Told) -> Value {
+    let found = |f: &Found| json!({ "what": f.what, "value": f.value, "low": f.interval.map(|i| i.0), "high": f.interval.map(|i| i.1), "unit": f.unit });
+    let statements = told.claim.statements.iter().zip(&told.judged.statements);
+    let statements: Vec<Value> = statements
+        .map(|(statement, (verdict, all))| {
+            json!({ "statement": statement.words, "verdict": verdict.words(), "ours": all.iter().map(found).collect::<Vec<_>>() })
+        })
+        .collect();
+    let flips = told.flips.iter().map(|f| {
+        json!({ "assumption": f.variant.id, "about": f.variant.aspect.words(), "is": f.variant.words, "verdict": f.verdict.words() })
+    });
+    json!({
+        "id": told.claim.id, "place": told.claim.place, "sentence": told.claim.sentence, "paper": told.claim.paper,
+        "verdict": told.judged.verdict.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": told.claim.note,
+    })
+}
+
+/// A row a statement; a claim without any has one too.
+fn table(all: &[Told]) -> Table {
+    let mut columns: [Vec<Option<String>>; 9] = Default::default();
+    for told in all {
+        let claim = told.claim;
+        let rows = claim.statements.len().max(1);
+        for k in 0..rows {
+            let statement = claim.statements.get(k);
+            let judged = told.judged.statements.get(k);
+            let cells = [
+                Some(claim.id.to_owned()),
+                Some(claim.place.to_owned()),
+                Some(claim.sentence.to_owned()),
+                Some(claim.paper.to_owned()),
+                Some(told.judged.verdict.words().to_owned()),
+                statement.map(|s| s.words.to_owned()),
+                judged.map(|j| j.0.words().to_owned()),
+                judged.map(|j| ours(&j.1)),
+                Some(told.depends()),
+            ];
+            for (column, cell) in columns.iter_mut().zip(cells) {
+                column.push(cell.filter(|text| !text.is_empty()));
+            }
+        }
+    }
+    let heads = [
+        ("claim", "its name here"),
+        ("place", "section and figure of the paper"),
+        ("sentence", "the paper's words"),
+        ("paper", "what it prints"),
+        ("claim_verdict", "of all statements together"),
+        ("statement", "what is checked"),
+        ("verdict", "of the statement"),
+        ("ours", "numbers with 95 % intervals"),
+        ("depends_on", "assumptions that turn the claim's verdict"),
+    ];
+    let mut table = Table::default();
+    for ((name, about), cells) in heads.into_iter().zip(columns) {
+        table.push(Column::new(name, "", about), Cells::Words(cells));
+    }
+    table
+}

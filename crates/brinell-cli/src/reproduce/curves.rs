@@ -1,0 +1,138 @@
+//! What pictures need of a run: the end of its waveform, spectra, a pass over the damage, the mean entry and exit.
+
+use brinell::campaign::{Finished, impacts};
+use serde_json::{Value, json};
+
+/// Length of the waveform kept, s: the run's last.
+const KEPT_S: f64 = 0.2;
+/// Spectra are kept up to here, Hz.
+const TOP_HZ: f64 = 1500.0;
+/// Points of a pass.
+const PASS: usize = 600;
+
+/// Evenly spaced values.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Even {
+    pub(super) first: f64,
+    pub(super) step: f64,
+    pub(super) values: Vec<f64>,
+}
+
+/// The curves of a run, SI units; empty where the run was too short for one.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Curves {
+    /// Measured acceleration along the load.
+    pub(super) waveform: Even,
+    pub(super) spectrum: Even,
+    pub(super) envelope: Even,
+    /// Instants within the waveform at which rollers come onto the damage.
+    pub(super) enters: Vec<f64>,
+    /// Instants at which they leave it.
+    pub(super) leaves: Vec<f64>,
+    /// Mean measured acceleration around entries.
+    pub(super) entry: Even,
+    /// And around exits.
+    pub(super) exit: Even,
+    /// Of the heaviest pass: angle from the damage's centre, rad, and what belongs to it.
+    pub(super) angle: Vec<f64>,
+    pub(super) length: Vec<f64>,
+    pub(super) stiffness: Vec<f64>,
+    pub(super) force: Vec<f64>,
+}
+
+impl Curves {
+    pub(super) fn of(run: &Finished) -> Self {
+        let (findings, rate) = (&run.findings, run.simulation.sample_rate());
+        let (first, values) = findings.waveform.latest();
+        let skipped = values.len().saturating_sub((KEPT_S * rate) as usize);
+        let waveform = Even {
+            first: (first as f64 + skipped as f64) / rate,
+            step: 1.0 / rate,
+            values: values[skipped..].to_vec(),
+        };
+        let spectrum = |amplitude: &[f64], step: f64| Even {
+            first: 0.0,
+            step,
+            values: amplitude[..amplitude.len().min((TOP_HZ / step) as usize + 1)].to_vec(),
+        };
+        let instants = |enters: bool| {
+            let events = findings.passes.events.iter();
+            let mine = events.filter(|e| e.enters == enters && e.t >= waveform.first);
+            mine.map(|e| e.t).collect()
+        };
+        let mean = |enters: bool| {
+            let all = impacts(&run.simulation, findings);
+            let one = all.into_iter().find(|i| i.enters == enters);
+            one.map_or(Even::default(), |i| Even {
+                first: i.from,
+                step: i.step,
+                values: i.mean,
+            })
+        };
+        let pass = findings.passes.best().into_iter().next();
+        let points = pass.map_or(Vec::new(), |pass| pass.points);
+        let stride = points.len().div_ceil(PASS).max(1);
+        let along = |of: fn(&brinell::observe::passes::PassPoint) -> f64| {
+            points.iter().step_by(stride).map(of).collect()
+        };
+        Self {
+            spectrum: findings.spectrum.as_ref().map_or(Even::default(), |s| {
+                spectrum(&s.amplitude, s.frequency_step)
+            }),
+            envelope: findings
+                .envelope
+                .as_ref()
+                .map_or(Even::default(), |(e, _)| {
+                    spectrum(&e.spectrum.amplitude, e.spectrum.frequency_step)
+                }),
+            enters: instants(true),
+            leaves: instants(false),
+            entry: mean(true),
+            exit: mean(false),
+            angle: along(|p| p.angle),
+            length: along(|p| p.length),
+            stiffness: along(|p| p.stiffness),
+            force: along(|p| p.force),
+            waveform,
+        }
+    }
+
+    pub(super) fn to_json(&self) -> Value {
+        let even = |e: &Even| json!({ "first": e.first, "step": e.step, "values": e.values });
+        json!({
+            "waveform": even(&self.waveform), "spectrum": even(&self.spectrum), "envelope": even(&self.envelope),
+            "enters": self.enters, "leaves": self.leaves, "entry": even(&self.entry), "exit": even(&self.exit),
+            "angle": self.angle, "length": self.length, "stiffness": self.stiffness, "force": self.force,
+        })
+    }
+
+    /// From what [`Curves::to_json`] gave; `None` where it is not that.
+    pub(super) fn from_json(value: &Value) -> Option<Self> {
+        let list = |value: &Value| {
+            let values = value.as_array()?.iter();
+            values.map(Value::as_f64).collect::<Option<Vec<f64>>>()
+        };
+        let even = |key: &str| {
+            let of = value.get(key)?;
+            Some(Even {
+                first: of.get("first")?.as_f64()?,
+                step: of.get("step")?.as_f64()?,
+                values: list(of.get("values")?)?,
+            })
+        };
+        let all = |key: &str| list(value.get(key)?);
+        Some(Self {
+            waveform: even("waveform")?,
+            spectrum: even("spectrum")?,
+            envelope: even("envelope")?,
+            enters: all("enters")?,
+            leaves: all("leaves")?,
+            entry: even("entry")?,
+            exit: even("exit")?,
+            angle: all("angle")?,
+            length: all("length")?,
+            stiffness: all("stiffness")?,
+            force: all("force")?,
+        })
+    }
+}

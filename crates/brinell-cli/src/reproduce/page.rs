@@ -1,0 +1,135 @@
+//! The reproduction as one page.
+
+use super::claims::{card, counts};
+use super::curves::Curves;
+use super::{Asked, Came, figures};
+use brinell::paper::BASE;
+use brinell_report::{Chapter, Fact, Study, StudyPiece, Table, Value};
+
+/// How verdicts come about, in words.
+const RULES: [&str; 4] = [
+    "Intervals are at 95 %: means over blocks of whole turns of the shaft (Student’s t), from after the load ramp and the first turn. “A exceeds \
+     B” is decided by the interval of the ratio of the two means; it holds where that excludes equality, does not hold where it lies at or \
+     below it, and is undecided otherwise.",
+    "“Near” holds where the interval lies wholly within the stated bounds, and does not hold where it lies wholly outside. Trends are decided by \
+     the ratios of neighbours: a step whose interval includes equality may go either way, and a trend holds where it holds whichever way \
+     such steps go, does not hold where it fails whichever way they go.",
+    "A claim holds where all its statements do, in part where some hold and others do not. Each interval stands by itself; of twenty true \
+     equalities one is expected to look decided. What is read off a shape has no interval.",
+    "Nothing was tuned to agree. Baseline: the printed stiffness with n = 10/9, 10 µm of clearance at the inner contact, a point-like roller path, \
+     the law of effective contact length, instantaneous accelerations of the outer ring; supports, viscosity, cage contact and stagger are \
+     the program’s defaults, since the paper states none.",
+];
+
+pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<Curves>) -> Study {
+    let counts = counts(&came.told);
+    let mut facts: Vec<Fact> = counts
+        .iter()
+        .map(|(verdict, n)| {
+            let note = if *n == 1 { "claim" } else { "claims" };
+            Fact::new(
+                capital(verdict.words()),
+                Value::Text(n.to_string()),
+                "",
+                note,
+            )
+        })
+        .collect();
+    if came.sensitivity.is_some() {
+        let n = came
+            .told
+            .iter()
+            .filter(|told| !told.flips.is_empty())
+            .count();
+        facts.push(Fact::new(
+            "Depend on an assumption",
+            Value::Text(n.to_string()),
+            "",
+            "of the above",
+        ));
+    }
+    let mut chapters = vec![Chapter {
+        id: "claims".into(),
+        short: "Claims".into(),
+        title: "The paper’s claims".into(),
+        pieces: vec![StudyPiece::Claims(came.told.iter().map(card).collect())],
+    }];
+    let experiments = asked.experiments.iter();
+    chapters.extend(experiments.map(|e| figures::chapter(e, &came.numbers, &curves)));
+    if let Some(sensitivity) = &came.sensitivity {
+        chapters.extend(sensitivity.chapters());
+    }
+    let mut rules: Vec<StudyPiece> = RULES.map(|w| StudyPiece::Words(w.into())).to_vec();
+    rules.push(StudyPiece::Table(runs(asked)));
+    rules.push(StudyPiece::Table(scenario()));
+    chapters.push(Chapter {
+        id: "rules".into(),
+        short: "Rules".into(),
+        title: "How verdicts come about".into(),
+        pieces: rules,
+    });
+    let mut warnings = Vec::new();
+    if came.interrupted {
+        warnings.push("Interrupted: some runs are missing. The same command goes on.".into());
+    }
+    for (case, reason) in &came.failures {
+        warnings.push(format!("{case} failed: {reason}"));
+    }
+    Study {
+        title: "Li et al. (2023), reproduced".into(),
+        subtitle: format!(
+            "Section 4 of “Dynamic modeling and vibration analysis of double row cylindrical roller bearings with irregular-shaped defects”; \
+             {} turns of the shaft a run",
+            asked.length.turns
+        ),
+        version: brinell::VERSION.into(),
+        warnings,
+        facts,
+        chapters,
+        footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
+                 page."
+            .into(),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+fn runs(asked: &Asked) -> Table {
+    let rows = asked.points.iter().map(|point| {
+        let own = point.case.settings.iter();
+        let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
+        vec![
+            point.case.id.into(),
+            point.case.label.into(),
+            settings.join("; "),
+            format!("{}", point.task.duration_s),
+        ]
+    });
+    Table {
+        title: "Runs".into(),
+        columns: [
+            "Case",
+            "What",
+            "Settings over the base scenario",
+            "#Duration (s)",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        rows: rows.collect(),
+        note: String::new(),
+    }
+}
+
+fn scenario() -> Table {
+    let lines = BASE.lines().filter(|l| !l.trim().is_empty());
+    Table {
+        title: "Base scenario".into(),
+        columns: vec!["TOML".into()],
+        rows: lines.map(|line| vec![line.to_owned()]).collect(),
+        note: String::new(),
+    }
+}

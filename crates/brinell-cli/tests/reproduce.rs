@@ -1,0 +1,118 @@
+//! The reproduction: what it writes, that neither threads nor a cut journal change a byte, and what it refuses.
+
+mod common;
+
+use common::{brinell, files, json};
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+const ONE: [&str; 6] = ["reproduce", "--figure", "9", "--turns", "3", "--quiet"];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    ONE.iter().chain(more).copied().collect()
+}
+
+/// Every file but the journal, whose lines come in the order of completion.
+fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
+    names
+        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
+        .collect()
+}
+
+#[test]
+fn prop_one_figure_whole_cut_and_on_another_number_of_threads() {
+    let folder = tempdir().unwrap();
+    let run = |name: &str, jobs: &str| {
+        brinell(
+            folder.path(),
+            &with(&[
+                "-o",
+                name,
+                "--jobs",
+                jobs,
+                "--plots",
+                "svg",
+                "--book",
+                &format!("{name}/book"),
+            ]),
+        )
+        .exits(0)
+    };
+    run("a", "1");
+    run("b", "2");
+    let (a, b) = (
+        results(&folder.path().join("a")),
+        results(&folder.path().join("b")),
+    );
+    let names: Vec<&str> = a.iter().map(|f| f.0.as_str()).collect();
+    for name in [
+        "claims.csv",
+        "claims.json",
+        "reproduce.html",
+        "plots/fig09-length.svg",
+        "book/reproduction.md",
+        "book/fig09-length.svg",
+    ] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+    assert!(a == b, "the number of threads changes something");
+    // A journal that lost its last line: one run is done again, and nothing changes.
+    let journal = folder.path().join("a/journal.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 4, "a header and three runs");
+    fs::write(&journal, lines[..3].join("\n") + "\n").unwrap();
+    run("a", "1");
+    assert_eq!(fs::read_to_string(&journal).unwrap().lines().count(), 4);
+    assert!(results(&folder.path().join("a")) == a);
+
+    // The effective lengths are exact, so their claim holds however short the runs.
+    let claims = json(&folder.path().join("a/claims.json"));
+    let all = claims["claims"].as_array().unwrap();
+    let length = all.iter().find(|c| c["id"] == "effective-length").unwrap();
+    assert_eq!(length["verdict"], "holds");
+    assert!(
+        all.iter().all(|c| c["id"] != "load-cage"),
+        "belongs to another figure"
+    );
+    let page = fs::read_to_string(folder.path().join("a/reproduce.html")).unwrap();
+    assert!(page.contains("Effective contact length") && !page.contains("NaN"));
+    let book = fs::read_to_string(folder.path().join("a/book/reproduction.md")).unwrap();
+    assert!(book.contains("](book/fig09-length.svg)"));
+}
+
+#[test]
+fn regress_what_is_refused() {
+    let folder = tempdir().unwrap();
+    for (args, part) in [
+        (
+            vec!["reproduce", "--figure", "8"],
+            "allowed: 9 to 20, the figures of section 4",
+        ),
+        (vec!["reproduce", "--figure", "x"], "allowed: 9 to 20"),
+        (vec!["reproduce", "--turns", "2"], "3..=100000"),
+        (
+            vec!["reproduce", "--figure", "9", "--sensitivity"],
+            "cannot be used with",
+        ),
+    ] {
+        let call = brinell(folder.path(), &args).exits(2);
+        assert!(call.err.contains(part), "{args:?}: {}", call.err);
+    }
+    assert!(files(folder.path()).is_empty());
+    // Another campaign's folder.
+    fs::create_dir(folder.path().join("s")).unwrap();
+    fs::write(
+        folder.path().join("s/journal.jsonl"),
+        "{\"campaign\":\"sweep\"}\n",
+    )
+    .unwrap();
+    let call = brinell(folder.path(), &with(&["-o", "s"])).exits(2);
+    assert!(
+        call.err.contains("holds the journal of something else"),
+        "{}",
+        call.err
+    );
+}
