@@ -5,7 +5,7 @@ use crate::defect::{Angles, Defect, SIDES, Side, wrap};
 use crate::model::Model;
 use crate::scenario::{ModelKind, Surface};
 use std::collections::VecDeque;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// One point of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,12 +58,16 @@ const MOST_POINTS: usize = 2048;
 const MOST_EVENTS: usize = 4096;
 /// A pass begins and ends this share of the defect's length beyond its edges.
 const MARGIN: f64 = 0.5;
+/// But a raceway's pass is over before the next roller's begins: at most this share of the way that the damage leaves between two rollers.
+const MARGIN_BETWEEN: f64 = 0.45;
 
 /// One defect under watch.
 #[derive(Debug, Clone)]
 struct Watch {
     first: f64,
     last: f64,
+    /// Beyond either edge, rad.
+    margin: f64,
     /// Of a raceway's defect: cosine of the widest angle from its middle at which a roller is looked at.
     cos_near: Option<f64>,
     /// Contacts that can meet the defect, and whether each stands on it.
@@ -94,11 +98,21 @@ impl Passes {
                 .filter(|&(slot, side)| d.meets(l.row(slot), l.roller(slot), side))
                 .map(|(slot, side)| (slot, side, false))
                 .collect();
-            // Half the arc and the margin, and a little more for round-off.
-            let near = (0.5 + MARGIN) * (last - first) / d.radius + 1e-6;
+            let arc = (last - first) / d.radius;
+            let usual = MARGIN * arc;
+            let between = MARGIN_BETWEEN * (TAU * l.rows as f64 / l.rollers() as f64 - arc);
+            let margin = match d.surface {
+                Surface::Roller(_) => usual,
+                // Where the damage is longer than a pitch, no pass stands alone anyway.
+                _ if between <= 0.0 => usual,
+                _ => usual.min(between),
+            };
+            // A little more for round-off.
+            let near = 0.5 * arc + margin + 1e-6;
             Watch {
                 first: first / d.radius,
                 last: last / d.radius,
+                margin,
                 cos_near: (!matches!(d.surface, Surface::Roller(_)) && near < PI)
                     .then(|| near.cos()),
                 contacts,
@@ -120,7 +134,6 @@ impl Passes {
         let ring = f.model.rotation.at(f.t).1;
         for (index, watch) in self.watches.iter_mut().enumerate() {
             let defect = &f.model.defects[index];
-            let margin = MARGIN * (watch.last - watch.first);
             let middle = defect.center
                 + 0.5 * (watch.first + watch.last)
                 + if defect.surface == Surface::InnerRaceway {
@@ -163,7 +176,8 @@ impl Passes {
                         enters: now,
                     });
                 }
-                let near = from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + margin;
+                let near =
+                    from_middle(u, watch).abs() <= 0.5 * (watch.last - watch.first) + watch.margin;
                 watch.follow(f, index, slot, side, u, near, keep);
             }
         }
@@ -210,7 +224,7 @@ impl Watch {
                         .points
                         .last()
                         .map_or(0.0, |p| wrap(p.angle - pass.points[0].angle).abs());
-                    let whole = span >= 1.5 * (self.last - self.first);
+                    let whole = span >= self.last - self.first + self.margin;
                     if whole && self.best.as_ref().is_none_or(|b| pass.peak > b.peak) {
                         self.best = Some(pass);
                     }
