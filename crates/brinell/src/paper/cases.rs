@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn prop_experiments_name_cases_and_cover_the_figures() {
-        let mut figures = Vec::new();
+        let mut figures: Vec<u32> = Vec::new();
         for experiment in EXPERIMENTS {
             figures.extend(experiment.figures);
             assert!(experiment.cases.iter().all(|id| case(id).is_some()));
