@@ -11,7 +11,6 @@ mod failure;
 mod files;
 mod look_up;
 mod page;
-mod page_motion;
 mod plan;
 mod progress;
 mod run;

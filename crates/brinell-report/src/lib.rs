@@ -40,14 +40,14 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
-pub use load::load_distribution;
+pub use load::{bin_centres, load_distribution};
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
 pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
 pub use page::html;
 pub use picture::{Error, Picture};
 pub use plots::{
-    Layout, bin_centres, detail_window, envelope_spectrum, headline, headline_png, overview, pass,
-    pictures, spectrum, waveform,
+    Layout, detail_window, envelope_spectrum, headline, headline_png, overview, pass, pictures,
+    spectrum, waveform,
 };
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};

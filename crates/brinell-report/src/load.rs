@@ -1,11 +1,14 @@
 //! Load distribution around the bearing, as a polar picture.
 
+use std::f64::consts::TAU;
+
 use crate::chart::{Size, range};
 use crate::data::RowLoad;
 use crate::font;
 use crate::number::{linear_ticks, tick_labels};
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
 use crate::plots::{Layout, legend};
+use crate::thin::straightened;
 
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
 pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
@@ -26,7 +29,10 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
             "mean force",
             Paint::line(ink::BLUE, 1.8).filled(ink::BLUE, 0.18),
         ),
-        ("static equilibrium", Paint::fill(ink::BLACK, 1.0)),
+        (
+            "static equilibrium",
+            Paint::line(ink::BLACK, 1.8).dashed(&[1.5, 3.5]),
+        ),
     ];
     let mut picture = Picture::new(
         "load-distribution",
@@ -117,19 +123,20 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
                 clip: None,
             });
         }
-        for (angle, force) in row
+        let mut known: Vec<(f64, f64)> = row
             .static_points
             .iter()
-            .filter(|(a, f)| a.is_finite() && f.is_finite())
-        {
-            let (x, y) = at(*angle, *force);
-            picture.shapes.push(Shape::Circle {
-                x,
-                y,
-                r: 3.2,
-                paint: Paint::line("#ffffff", 1.0).filled(ink::BLACK, 1.0),
-            });
-        }
+            .copied()
+            .filter(|(angle, force)| angle.is_finite() && force.is_finite())
+            .collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let around = known.iter().map(|(angle, force)| at(*angle, *force));
+        picture.shapes.push(Shape::Path {
+            lines: straightened(vec![around.collect()]),
+            close: true,
+            paint: entries[2].1,
+            clip: None,
+        });
         // Numbers where the load usually is not: the bottom, a little aside.
         for (ring, label) in rings.iter().zip(&labels) {
             let (x, y) = at(247.5, *ring);
@@ -155,4 +162,11 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
         picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
     }
     picture
+}
+
+/// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.
+pub fn bin_centres(bins: usize) -> Vec<f64> {
+    (0..bins)
+        .map(|bin| ((bin as f64 + 0.5) * TAU / bins as f64).to_degrees())
+        .collect()
 }

@@ -2,7 +2,19 @@
 "use strict";
 (() => {
   const charts = {};
-  const decode = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+  // 64 values share a scale: its ends as 32-bit floats, then 16 bits a value; spectra in the logarithm.
+  function decode(text, count, log) {
+    const bytes = atob(text), view = new DataView(new ArrayBuffer(bytes.length)), values = new Float32Array(count);
+    for (let i = 0; i < bytes.length; i++) view.setUint8(i, bytes.charCodeAt(i));
+    for (let at = 0, k = 0; k < count; at += 8 + 2 * 64) {
+      const lo = view.getFloat32(at, true), hi = view.getFloat32(at + 4, true);
+      for (let i = 0; i < 64 && k < count; i++, k++) {
+        const code = view.getUint16(at + 8 + 2 * i, true), v = lo + (hi - lo) * code / 65533;
+        values[k] = code === 65535 ? undefined : code === 65534 ? 0 : log ? Math.exp(v) : v;
+      }
+    }
+    return values;
+  }
   const shown = (svg) => svg.getBoundingClientRect().width > 0;
   const short = (v, digits) => {
     if (!Number.isFinite(v)) return "no value";
@@ -200,7 +212,8 @@
       node.setAttribute("pointer-events", "none");
       svg.append(node);
     };
-    const read = (x, px) => {
+    let cursor;
+    const read = (x) => {
       const nearest = Math.round((x - chart.x0) / chart.dx);
       let index = Math.min(Math.max(nearest, 0), chart.values.length - 1);
       if (chart.peak) {
@@ -239,7 +252,7 @@
         return;
       }
       if (from) overlay(Math.min(Math.max(from[0], l), r), Math.min(Math.max(px, l), r), true);
-      else if (px >= l && px <= r) read(x, px);
+      else if (px >= l && px <= r) read(x);
     });
     svg.addEventListener("pointerup", (event) => {
       fingers.delete(event.pointerId);
@@ -248,7 +261,7 @@
       const [px, x] = at(event), start = from;
       from = null;
       if (Math.abs(px - start[0]) > 6) zoom(name, [Math.min(x, start[1]), Math.max(x, start[1])]);
-      else read(x, px);
+      else read(x);
     });
     svg.addEventListener("pointercancel", (event) => { fingers.delete(event.pointerId); pinch = null; from = null; svg.querySelector(".cursor")?.remove(); });
     svg.addEventListener("pointerleave", () => { if (!from) { svg.querySelector(".cursor")?.remove(); tools.readout.textContent = tools.hint; } });
@@ -260,9 +273,19 @@
       around(at(event)[1], Math.exp(Math.max(-1, Math.min(1, event.deltaY * (event.deltaMode ? 0.05 : 0.004)))));
     }, { passive: false });
     svg.tabIndex = 0;
+    svg.setAttribute("aria-description", "Arrow keys move the view, plus and minus zoom, Escape goes back, Shift with an arrow key moves the cursor");
+    svg.addEventListener("blur", () => { svg.querySelector(".cursor")?.remove(); cursor = undefined; tools.readout.textContent = tools.hint; });
     svg.addEventListener("keydown", (event) => {
       const [a, c] = plot.view, step = (c - a) / 5;
       const act = { ArrowLeft: () => zoom(name, [a - step, c - step]), ArrowRight: () => zoom(name, [a + step, c + step]), "+": () => around((a + c) / 2, 0.5), "=": () => around((a + c) / 2, 0.5), "-": () => around((a + c) / 2, 2), Escape: () => zoom(name, null), 0: () => zoom(name, null) }[event.key];
+      if (event.shiftKey && (event.key === "ArrowLeft" || event.key === "ArrowRight") && !event.ctrlKey && !event.metaKey && !event.altKey) {
+        // The cursor, a hundredth of the view or a value at a time.
+        event.preventDefault();
+        const stride = Math.max((c - a) / 100, chart.dx) * (event.key === "ArrowLeft" ? -1 : 1);
+        cursor = Math.min(Math.max(cursor >= a && cursor <= c ? cursor + stride : (a + c) / 2, a), c);
+        read(cursor);
+        return;
+      }
       if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
       act();
@@ -275,6 +298,7 @@
     node.type = "button";
     node.textContent = label;
     node.title = title;
+    node.setAttribute("aria-label", title);
     node.addEventListener("click", act);
     return node;
   };
@@ -314,7 +338,7 @@
 
   document.querySelectorAll("script[data-chart]").forEach((script) => {
     const chart = JSON.parse(script.textContent);
-    chart.values = decode(chart.values);
+    chart.values = decode(chart.values, chart.count, chart.peak);
     chart.plots = [];
     chart.picked = new Set(chart.toggles.flatMap((toggle, index) => toggle[3] && chart.lanes.length ? [index] : []));
     charts[script.dataset.chart] = chart;
@@ -324,9 +348,11 @@
     const drawings = [...figure.querySelectorAll("svg")];
     if (!drawings.length) return;
     const current = () => drawings.find(shown) || drawings[0];
+    const title = drawings[0].getAttribute("aria-label") || drawings[0].dataset.name;
     const bar = document.createElement("div"), readout = document.createElement("div");
     bar.className = "tools";
     readout.className = "readout";
+    readout.setAttribute("role", "status");
     const chart = charts[drawings[0].dataset.plot];
     const tools = { readout, hint: chart && chart.values.length > 8 ? "Drag, pinch or Ctrl + wheel to zoom, double click to go back" : "" };
     readout.textContent = tools.hint;
@@ -334,15 +360,15 @@
     if (tools.hint) {
       const name = drawings[0].dataset.plot;
       bar.append(
-        button("+", "Zoom in", () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a + w / 4, b - w / 4]); }),
-        button("−", "Zoom out", () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a - w / 2, b + w / 2]); }),
-        button("All", "Show everything that is kept", () => zoom(name, [-Infinity, Infinity].map((v) => Math.min(Math.max(v, chart.x0), chart.x0 + chart.dx * (chart.values.length - 1))))),
-        button("Reset", "Back to the first view", () => zoom(name, null)),
+        button("+", `Zoom in: ${title}`, () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a + w / 4, b - w / 4]); }),
+        button("−", `Zoom out: ${title}`, () => { const [a, b] = chart.plots[0].view, w = b - a; zoom(name, [a - w / 2, b + w / 2]); }),
+        button("All", `Show everything that is kept: ${title}`, () => zoom(name, [-Infinity, Infinity].map((v) => Math.min(Math.max(v, chart.x0), chart.x0 + chart.dx * (chart.values.length - 1))))),
+        button("Reset", `Back to the first view: ${title}`, () => zoom(name, null)),
       );
     }
     bar.append(
-      button("SVG", "Save this picture as SVG", () => save(current().dataset.name + ".svg", new Blob([file(current())], { type: "image/svg+xml" }))),
-      button("PNG", "Save this picture as PNG", () => savePng(current())),
+      button("SVG", `Save as SVG: ${title}`, () => save(current().dataset.name + ".svg", new Blob([file(current())], { type: "image/svg+xml" }))),
+      button("PNG", `Save as PNG: ${title}`, () => savePng(current())),
     );
     figure.prepend(bar);
     if (!tools.hint) return;
@@ -351,7 +377,7 @@
       picks.className = "tools picks";
       picks.append("Harmonics of");
       chart.toggles.forEach(([label, frequency, color], index) => {
-        const node = button(label, `Mark the harmonics of ${label}, ${short(frequency, 6)} ${chart.xUnit}`, () => {
+        const node = button(label, `Mark the harmonics of ${label}, ${short(frequency, 6)} ${chart.xUnit}: ${title}`, () => {
           chart.picked[chart.picked.has(index) ? "delete" : "add"](index);
           node.setAttribute("aria-pressed", chart.picked.has(index));
           chart.plots.forEach((plot) => draw(plot, plot.view));

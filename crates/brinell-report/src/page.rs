@@ -89,6 +89,8 @@ pub fn html(report: &Report) -> String {
             "passes" => "Passes",
             "load" => "Load",
             "motion" => "Motion",
+            "orbit" => "Orbit",
+            "work" => "Solver",
             _ => name,
         };
         let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");

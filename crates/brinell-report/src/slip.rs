@@ -47,6 +47,65 @@ fn paint(row: usize) -> Paint {
 /// A curve's points.
 type Curve = (Vec<f64>, Vec<f64>);
 
+/// Swings across the picture that come closer than this are one blot, px.
+const SWING: f64 = 8.0;
+/// Means over this share of the picture stand for such a curve.
+const MEANS: usize = 60;
+/// Of the shade behind them.
+const SHADE: f64 = 0.28;
+
+/// Whether a curve swings, over a quarter of its range and back, too often for the width (px).
+fn crowded(curves: &[Curve], width: f64) -> bool {
+    curves.iter().any(|(_, ys)| {
+        let Some((lo, hi)) = range(ys.iter().copied()) else {
+            return false;
+        };
+        let reach = 0.25 * (hi - lo);
+        let (mut swings, mut up) = (0, true);
+        let mut turned = lo;
+        for y in ys.iter().copied().filter(|y| y.is_finite()) {
+            if up {
+                turned = turned.max(y);
+            } else {
+                turned = turned.min(y);
+            }
+            if (y - turned).abs() > reach {
+                (swings, up, turned) = (swings + 1, !up, y);
+            }
+        }
+        f64::from(swings) * SWING > width
+    })
+}
+
+/// From smallest to largest in each of as many groups as can be told apart.
+fn shade(chart: &mut Chart, (xs, ys): &Curve, paint: Paint) {
+    let (Some(first), Some(second)) = (xs.first(), xs.get(1)) else {
+        return;
+    };
+    let groups = ((chart.frame.width() / SWING) as usize).clamp(1, ys.len());
+    let (low, high): (Vec<f64>, Vec<f64>) = (0..groups)
+        .map(|k| &ys[k * ys.len() / groups..(k + 1) * ys.len() / groups])
+        .map(|g| range(g.iter().copied()).unwrap_or((f64::NAN, f64::NAN)))
+        .unzip();
+    let dx = second - first;
+    let group = dx * ys.len() as f64 / groups as f64;
+    let fill = Paint::fill(paint.stroke, SHADE);
+    chart.band(first - 0.5 * dx, group, &low, &high, fill);
+}
+
+/// Means of groups, at their middles.
+fn means(xs: &[f64], ys: &[f64]) -> Curve {
+    let group = ys.len().div_ceil(MEANS).max(1);
+    let mean = |g: &[f64]| {
+        let known = || g.iter().filter(|v| v.is_finite());
+        known().sum::<f64>() / known().count() as f64
+    };
+    xs.chunks(group)
+        .zip(ys.chunks(group))
+        .map(|(x, y)| (mean(x), mean(y)))
+        .unzip()
+}
+
 /// Panels over one another on one x axis, a curve a row in each.
 fn panels(
     (name, title): (&str, &str),
@@ -88,11 +147,27 @@ fn panels(
     let left = specs.iter().map(left_margin).fold(0.0, f64::max);
     specs.iter_mut().for_each(|spec| spec.left = left);
     let mut picture = Picture::new(name, title, size.width, 0.0);
-    let entries: Vec<(&str, Paint)> = rows
+    let any_close = panels
+        .iter()
+        .any(|(_, curves)| crowded(curves, size.width - left));
+    let names: Vec<String> = rows
+        .iter()
+        .map(|row| match any_close {
+            true => format!("{}, mean", row.name),
+            false => row.name.clone(),
+        })
+        .collect();
+    let mut entries: Vec<(&str, Paint)> = names
         .iter()
         .enumerate()
-        .map(|(k, row)| (row.name.as_str(), paint(k)))
+        .map(|(k, name)| (name.as_str(), paint(k)))
         .collect();
+    if any_close {
+        entries.push((
+            "shade: smallest to largest",
+            Paint::line(paint(0).stroke, 9.0).faded(SHADE),
+        ));
+    }
     let mut top = legend(&mut picture, &entries, left, size.width, 2.0, size.font);
     for (spec, (_, curves)) in specs.into_iter().zip(panels) {
         let height = spec.size.height;
@@ -100,8 +175,17 @@ fn panels(
         if range(curves.iter().flat_map(|c| &c.1).copied()).is_none() {
             chart.say("Not recorded");
         }
+        let close = crowded(curves, chart.frame.width());
+        for (row, curve) in curves.iter().enumerate().filter(|_| close) {
+            shade(&mut chart, curve, paint(row));
+        }
         for (row, (xs, ys)) in curves.iter().enumerate() {
-            chart.points(xs, ys, paint(row));
+            if close {
+                let (xs, ys) = means(xs, ys);
+                chart.points(&xs, &ys, paint(row));
+            } else {
+                chart.points(xs, ys, paint(row));
+            }
         }
         picture.place(chart.finish(), 0.0, top);
         top += height;

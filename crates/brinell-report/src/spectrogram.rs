@@ -103,7 +103,7 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
         y_unit: "Hz".into(),
         lanes: vec![],
         left: 0.0,
-        right: 5.6 * size.font,
+        right: 6.4 * size.font,
         x_axis: true,
     });
     let (columns, levels) = view.levels(if layout == Layout::Wide { 400 } else { 200 });
@@ -154,6 +154,18 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     }
     let head = Text::new(bar.left, frame.top + 1.1 * font, font, Anchor::Start, "dB");
     chart.picture.text(head);
+    if !view.unit.is_empty() {
+        let words = format!("re 1 {}", view.unit);
+        let middle = 0.5 * (bar.top + bar.bottom);
+        let unit = Text::with_unit(
+            size.width - 0.4 * font,
+            middle,
+            font,
+            Anchor::Middle,
+            &words,
+        );
+        chart.picture.text(unit.upright());
+    }
     chart.finish()
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn fact_table(page: &mut String, facts: &[Fact], absent: &str) {
     for fact in facts {
         let _ = write!(page, "<tr><th scope=\"row\">{}</th>", escape(&fact.label));
         value_cells(page, &fact.value, &fact.unit);
-        let _ = write!(page, "<td class=\"note\">{}", escape(&fact.note));
+        let _ = write!(page, "<td class=\"note\">{}", unit_html(&fact.note));
         if let Some(ok) = fact.ok {
             let _ = write!(page, " {}", judged(ok));
         }

@@ -4,9 +4,8 @@ use crate::accuracy::settings;
 use crate::bearing::Kinematics;
 use crate::defect::Defect;
 use crate::model::Model;
-use crate::observe::load_zone::{StaticLoadZone, static_load_zone};
 use crate::scenario::{Accuracy, LoadOn, Surface};
-use crate::statics::NoBalance;
+use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 use std::f64::consts::TAU;
 
 /// Derived quantities, as `brinell check` prints them.

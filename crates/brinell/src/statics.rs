@@ -4,9 +4,12 @@
 //! roller's radial offset is eliminated, for it has one equilibrium at given ring offsets. Centrifugal force and gravity act
 //! on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
 
+mod load_zone;
+
 use crate::defect::{Angles, Side, acting, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
+pub use load_zone::{StaticLoadZone, static_load_zone};
 
 /// Question put to the solver.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,12 +2,12 @@
 
 use crate::document::{Loaded, Provenance};
 use crate::model::Model;
-use crate::observe::load_zone::{BINS, StaticLoadZone};
+use crate::observe::load_zone::BINS;
 use crate::observe::{Findings, passes};
 use crate::scenario::{Accuracy, ModelKind, Speed};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
-use crate::statics::NoBalance;
+use crate::statics::{NoBalance, StaticLoadZone};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 

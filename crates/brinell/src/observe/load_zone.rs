@@ -2,9 +2,8 @@
 
 use crate::channel::Frame;
 use crate::defect::{Side, wrap};
-use crate::model::{Layout, Model};
+use crate::model::Layout;
 use crate::scenario::ModelKind;
-use crate::statics::{self, NoBalance, Problem};
 use std::f64::consts::TAU;
 
 /// Angular bins around the bearing.
@@ -73,76 +72,4 @@ impl LoadZone {
             row.count[bin] += 1;
         }
     }
-}
-
-/// Load distribution of the static balance: rollers of all rows at several positions of the cage.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StaticLoadZone {
-    /// (row from 0, orbit angle in rad in [-pi, pi), Q_in, Q_out in N).
-    pub points: Vec<(usize, f64, f64, f64)>,
-    /// Largest Q_out, N.
-    pub largest: f64,
-    /// Extent of the zone where the inner raceway carries, rad; 0 where none does.
-    pub extent: f64,
-    /// Mean ring offset, inner less outer, m.
-    pub shift: [f64; 2],
-    /// Mean stiffness of the bearing between its rings, N/m.
-    pub stiffness: [[f64; 2]; 2],
-}
-
-/// Positions of the cage over one pitch.
-const PHASES: usize = 16;
-
-/// The healthy or damaged bearing's static load distribution under its full load, as the cage turns through a pitch.
-///
-/// # Errors
-/// Where the rings are not held against the load.
-pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
-    let l = &model.layout;
-    let mut problem = Problem::at_start(model);
-    let pitch = TAU / l.rollers_per_row as f64;
-    let mut zone = StaticLoadZone {
-        points: Vec::with_capacity(PHASES * l.rollers()),
-        largest: 0.0,
-        extent: 0.0,
-        shift: [0.0; 2],
-        stiffness: [[0.0; 2]; 2],
-    };
-    for phase in 0..PHASES {
-        let turn = pitch * phase as f64 / PHASES as f64;
-        problem
-            .orbit
-            .iter_mut()
-            .zip(&model.pocket_angle)
-            .for_each(|(o, a)| *o = a + turn);
-        let balance = statics::solve(model, &problem)?;
-        problem.guess = [balance.inner, balance.outer];
-        for slot in 0..l.rollers() {
-            let force = balance.outer_force[slot];
-            zone.points.push((
-                l.row(slot),
-                wrap(problem.orbit[slot]),
-                balance.inner_force[slot],
-                force,
-            ));
-            zone.largest = zone.largest.max(force);
-        }
-        for k in 0..2 {
-            zone.shift[k] += (balance.inner[k] - balance.outer[k]) / PHASES as f64;
-            for j in 0..2 {
-                zone.stiffness[k][j] += balance.stiffness[k][j] / PHASES as f64;
-            }
-        }
-    }
-    let middle = zone.shift[1].atan2(zone.shift[0]);
-    let (mut first, mut last) = (0.0_f64, 0.0_f64);
-    for &(_, angle, inner, _) in &zone.points {
-        if inner > 0.0 {
-            let from_middle = wrap(angle - middle);
-            first = first.min(from_middle);
-            last = last.max(from_middle);
-        }
-    }
-    zone.extent = last - first;
-    Ok(zone)
 }

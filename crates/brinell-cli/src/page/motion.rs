@@ -1,5 +1,6 @@
 //! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
+use crate::say::short;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
 use brinell::scenario::{Guidance, Surface};
@@ -9,7 +10,7 @@ use brinell_report::{
 };
 use std::f64::consts::TAU;
 
-pub(crate) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
+pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
     let Some(s) = &parts.findings.spectrogram else {
         return Spectrogram::default();
     };
@@ -28,13 +29,13 @@ pub(crate) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
         bins: s.bins,
         density: s.density.clone(),
         note: format!(
-            "The whole run; Hann windows of {:.3} ms that overlap by half{averaged}.",
-            1e3 / s.frequency_step
+            "The whole run; Hann windows of {} ms that overlap by half{averaged}.",
+            short(1e3 / s.frequency_step, 3)
         ),
     }
 }
 
-pub(crate) fn cage_orbits(parts: &Parts) -> CageOrbits {
+pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
     let model = parts.simulation.model();
     let orbit = &parts.findings.cage_orbit;
     let guide = match model.guidance {
@@ -66,7 +67,7 @@ pub(crate) fn cage_orbits(parts: &Parts) -> CageOrbits {
     }
 }
 
-pub(crate) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
+pub(super) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
     let course = &parts.findings.slip_course;
     let dt = course.samples_per_stretch() as f64 / parts.simulation.sample_rate();
     let percent = |values: Vec<f64>| values.into_iter().map(|x| 100.0 * x).collect();
@@ -88,7 +89,7 @@ pub(crate) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
         .collect()
 }
 
-pub(crate) fn motion(parts: &Parts) -> Motion {
+pub(super) fn motion(parts: &Parts) -> Motion {
     let model = parts.simulation.model();
     let (l, g) = (&model.layout, &model.geometry);
     let kept = &parts.findings.motion;

@@ -1,0 +1,66 @@
+//! Of the report's data, the contacts: a roller's pass over a defect, and forces around the bearing.
+
+use brinell::channel::STIFFNESS_UNIT;
+use brinell::defect::Side;
+use brinell::observe::passes::{Pass, place};
+use brinell::statics::StaticLoadZone;
+use brinell::summary::Parts;
+use brinell_report::RowLoad;
+
+/// Points of a pass that are drawn.
+const PASS_POINTS: usize = 600;
+pub(super) fn pass(parts: &Parts, pass: &Pass) -> brinell_report::Pass {
+    let model = parts.simulation.model();
+    let l = &model.layout;
+    let stride = pass.points.len().div_ceil(PASS_POINTS).max(1);
+    let points: Vec<_> = pass.points.iter().step_by(stride).collect();
+    let contact = match pass.side {
+        Side::Inner => "inner contact",
+        Side::Outer => "outer contact",
+    };
+    brinell_report::Pass {
+        title: format!(
+            "Roller {} of row {} over defect {} ({})",
+            l.roller(pass.slot) + 1,
+            l.row(pass.slot) + 1,
+            pass.defect + 1,
+            place(&model.defects[pass.defect])
+        ),
+        angle_deg: points.iter().map(|p| p.angle.to_degrees()).collect(),
+        length_mm: points.iter().map(|p| 1e3 * p.length).collect(),
+        other_length_mm: None,
+        stiffness: points.iter().map(|p| p.stiffness).collect(),
+        stiffness_unit: if (parts.loaded.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9 {
+            "N/m^(10/9)".into()
+        } else {
+            STIFFNESS_UNIT.into()
+        },
+        force_n: points.iter().map(|p| p.force).collect(),
+        contact: contact.into(),
+        other_contact: String::new(),
+    }
+}
+
+pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
+    let statics: &[(usize, f64, f64, f64)] = match parts.statics {
+        Ok(StaticLoadZone { points, .. }) => points,
+        Err(_) => &[],
+    };
+    let rows = parts.findings.load_zone.rows.iter().enumerate();
+    rows.map(|(row, load)| {
+        let mut static_points: Vec<(f64, f64)> = statics
+            .iter()
+            .filter(|p| p.0 == row)
+            .map(|p| (p.1.to_degrees(), p.3))
+            .collect();
+        static_points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        RowLoad {
+            title: format!("Row {}, force at the outer contact", row + 1),
+            angle_deg: brinell_report::bin_centres(load.max.len()),
+            mean_n: load.mean(),
+            max_n: load.max.clone(),
+            static_points,
+        }
+    })
+    .collect()
+}

@@ -1,0 +1,108 @@
+//! From a run's results to the report's data: names, units and notes for people.
+
+mod contacts;
+mod motion;
+mod signals;
+mod tables;
+
+use crate::say::short;
+use brinell::scenario::{ModelKind, Scenario, Speed};
+use brinell::simulate::End;
+use brinell::summary::Parts;
+use brinell_report::Report;
+use contacts::{load_distribution, pass};
+use motion::{cage_orbits, motion, slip_rows, spectrogram};
+use signals::{envelope_spectrum, indicators, markers, spectrum, waveform};
+use tables::{assumptions, audits, facts, slip, solver_work};
+
+/// The page's data.
+pub(crate) fn report(parts: &Parts) -> Report {
+    let scenario = &parts.loaded.scenario;
+    let (damage, undrawn_damage) = match crate::damage::all(scenario, None) {
+        Ok(all) => (all.into_iter().map(|d| d.view).collect(), None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
+    Report {
+        title: scenario.name.clone(),
+        subtitle: subtitle(scenario),
+        version: brinell::VERSION.to_owned(),
+        partial: match &parts.outcome.end {
+            End::Complete => None,
+            End::Stopped => Some("the run was stopped before its duration".into()),
+            End::Failed(error) => Some(error.to_string()),
+        },
+        facts: facts(parts),
+        waveform: waveform(parts),
+        spectrum: spectrum(parts),
+        spectrogram: spectrogram(parts, measured(parts)),
+        envelope_spectrum: envelope_spectrum(parts),
+        markers: markers(parts),
+        damage,
+        undrawn_damage,
+        passes: parts
+            .findings
+            .passes
+            .best()
+            .iter()
+            .map(|p| pass(parts, p))
+            .collect(),
+        load_distribution: load_distribution(parts),
+        indicators: indicators(parts),
+        slip: slip(parts),
+        slip_rows: slip_rows(parts),
+        cage_orbits: cage_orbits(parts),
+        motion: motion(parts),
+        audits: audits(parts),
+        solver_work: solver_work(parts),
+        assumptions: assumptions(parts),
+        scenario_toml: parts.loaded.to_toml(),
+    }
+}
+
+fn axis(parts: &Parts) -> &'static str {
+    ["x", "y"][parts.findings.axis]
+}
+
+/// What waveform and spectra show.
+fn measured(parts: &Parts) -> String {
+    format!("Outer ring acceleration, {} (measured)", axis(parts))
+}
+
+fn speed(scenario: &Scenario) -> String {
+    match &scenario.operation.speed_rpm {
+        Speed::Constant(rpm) => format!("{rpm} r/min"),
+        Speed::Profile(points) => {
+            let ends = |k: usize| points.get(k).map_or(0.0, |p| p[1]);
+            format!(
+                "{} to {} r/min",
+                ends(0),
+                ends(points.len().saturating_sub(1))
+            )
+        }
+    }
+}
+
+fn subtitle(scenario: &Scenario) -> String {
+    let b = &scenario.bearing;
+    let bearing = b.preset.clone().unwrap_or_else(|| {
+        format!(
+            "{} rows of {} rollers, {} mm pitch",
+            b.rows, b.rollers_per_row, b.pitch_diameter_mm
+        )
+    });
+    let damage = match scenario.defects.len() {
+        0 => "healthy".to_owned(),
+        1 => "one defect".to_owned(),
+        n => format!("{n} defects"),
+    };
+    let load = scenario.operation.load_n;
+    let model = match scenario.simulation.model {
+        ModelKind::Full => "full model",
+        ModelKind::Reference => "reference model",
+    };
+    format!(
+        "{bearing}, {damage}, {}, load {} N, {model}",
+        speed(scenario),
+        short(load[0].hypot(load[1]), 4)
+    )
+}

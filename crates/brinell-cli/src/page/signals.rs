@@ -1,0 +1,187 @@
+//! Of the report's data, the measured signal: waveform, spectra, defect frequencies, indicators.
+
+use super::{axis, measured};
+use crate::say::short;
+use brinell::bearing::Kinematics;
+use brinell::observe::{ChannelStatistics, Kind};
+use brinell::scenario::Speed;
+use brinell::signal::Indicator;
+use brinell::summary::Parts;
+use brinell_report::{
+    Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum,
+    Waveform,
+};
+use std::f64::consts::TAU;
+
+/// Harmonics of a defect frequency that are marked.
+const HARMONICS: usize = 5;
+/// Indicators that the table shows.
+const COLUMNS: [(Indicator, &str); 5] = [
+    (Indicator::Rms, "RMS"),
+    (Indicator::PeakToPeak, "Peak to peak"),
+    (Indicator::CrestFactor, "Crest factor"),
+    (Indicator::Kurtosis, "Kurtosis"),
+    (Indicator::Skewness, "Skewness"),
+];
+
+pub(super) fn waveform(parts: &Parts) -> Waveform {
+    let f = parts.findings;
+    let dt = 1.0 / parts.simulation.sample_rate();
+    let (first, values) = f.waveform.latest();
+    let t0 = first as f64 * dt;
+    let (bins, per_bin) = f.waveform.overview();
+    let l = &parts.simulation.model().layout;
+    Waveform {
+        series: Series {
+            label: measured(parts),
+            unit: "m/s^2".into(),
+            t0_s: t0,
+            dt_s: dt,
+            values,
+        },
+        overview: Some(MinMax {
+            t0_s: 0.0,
+            dt_s: per_bin as f64 * dt,
+            min: bins.iter().map(|b| b[0]).collect(),
+            max: bins.iter().map(|b| b[1]).collect(),
+        }),
+        events: f
+            .passes
+            .events
+            .iter()
+            .filter(|e| e.t >= t0)
+            .map(|e| Event {
+                t_s: e.t,
+                kind: if e.enters {
+                    EventKind::Enter
+                } else {
+                    EventKind::Leave
+                },
+                label: format!("{}·{:02}", l.row(e.slot) + 1, l.roller(e.slot) + 1),
+            })
+            .collect(),
+    }
+}
+
+pub(super) fn spectrum(parts: &Parts) -> Spectrum {
+    let Some(s) = &parts.findings.spectrum else {
+        return Spectrum::default();
+    };
+    Spectrum {
+        label: "Acceleration amplitude".into(),
+        df_hz: s.frequency_step,
+        amplitude: s.amplitude.clone(),
+        unit: "m/s^2".into(),
+        note: format!(
+            "Measured acceleration along {}, peak amplitude, Hann window, {} of {} samples.",
+            axis(parts),
+            if s.segments == 1 {
+                "one segment".to_owned()
+            } else {
+                format!("mean of {} segments", s.segments)
+            },
+            s.segment_length
+        ),
+    }
+}
+
+pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
+    let Some((e, band)) = &parts.findings.envelope else {
+        return Spectrum::default();
+    };
+    Spectrum {
+        label: "Envelope amplitude".into(),
+        df_hz: e.spectrum.frequency_step,
+        amplitude: e.spectrum.amplitude.clone(),
+        unit: "m/s^2".into(),
+        note: format!(
+            "Envelope of the measured acceleration between {:.1} and {:.1} kHz.{}",
+            1e-3 * band.low,
+            1e-3 * band.high,
+            match parts.loaded.scenario.operation.speed_rpm {
+                Speed::Constant(_) => "",
+                Speed::Profile(_) => " The speed varies, so no defect frequency is a line here.",
+            }
+        ),
+    }
+}
+
+/// Defect frequencies at constant speed; at a varying speed there are none to mark.
+pub(super) fn markers(parts: &Parts) -> Vec<Marker> {
+    let scenario = &parts.loaded.scenario;
+    let Speed::Constant(_) = scenario.operation.speed_rpm else {
+        return Vec::new();
+    };
+    let model = parts.simulation.model();
+    let k: Kinematics = model.kinematics(model.rotation.at(0.0).0);
+    let damaged: Vec<&str> = scenario
+        .defects
+        .iter()
+        .map(|d| k.struck_by(d.on).0)
+        .collect();
+    // Strikes first, then what modulates them.
+    let shaft = model.rotation.at(0.0).0.abs() / TAU;
+    ["BPFO", "BPFI", "2 BSF", "FTF", "shaft"]
+        .into_iter()
+        .filter_map(|name| k.table(shaft).into_iter().find(|row| row.0 == name))
+        .map(|(name, frequency_hz, meaning)| Marker {
+            label: name.into(),
+            meaning: meaning.into(),
+            frequency_hz,
+            harmonics: HARMONICS,
+            present: damaged.contains(&name),
+        })
+        .collect()
+}
+
+pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
+    let cell = |channel: &ChannelStatistics, indicator: Indicator| {
+        let unit = if indicator.has_unit() {
+            channel.unit
+        } else {
+            ""
+        };
+        match channel.blocks.estimate(indicator) {
+            Some(e) => Estimate {
+                value: e.value,
+                half_width: e.interval.map(|i| 0.5 * (i.high - i.low)),
+                unit: unit.into(),
+            },
+            None => Estimate {
+                value: f64::NAN,
+                half_width: None,
+                unit: unit.into(),
+            },
+        }
+    };
+    let mut rows: Vec<IndicatorRow> = parts
+        .findings
+        .channels
+        .iter()
+        .filter(|c| c.unit == "m/s^2" && !c.name.starts_with("roller"))
+        .map(|c| IndicatorRow {
+            channel: c.name.clone(),
+            kind: match c.kind {
+                Kind::AntiAliased => "measured (anti-aliased)".into(),
+                Kind::Instantaneous => "instantaneous".into(),
+            },
+            cells: COLUMNS.iter().map(|(i, _)| cell(c, *i)).collect(),
+        })
+        .collect();
+    // What a sensor sees comes first.
+    rows.sort_by_key(|r| {
+        (
+            !r.channel.starts_with("measured"),
+            r.kind == "instantaneous",
+        )
+    });
+    IndicatorTable {
+        columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),
+        rows,
+        note: format!(
+            "From t = {} s on. ± is half the 95 % interval of the mean over blocks of whole revolutions. The anti-alias \
+             filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
+            short(parts.findings.from, 3)
+        ),
+    }
+}

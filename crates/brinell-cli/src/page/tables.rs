@@ -1,0 +1,226 @@
+//! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
+
+use super::axis;
+use crate::say::short;
+use brinell::observe::Kind;
+use brinell::observe::passes::place;
+use brinell::scenario::Accuracy;
+use brinell::signal::Indicator;
+use brinell::summary::Parts;
+use brinell_report::{Assumption, Fact};
+
+pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    let name = format!("measured_a{}", axis(parts));
+    let measured = parts
+        .findings
+        .channels
+        .iter()
+        .find(|c| c.name == name && c.kind == Kind::AntiAliased);
+    if let Some(channel) = measured {
+        for (indicator, label) in [
+            (Indicator::Rms, "RMS of the outer ring's acceleration"),
+            (Indicator::Kurtosis, "Kurtosis"),
+        ] {
+            let Some(e) = channel.blocks.estimate(indicator) else {
+                continue;
+            };
+            let unit = if indicator.has_unit() {
+                channel.unit
+            } else {
+                ""
+            };
+            let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
+                format!(
+                    "anti-aliased; 95 %: {} to {}",
+                    short(i.low, 3),
+                    short(i.high, 3)
+                )
+            });
+            facts.push(Fact::new(
+                label,
+                brinell_report::Value::Text(short(e.value, 3)),
+                unit,
+                note,
+            ));
+        }
+    }
+    for line in &parts.findings.lines {
+        let defect = &parts.simulation.model().defects[line.defect];
+        let value = line
+            .found
+            .map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
+        let note = match line.found {
+            Some(f) => format!(
+                "{} in the envelope, ± {} Hz; pure rolling {:.2} Hz",
+                place(defect),
+                short(f.uncertainty, 1),
+                line.nominal
+            ),
+            None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
+        };
+        facts.push(Fact::new(
+            line.name,
+            brinell_report::Value::Text(value),
+            "Hz",
+            note,
+        ));
+    }
+    if let Ok(zone) = parts.statics {
+        facts.push(Fact::new(
+            "Heaviest contact, static",
+            brinell_report::Value::Text(short(zone.largest, 3)),
+            "N",
+            format!("load zone {:.0}° wide", zone.extent.to_degrees()),
+        ));
+    }
+    facts
+}
+
+pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    let percent = |x: f64| brinell_report::Value::Text(short(100.0 * x, 3));
+    for (row, slip) in parts.findings.slip.rows.iter().enumerate() {
+        let entries = [
+            ("cage", slip.cage(), "behind its pure-rolling speed"),
+            (
+                "loaded rollers, orbit",
+                slip.loaded_orbit(),
+                "behind their pure-rolling orbit speed",
+            ),
+            (
+                "loaded rollers, inner contact",
+                slip.loaded_surface(),
+                "mean |slip| over the raceway's surface speed",
+            ),
+            (
+                "unloaded rollers, orbit",
+                slip.unloaded_orbit(),
+                "behind their pure-rolling orbit speed",
+            ),
+        ];
+        for (label, value, note) in entries {
+            if let Some(value) = value {
+                facts.push(Fact::new(
+                    format!("Row {}: {label}", row + 1),
+                    percent(value),
+                    "%",
+                    note,
+                ));
+            }
+        }
+    }
+    facts
+}
+
+/// Limits of the audits: beyond them something is wrong with the run.
+const MOMENTUM_LIMIT: f64 = 1e-12;
+const ENERGY_LIMIT: f64 = 1e-2;
+
+pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
+    let e = &parts.outcome.energy;
+    let f = &e.flows;
+    let mj = |label: &str, joule: f64, note: &str| {
+        Fact::new(
+            label,
+            brinell_report::Value::Text(short(1e3 * joule, 4)),
+            "mJ",
+            note,
+        )
+    };
+    let mut facts = Vec::new();
+    if let Some(x) = parts.outcome.momentum_imbalance {
+        let value = brinell_report::Value::Text(short(x, 2));
+        let note =
+            "largest force without a reaction, relative to all forces; round-off is about 1e-15";
+        facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
+    }
+    let relative = e.residual().abs() / e.turnover().max(f64::MIN_POSITIVE);
+    facts.push(
+        mj(
+            "Energy residual",
+            e.residual(),
+            "change less everything booked: the integrator's error",
+        )
+        .judged(relative < ENERGY_LIMIT),
+    );
+    facts.push(mj(
+        "Change of energy held",
+        e.last.total() - e.initial.total(),
+        "kinetic, elastic and gravity",
+    ));
+    facts.push(mj(
+        "Input by the drive",
+        f.drive,
+        "through the friction of the inner raceway",
+    ));
+    facts.push(mj("Input by the load", f.load, ""));
+    facts.push(mj("Guidance film", f.film, "net work on the bodies"));
+    facts.push(mj("Dissipated in contact damping", f.contact, ""));
+    facts.push(mj("Dissipated in raceway friction", f.friction, ""));
+    facts.push(mj(
+        "Dissipated in pockets",
+        f.pocket + f.pocket_friction,
+        "damping and friction",
+    ));
+    facts.push(mj("Dissipated in supports", f.support, ""));
+    facts.push(mj("Dissipated in drag", f.drag, ""));
+    facts.push(mj(
+        "Parametric work of defects",
+        e.parametric,
+        "stiffness that changes under a roller; no body pays for it in the paper's model",
+    ));
+    facts.push(mj(
+        "Centred levers",
+        f.lever,
+        "contact forces act through the bearing's centre, as in the paper",
+    ));
+    facts
+}
+
+pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
+    let w = &parts.outcome.work;
+    let count = |label: &str, n: u64, note: &str| {
+        Fact::new(label, brinell_report::Value::Text(n.to_string()), "", note)
+    };
+    let accuracy = match parts.loaded.scenario.simulation.accuracy {
+        Accuracy::Standard => "standard",
+        Accuracy::Reference => "reference",
+    };
+    vec![
+        Fact::new(
+            "Accuracy",
+            accuracy,
+            "",
+            "Bogacki-Shampine 3(2), adaptive, dense output",
+        ),
+        count("Steps", w.solver.steps, ""),
+        count("Rejected steps", w.solver.rejections, ""),
+        count("Right-hand sides", w.solver.evaluations, "for steps"),
+        count(
+            "Right-hand sides for samples",
+            w.sample_evaluations,
+            "at eight times the sample rate",
+        ),
+        count("Contacts opened or closed", w.contact_switches, ""),
+        count("Pockets opened or closed", w.pocket_switches, ""),
+        count("Contacts onto or off damage", w.damage_switches, ""),
+    ]
+}
+
+pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
+    let mut sheet: Vec<Assumption> = parts
+        .loaded
+        .provenance
+        .iter()
+        .map(|p| Assumption {
+            key: p.key.clone(),
+            value: brinell_report::Value::Text(p.value.clone()),
+            unit: p.unit.to_owned(),
+            source: p.reason(),
+            estimated: p.assumed,
+        })
+        .collect();
+    sheet.sort_by_key(|a| !a.estimated);
+    sheet
+}

@@ -1,0 +1,231 @@
+//! A Cartesian plot: margins, axis labels, curves thinned to the pixels there are, and lanes of marks above it.
+
+mod axis;
+mod curves;
+mod lanes;
+
+use crate::font;
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, ink};
+pub(crate) use axis::{Domain, Scale, range};
+use axis::{axis_label, halves, ticks};
+pub(crate) use lanes::{LANE_HEIGHT, Lane, Mark};
+
+/// How large a picture is drawn. The page holds both, and shows the one that fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Size {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) font: f64,
+}
+
+/// What a plot needs before anything is drawn on it.
+#[derive(Clone, Debug)]
+pub(crate) struct Spec {
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) size: Size,
+    pub(crate) x: Domain,
+    pub(crate) y: Domain,
+    pub(crate) x_label: String,
+    pub(crate) x_unit: String,
+    pub(crate) y_label: String,
+    pub(crate) y_unit: String,
+    pub(crate) lanes: Vec<Lane>,
+    /// Margins at least, to line plots up.
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    /// Whether the x axis carries numbers and a label.
+    pub(crate) x_axis: bool,
+}
+
+/// A plot being drawn.
+pub(crate) struct Chart {
+    pub(crate) picture: Picture,
+    pub(crate) frame: Rect,
+    pub(crate) x: Scale,
+    pub(crate) y: Scale,
+    spec: Spec,
+}
+
+/// Margin that the y axis of a plot needs: numbers, label, and the names of its lanes.
+pub(crate) fn left_margin(spec: &Spec) -> f64 {
+    let font = spec.size.font;
+    let (_, labels, _) = ticks(spec.y, y_target(spec));
+    let numbers = labels
+        .iter()
+        .map(|l| font::width(l, font, false))
+        .fold(font::width("−0.05", font, false), f64::max);
+    let lanes = spec
+        .lanes
+        .iter()
+        .map(|l| font::width(&l.label, font, true))
+        .fold(0.0, f64::max);
+    let lines = if label_is_long(spec) { 2.0 } else { 1.0 };
+    (numbers + 10.0 + lines * 1.3 * font + 4.0).max((lanes + 14.0).min(0.3 * spec.size.width))
+}
+
+/// Margin that the values of a plot's lanes need.
+pub(crate) fn right_margin(spec: &Spec) -> f64 {
+    let font = spec.size.font;
+    let ends = spec
+        .lanes
+        .iter()
+        .map(|l| font::width(&l.value, font, false))
+        .fold(0.0, f64::max);
+    if ends > 0.0 { ends + 12.0 } else { 1.2 * font }
+}
+
+fn plot_height(spec: &Spec) -> f64 {
+    let below = if spec.x_axis {
+        3.4 * spec.size.font
+    } else {
+        8.0
+    };
+    (spec.size.height - 8.0 - LANE_HEIGHT * spec.lanes.len() as f64 - below).max(20.0)
+}
+
+fn y_target(spec: &Spec) -> usize {
+    ((plot_height(spec) / (2.1 * spec.size.font)) as usize).clamp(2, 8)
+}
+
+fn label_is_long(spec: &Spec) -> bool {
+    let label = axis_label(&spec.y_label, &spec.y_unit, 0);
+    font::width(&label, spec.size.font, false) > plot_height(spec) + 4.0
+}
+
+impl Chart {
+    pub(crate) fn new(spec: Spec) -> Self {
+        let Size {
+            width,
+            height,
+            font,
+        } = spec.size;
+        let left = left_margin(&spec).max(spec.left);
+        let right = right_margin(&spec).max(spec.right);
+        let top = 8.0 + LANE_HEIGHT * spec.lanes.len() as f64;
+        let frame = Rect {
+            left,
+            top,
+            right: (width - right).max(left + 20.0),
+            bottom: top + plot_height(&spec),
+        };
+        let x = Scale {
+            domain: spec.x,
+            from: frame.left,
+            to: frame.right,
+        };
+        let y = Scale {
+            domain: spec.y,
+            from: frame.bottom,
+            to: frame.top,
+        };
+        let mut picture = Picture::new(&spec.name, &spec.title, width, height);
+
+        let (values, labels, y_power) = ticks(spec.y, y_target(&spec));
+        picture.shapes.push(Shape::Open("ticks-y"));
+        for (value, label) in values.iter().zip(&labels) {
+            let at = y.at(*value);
+            picture.path(
+                &[(frame.left, at), (frame.right, at)],
+                Paint::line(ink::GRID, 1.0),
+            );
+            picture.text(Text::new(
+                frame.left - 7.0,
+                at + 0.36 * font,
+                font,
+                Anchor::End,
+                label,
+            ));
+        }
+        picture.shapes.push(Shape::Close);
+
+        let widest = |labels: &[String]| {
+            labels
+                .iter()
+                .map(|l| font::width(l, font, false))
+                .fold(0.0, f64::max)
+        };
+        let mut target = ((frame.width() / 60.0) as usize).clamp(3, 10);
+        while target > 1 {
+            let (values, labels, _) = ticks(spec.x, target);
+            if (widest(&labels) + 14.0) * values.len() as f64 <= frame.width() {
+                break;
+            }
+            target -= 1;
+        }
+        let (values, labels, x_power) = ticks(spec.x, target);
+        picture.shapes.push(Shape::Open("ticks-x"));
+        for (value, label) in values.iter().zip(&labels) {
+            let at = x.at(*value);
+            picture.path(
+                &[(at, frame.top), (at, frame.bottom)],
+                Paint::line(ink::GRID, 1.0),
+            );
+            if spec.x_axis {
+                picture.text(Text::new(
+                    at,
+                    frame.bottom + 1.4 * font,
+                    font,
+                    Anchor::Middle,
+                    label,
+                ));
+            }
+        }
+        picture.shapes.push(Shape::Close);
+
+        if spec.x_axis {
+            let label = axis_label(&spec.x_label, &spec.x_unit, x_power);
+            let middle = 0.5 * (frame.left + frame.right);
+            picture.text(Text::with_unit(
+                middle,
+                frame.bottom + 3.0 * font,
+                font,
+                Anchor::Middle,
+                &label,
+            ));
+        }
+        let label = axis_label(&spec.y_label, &spec.y_unit, y_power);
+        let middle = 0.5 * (frame.top + frame.bottom);
+        let mut line = |x: f64, text: &str| {
+            picture.text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
+        };
+        if label_is_long(&spec) {
+            let (first, second) = halves(&label);
+            line(1.05 * font, &first);
+            line(2.3 * font, &second);
+        } else {
+            line(1.05 * font, &label);
+        }
+        Self {
+            picture,
+            frame,
+            x,
+            y,
+            spec,
+        }
+    }
+
+    /// Frame and lanes, over the curves.
+    pub(crate) fn finish(mut self) -> Picture {
+        self.picture.rect(self.frame, Paint::line(ink::FRAME, 1.0));
+        for (index, lane) in std::mem::take(&mut self.spec.lanes).iter().enumerate() {
+            self.lane(index, lane);
+        }
+        self.picture
+    }
+
+    /// Tells the page's script where the plot stands.
+    pub(crate) fn interactive(&mut self, plot: &str) {
+        let Rect {
+            left,
+            top,
+            right,
+            bottom,
+        } = self.frame;
+        let [l, t, r, b] = [left, top, right, bottom].map(coordinate);
+        self.picture.attributes = format!(
+            " data-plot=\"{plot}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\"",
+            self.spec.x.lo, self.spec.x.hi, self.spec.size.font
+        );
+    }
+}

@@ -1,0 +1,123 @@
+//! Curves of damage: what a roller meets on its way over it, and the ring's section under it.
+
+use super::{DamagePanel, DamageView, heading};
+use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
+use crate::picture::{Paint, Picture, ink};
+use crate::plots::{Layout, legend};
+
+/// L_s, L_e, depth and stiffness over the angle of a roller that passes the damage.
+pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Picture {
+    stack(
+        &format!("damage-{}-passage", index + 1),
+        [&view.title, &view.passage_title],
+        (
+            if view.half_turn_mm.is_some() {
+                "Angle on the roller from the defect’s centre"
+            } else {
+                "Angle from the defect’s centre"
+            },
+            "°",
+        ),
+        &view.angle_deg,
+        &view.passage,
+        layout,
+    )
+}
+
+/// Section properties along the damage.
+pub fn damage_section(view: &DamageView, index: usize, layout: Layout) -> Picture {
+    stack(
+        &format!("damage-{}-section", index + 1),
+        [&view.title, &view.section_title],
+        ("Along the damage, from its centre", "mm"),
+        &view.section_s_mm,
+        &view.section,
+        layout,
+    )
+}
+
+const LINES: [(&str, f64, &[f64]); 4] = [
+    (ink::BLUE, 2.2, &[]),
+    (ink::ORANGE, 2.0, &[7.0, 3.0]),
+    (ink::GREEN, 1.6, &[]),
+    (ink::PURPLE, 1.6, &[3.0, 3.0]),
+];
+
+/// Panels over one axis, each with its own legend where it holds several curves.
+fn stack(
+    name: &str,
+    [title, shown]: [&str; 2],
+    (x_label, x_unit): (&str, &str),
+    xs: &[f64],
+    panels: &[DamagePanel],
+    layout: Layout,
+) -> Picture {
+    let size = layout.size(0.0);
+    let part = if layout == Layout::Wide { 118.0 } else { 112.0 };
+    let (lo, hi) = range(xs.iter().copied()).unwrap_or((-1.0, 1.0));
+    let mut specs: Vec<Spec> = panels
+        .iter()
+        .enumerate()
+        .map(|(k, panel)| {
+            let last = k + 1 == panels.len();
+            let values = panel.curves.iter().flat_map(|c| c.values.iter().copied());
+            Spec {
+                name: String::new(),
+                title: String::new(),
+                size: Size {
+                    height: part + if last { 3.4 * size.font } else { 0.0 },
+                    ..size
+                },
+                x: Domain::exact(lo, hi),
+                y: if panel.from_zero {
+                    Domain::from_zero(values)
+                } else {
+                    Domain::around(values)
+                },
+                x_label: x_label.into(),
+                x_unit: x_unit.into(),
+                y_label: panel.label.clone(),
+                y_unit: panel.unit.clone(),
+                lanes: vec![],
+                left: 0.0,
+                right: 0.0,
+                x_axis: last,
+            }
+        })
+        .collect();
+    let left = specs.iter().map(left_margin).fold(0.0, f64::max);
+    specs.iter_mut().for_each(|spec| spec.left = left);
+    let title = if shown.is_empty() { title } else { shown };
+    let mut picture = Picture::new(name, title, size.width, 0.0);
+    let mut top = heading(&mut picture, shown, left, size.width, size.font);
+    for (spec, panel) in specs.into_iter().zip(panels) {
+        let paint = |k: usize| {
+            let (color, width, dash) = LINES[k % LINES.len()];
+            Paint::line(color, width).dashed(dash)
+        };
+        let entries: Vec<(&str, Paint)> = panel
+            .curves
+            .iter()
+            .enumerate()
+            .map(|(k, c)| (c.name.as_str(), paint(k)))
+            .filter(|(name, _)| !name.is_empty())
+            .collect();
+        if !entries.is_empty() {
+            top += legend(&mut picture, &entries, left, size.width, top, size.font);
+        }
+        let height = spec.size.height;
+        let mut chart = Chart::new(spec);
+        if range(panel.curves.iter().flat_map(|c| c.values.iter().copied())).is_none()
+            || xs.is_empty()
+        {
+            chart.say("Not computed");
+        }
+        for (k, curve) in panel.curves.iter().enumerate() {
+            chart.points(xs, &curve.values, paint(k));
+        }
+        picture.place(chart.finish(), 0.0, top);
+        top += height;
+    }
+    picture.height = top.max(1.0);
+    picture
+}

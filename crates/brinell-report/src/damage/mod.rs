@@ -1,0 +1,119 @@
+//! Pictures of damage: the raceway unrolled, what a roller meets on its way over it, and the ring's section under it.
+
+mod curves;
+mod plan;
+mod shades;
+
+use crate::data::Fact;
+use crate::font;
+use crate::picture::{Anchor, Picture, Text};
+pub use curves::{damage_passage, damage_section};
+pub use plan::damage_plan;
+
+/// One defect, seen before it is simulated. Vectors of a panel are as long as the panel's axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
+pub struct DamageView {
+    /// "Defect 1: outer raceway, row 1".
+    pub title: String,
+    /// "outer raceway".
+    pub surface: String,
+    /// What the view from above shows, as the picture's heading.
+    pub plan_title: String,
+    /// What the curves over the angle show.
+    pub passage_title: String,
+    /// What the section's curves show.
+    pub section_title: String,
+    /// Numbers: length, area, time to pass.
+    pub facts: Vec<Fact>,
+    /// Seen from above, (s, z) in mm from the defect's centre; a polygon within another is a hole.
+    pub polygons_mm: Vec<Vec<[f64; 2]>>,
+    /// Depths, where the damage has more than one; drawn instead of the polygons.
+    pub depths: Option<DepthPatch>,
+    /// L of the roller.
+    pub roller_length_mm: f64,
+    /// d of the roller.
+    pub roller_diameter_mm: f64,
+    /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage half a turn after the
+    /// other.
+    pub half_turn_mm: Option<f64>,
+    /// s of the load zone's ends, where the surface stands still in it.
+    pub load_zone_mm: Option<[f64; 2]>,
+    /// Angle of a roller from the defect's centre.
+    pub angle_deg: Vec<f64>,
+    /// What the roller meets there.
+    pub passage: Vec<DamagePanel>,
+    /// At which approach, by which laws.
+    pub passage_note: String,
+    /// s along the damage.
+    pub section_s_mm: Vec<f64>,
+    /// Section properties there.
+    pub section: Vec<DamagePanel>,
+    /// For which ring.
+    pub section_note: String,
+}
+
+/// Depths at the nodes of a grid.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DepthPatch {
+    /// (s, z) of the first node, mm.
+    pub start_mm: [f64; 2],
+    /// Distance of nodes, mm.
+    pub step_mm: [f64; 2],
+    /// Nodes along s.
+    pub columns: usize,
+    /// `depth_um[row * columns + column]`; 0 is undamaged, negative a raised edge.
+    pub depth_um: Vec<f64>,
+}
+
+/// Curves on one pair of axes.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DamagePanel {
+    /// "Depth".
+    pub label: String,
+    /// "um".
+    pub unit: String,
+    /// Whether the axis starts at 0.
+    pub from_zero: bool,
+    /// The curves.
+    pub curves: Vec<DamageCurve>,
+}
+
+/// One curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DamageCurve {
+    /// "envelope, ecl".
+    pub name: String,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
+/// What a picture shows, above it, in as many lines as that takes; returns the height used.
+fn heading(picture: &mut Picture, words: &str, left: f64, right: f64, font: f64) -> f64 {
+    let mut top = 2.0;
+    let mut line = String::new();
+    let mut put = |line: &mut String, top: &mut f64| {
+        let text = font::fitted(line, font, true, right - left);
+        picture.text(Text::new(left, *top + font, font, Anchor::Start, &text).bold());
+        *top += 1.5 * font;
+        line.clear();
+    };
+    for word in words.split_whitespace() {
+        let longer = format!("{line}{}{word}", if line.is_empty() { "" } else { " " });
+        if !line.is_empty() && font::width(&longer, font, true) > right - left {
+            put(&mut line, &mut top);
+            line = word.to_owned();
+        } else {
+            line = longer;
+        }
+    }
+    if !line.is_empty() {
+        put(&mut line, &mut top);
+        top += 0.4 * font;
+    }
+    top
+}

@@ -1,0 +1,290 @@
+//! Damage from above: the raceway unrolled, or a roller's surface once around.
+
+use super::shades::{LEAST, SHADES, colour_bar, shade};
+use super::{DamageView, heading};
+use crate::chart::{Chart, Domain, Size, Spec, left_margin, range, right_margin};
+use crate::picture::{Paint, Picture, Shape, ink};
+use crate::plots::{Layout, legend};
+
+/// Where the roller touches.
+const TRACK: &str = "#eef2f6";
+/// Largest picture of a raceway, px.
+const TALLEST: f64 = 440.0;
+
+/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller as it comes onto the damage, and
+/// the load zone. Of a roller the whole circumference, with both lines of contact.
+pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
+    let Size { width, font, .. } = layout.size(0.0);
+    let positive = |x: f64, or: f64| if x.is_finite() && x > 0.0 { x } else { or };
+    let length = positive(view.roller_length_mm, 1.0).min(1e6);
+    let radius = 0.5 * positive(view.roller_diameter_mm, length).min(1e6);
+    let extent = extent(view).unwrap_or([0.0, 0.0, 0.0, 0.0]);
+    let [first, last, lowest, highest] = extent;
+    let tall = 1.08 * length.max(2.0 * lowest.abs()).max(2.0 * highest.abs());
+    let half_turn = view.half_turn_mm.filter(|x| x.is_finite() && *x > 0.0);
+    let wanted = match half_turn {
+        Some(half) => 1.04 * (2.0 * half).max(last - first),
+        None => 1.04 * (last - first + 2.0 * radius),
+    };
+    let middle = half_turn.map_or(0.5 * (first + last), |_| 0.0);
+    let along = if half_turn.is_some() {
+        "Around the roller, rolling direction".to_owned()
+    } else if view.surface.is_empty() {
+        "Along the raceway, rolling direction".to_owned()
+    } else {
+        format!("Along the {}, rolling direction", view.surface)
+    };
+    // From the room between the margins follows the scale, from the scale the height.
+    let spec = |height: f64, left: f64, half: f64| Spec {
+        name: format!("damage-{}", index + 1),
+        title: if view.plan_title.is_empty() {
+            view.title.clone()
+        } else {
+            view.plan_title.clone()
+        },
+        size: Size {
+            width,
+            height,
+            font,
+        },
+        x: Domain::exact(middle - half, middle + half),
+        y: Domain::exact(-0.5 * tall, 0.5 * tall),
+        x_label: along.clone(),
+        x_unit: "mm".into(),
+        y_label: "Across".into(),
+        y_unit: "mm".into(),
+        lanes: vec![],
+        left,
+        right: 0.0,
+        x_axis: true,
+    };
+    let around = 8.0 + 3.4 * font;
+    let draft = spec(TALLEST + around, 0.0, wanted);
+    let left = left_margin(&draft).max(4.8 * font);
+    let room = width - left - right_margin(&draft);
+    let scale = (room / wanted).min(TALLEST / tall);
+    let height = (scale * tall).max(30.0) + around;
+    let mut chart = Chart::new(spec(height, left, 0.5 * room / scale));
+    let frame = chart.frame;
+    let (x, y) = (chart.x, chart.y);
+    let clipped = |lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint| Shape::Path {
+        lines,
+        close,
+        paint,
+        clip: Some(frame),
+    };
+    let track = [0.5 * length, -0.5 * length].map(|z| y.at(z));
+    let ends = match half_turn {
+        Some(half) => [x.at(-half), x.at(half)],
+        None => [frame.left, frame.right],
+    };
+    // Under the grid, so that it stays visible.
+    chart.picture.shapes.insert(
+        0,
+        clipped(
+            vec![vec![
+                (ends[0], track[0]),
+                (ends[1], track[0]),
+                (ends[1], track[1]),
+                (ends[0], track[1]),
+            ]],
+            true,
+            Paint::fill(TRACK, 1.0),
+        ),
+    );
+    let deepest = view.depths.as_ref().map(|patch| {
+        shade(&mut chart, patch, extent, clipped)
+            .into_iter()
+            .fold(0.0, f64::max)
+    });
+    if deepest.is_none() {
+        let lines: Vec<Vec<(f64, f64)>> = wound(&view.polygons_mm)
+            .iter()
+            .map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1])))))
+            .collect();
+        let paint = Paint::line(SHADES[6], 1.4).filled(SHADES[2], 1.0);
+        if lines.is_empty() {
+            chart.say("No damage");
+        } else {
+            chart.picture.shapes.push(clipped(lines, true, paint));
+        }
+    }
+    for z in track {
+        chart.picture.shapes.push(clipped(
+            vec![vec![(ends[0], z), (ends[1], z)]],
+            false,
+            Paint::line(ink::FRAME, 1.0),
+        ));
+    }
+    if half_turn.is_some() {
+        chart.picture.shapes.push(clipped(
+            ends.iter()
+                .map(|&end| vec![(end, track[0]), (end, track[1])])
+                .collect(),
+            false,
+            Paint::line(ink::FRAME, 1.0),
+        ));
+    }
+    let line = Paint::line(ink::BLUE, 2.4);
+    let hint = match half_turn {
+        Some(_) => Paint::line(ink::BLUE, 2.0).dashed(&[5.0, 4.0]),
+        None => Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]),
+    };
+    let zone_paint = Paint::line(ink::GREEN, 5.0);
+    let mut upright = |s: f64, paint: Paint| {
+        let at = x.at(s);
+        chart.picture.shapes.push(clipped(
+            vec![vec![(at, track[0]), (at, track[1])]],
+            false,
+            paint,
+        ));
+    };
+    let mut entries = match half_turn {
+        Some(half) => {
+            upright(
+                if first > 0.0 {
+                    first - half
+                } else {
+                    first + half
+                },
+                hint,
+            );
+            upright(first, line);
+            vec![
+                ("line of contact as the damage comes to it", line),
+                ("the contact with the other raceway then", hint),
+            ]
+        }
+        None => {
+            let (from, to) = (x.at(first - radius), x.at(first + radius));
+            upright(first, line);
+            chart.picture.shapes.push(clipped(
+                vec![vec![
+                    (from, track[0]),
+                    (to, track[0]),
+                    (to, track[1]),
+                    (from, track[1]),
+                ]],
+                true,
+                hint,
+            ));
+            vec![
+                ("line of contact as the roller comes on", line),
+                ("the roller above it", hint),
+            ]
+        }
+    };
+    let mut zone_words = String::new();
+    if let Some([from, to]) = view
+        .load_zone_mm
+        .filter(|z| z.iter().all(|x| x.is_finite()))
+    {
+        let (lo, hi) = (x.at(from).max(frame.left), x.at(to).min(frame.right));
+        let base = frame.bottom - 2.5;
+        if hi > lo {
+            chart.picture.shapes.push(clipped(
+                vec![vec![(lo, base), (hi, base)]],
+                false,
+                zone_paint,
+            ));
+            for end in [from, to].map(|s| x.at(s)) {
+                if end > frame.left && end < frame.right {
+                    chart.picture.shapes.push(clipped(
+                        vec![vec![(end, frame.top), (end, frame.bottom)]],
+                        false,
+                        Paint::line(ink::GREEN, 1.4).dashed(&[2.0, 3.0]),
+                    ));
+                }
+            }
+            zone_words = if lo <= frame.left && hi >= frame.right {
+                "load zone (reaches beyond the picture)".into()
+            } else {
+                "load zone".into()
+            };
+        } else {
+            zone_words = "load zone: not in the picture".into();
+        }
+    }
+    if !zone_words.is_empty() {
+        entries.push((&zone_words, zone_paint));
+    }
+    let plan = chart.finish();
+    let mut picture = Picture::new(&plan.name, &plan.title, width, 0.0);
+    let mut top = heading(&mut picture, &view.plan_title, left, width, font);
+    top += legend(&mut picture, &entries, left, width, top, font);
+    if let Some(deepest) = deepest {
+        let room = (left, width);
+        top += colour_bar(&mut picture, deepest, raised(view), room, top + 2.0, font);
+    }
+    picture.place(plan, 0.0, top);
+    picture.height = top + height;
+    picture
+}
+
+/// First s, last s, lowest and highest z of what is drawn.
+fn extent(view: &DamageView) -> Option<[f64; 4]> {
+    if let Some(p) = &view.depths {
+        let rows = p.depth_um.len().checked_div(p.columns)?;
+        let end = |k: usize, n: usize| p.start_mm[k] + p.step_mm[k] * n.saturating_sub(1) as f64;
+        let (first, last) = range([p.start_mm[0], end(0, p.columns)])?;
+        let (low, high) = range([p.start_mm[1], end(1, rows)])?;
+        return Some([first, last, low, high].map(|x| x.clamp(-1e6, 1e6)));
+    }
+    let along = |k: usize| range(view.polygons_mm.iter().flatten().map(|p| p[k]));
+    let ((first, last), (low, high)) = (along(0)?, along(1)?);
+    Some([first, last, low, high].map(|x| x.clamp(-1e6, 1e6)))
+}
+
+/// Height of the highest raised edge, um; `None` where none is.
+fn raised(view: &DamageView) -> Option<f64> {
+    let depths = || view.depths.iter().flat_map(|p| p.depth_um.iter().copied());
+    let (highest, deepest) = range(depths())?;
+    (highest < -LEAST * deepest.max(-highest)).then_some(-highest)
+}
+
+/// Points closer together than a picture can show are left out.
+fn drawn(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = vec![];
+    for (x, y) in points {
+        let near = |p: &(f64, f64)| (p.0 - x).abs() < 0.25 && (p.1 - y).abs() < 0.25;
+        if !kept.last().is_some_and(near) {
+            kept.push((x, y));
+        }
+    }
+    kept
+}
+
+/// Polygons turned so that a hole winds against what it lies in: the inside is then the same by either fill rule.
+fn wound(polygons: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+    let finite = polygons
+        .iter()
+        .filter(|p| p.len() > 2 && p.iter().flatten().all(|x| x.is_finite()));
+    let all: Vec<&Vec<[f64; 2]>> = finite.collect();
+    let sides = |p: &[[f64; 2]]| {
+        let next: Vec<[f64; 2]> = p.iter().skip(1).chain(p.first()).copied().collect();
+        p.iter().copied().zip(next).collect::<Vec<_>>()
+    };
+    let within = |q: [f64; 2], p: &[[f64; 2]]| {
+        sides(p).iter().fold(false, |inside, (a, b)| {
+            let passes = (a[1] <= q[1]) != (b[1] <= q[1])
+                && q[0] < a[0] + (q[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            inside != passes
+        })
+    };
+    all.iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let others = all.iter().enumerate().filter(|(j, _)| *j != i);
+            let hole = others.filter(|(_, other)| within(p[0], other)).count() % 2 == 1;
+            let area: f64 = sides(p)
+                .iter()
+                .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
+                .sum();
+            let mut p = (*p).clone();
+            if (area < 0.0) != hole {
+                p.reverse();
+            }
+            p
+        })
+        .collect()
+}

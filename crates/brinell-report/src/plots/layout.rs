@@ -1,0 +1,104 @@
+//! What every picture shares: its size on a page or a phone, the unit of time, the legend.
+
+use crate::chart::Size;
+use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
+
+/// What a picture is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A desktop page, print, a file: 960 pixels across.
+    Wide,
+    /// A phone: 360 pixels across.
+    Narrow,
+}
+
+impl Layout {
+    pub(crate) fn size(self, height: f64) -> Size {
+        match self {
+            Self::Wide => Size {
+                width: 960.0,
+                height,
+                font: 12.5,
+            },
+            Self::Narrow => Size {
+                width: 360.0,
+                height,
+                font: 11.0,
+            },
+        }
+    }
+}
+
+pub(super) const CURVE: Paint = Paint {
+    stroke: ink::BLUE,
+    width: 1.2,
+    dash: &[],
+    fill: None,
+    opacity: 1.0,
+};
+
+/// Seconds or milliseconds, whichever reads better over `span`.
+pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {
+    if span.is_finite() && span >= 0.5 {
+        ("s", 1.0)
+    } else {
+        ("ms", 1e3)
+    }
+}
+
+pub(super) fn known(spacing: f64) -> bool {
+    spacing.is_finite() && spacing > 0.0
+}
+
+/// A spacing to lay a plot out with, even where there is none to draw with.
+pub(super) fn spacing(d: f64) -> f64 {
+    if known(d) { d } else { 1.0 }
+}
+
+pub(super) fn start(t0: f64) -> f64 {
+    if t0.is_finite() { t0 } else { 0.0 }
+}
+
+/// Boxes of line and text, from `left` on, wrapped at `right`; returns the height used.
+pub(crate) fn legend(
+    picture: &mut Picture,
+    entries: &[(&str, Paint)],
+    left: f64,
+    right: f64,
+    top: f64,
+    font: f64,
+) -> f64 {
+    let (mut x, mut y) = (left, top + font);
+    for (label, paint) in entries {
+        let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, label);
+        let width = 26.0 + words.width() + 18.0;
+        if x > left && x + width > right + 12.0 {
+            x = left;
+            y += 1.6 * font;
+        }
+        let middle = y - 0.36 * font;
+        if paint.width > 0.0 || paint.fill.is_none() {
+            picture.path(
+                &[(x, middle), (x + 20.0, middle)],
+                Paint {
+                    fill: None,
+                    ..*paint
+                },
+            );
+        } else {
+            picture.shapes.push(Shape::Circle {
+                x: x + 10.0,
+                y: middle,
+                r: 3.5,
+                paint: *paint,
+            });
+        }
+        picture.text(Text {
+            x: x + 26.0,
+            y,
+            ..words
+        });
+        x += width;
+    }
+    y - top + 0.6 * font
+}

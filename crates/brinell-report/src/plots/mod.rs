@@ -1,0 +1,69 @@
+//! The report's pictures, from its data: the signals' own, and the list of all.
+
+mod headline;
+mod layout;
+mod markers;
+mod pass;
+mod spectrum;
+mod waveform;
+
+use crate::damage::{damage_passage, damage_plan, damage_section};
+use crate::data::Report;
+use crate::load::load_distribution;
+use crate::motion::bearing_motion;
+use crate::orbit::cage_orbit;
+use crate::picture::Picture;
+use crate::slip::{self, slip_over_angle, slip_over_time};
+use crate::spectrogram::spectrogram;
+pub use headline::{headline, headline_png};
+pub use layout::Layout;
+pub(crate) use layout::{legend, time_unit};
+pub(crate) use markers::marker_lanes;
+pub use pass::pass;
+pub(crate) use spectrum::envelope_domain;
+pub use spectrum::{envelope_spectrum, spectrum};
+pub use waveform::{detail_window, overview, waveform};
+pub(crate) use waveform::{event_lanes, waveform_domain, waveform_unit};
+
+/// Every picture of the report, for saving as files.
+pub fn pictures(report: &Report) -> Vec<Picture> {
+    let mut pictures = vec![
+        overview(report, Layout::Wide),
+        waveform(report, Layout::Wide),
+        spectrum(report, Layout::Wide),
+        envelope_spectrum(report, Layout::Wide),
+    ];
+    for (index, view) in report.damage.iter().enumerate() {
+        pictures.push(damage_plan(view, index, Layout::Wide));
+        if !view.passage.is_empty() {
+            pictures.push(damage_passage(view, index, Layout::Wide));
+        }
+        if !view.section.is_empty() {
+            pictures.push(damage_section(view, index, Layout::Wide));
+        }
+    }
+    pictures.extend(
+        report
+            .passes
+            .iter()
+            .enumerate()
+            .map(|(i, p)| pass(p, i, Layout::Wide)),
+    );
+    if !report.load_distribution.is_empty() {
+        pictures.push(load_distribution(&report.load_distribution, Layout::Wide));
+    }
+    if !report.spectrogram.density.is_empty() {
+        pictures.push(spectrogram(&report.spectrogram, Layout::Wide));
+    }
+    if !report.motion.rows.is_empty() {
+        pictures.push(bearing_motion(&report.motion, usize::MAX, Layout::Wide));
+    }
+    if !report.cage_orbits.rows.is_empty() {
+        pictures.push(cage_orbit(&report.cage_orbits, Layout::Wide));
+    }
+    if slip::there_is(&report.slip_rows) {
+        pictures.push(slip_over_time(&report.slip_rows, Layout::Wide));
+        pictures.push(slip_over_angle(&report.slip_rows, Layout::Wide));
+    }
+    pictures
+}

@@ -1,0 +1,122 @@
+//! Amplitude spectrum and envelope spectrum.
+
+use super::layout::{CURVE, Layout, known, spacing};
+use super::markers::{marker_lanes, telling};
+use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
+use crate::data::{Report, Spectrum};
+use crate::picture::Picture;
+
+/// The frequency up to which the envelope spectrum is shown: all harmonics of the damage in the bearing.
+fn envelope_top(report: &Report) -> f64 {
+    let spectrum = &report.envelope_spectrum;
+    let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
+    let top = telling(&report.markers)
+        .iter()
+        .map(|m| m.frequency_hz * (m.harmonics.clamp(1, 20) as f64 + 0.5))
+        .fold(0.0, f64::max);
+    if top > 0.0 { top.min(end) } else { end }
+}
+
+/// The whole amplitude spectrum over decades.
+pub fn spectrum(report: &Report, layout: Layout) -> Picture {
+    let size = layout.size(if layout == Layout::Wide { 320.0 } else { 270.0 });
+    let spectrum = &report.spectrum;
+    let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
+    let title = format!("Spectrum: {}", spectrum.label);
+    let y = Domain::decades(&spectrum.amplitude);
+    let mut chart = Chart::new(spectrum_spec(
+        "spectrum",
+        title,
+        spectrum,
+        size,
+        end,
+        y,
+        vec![],
+    ));
+    draw_spectrum(&mut chart, spectrum);
+    chart.interactive("spectrum");
+    chart.finish()
+}
+
+/// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
+pub fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
+    let height = if layout == Layout::Wide { 370.0 } else { 330.0 };
+    draw_envelope(report, envelope_spec(report, layout.size(height)))
+}
+
+pub(crate) fn envelope_domain(report: &Report) -> Domain {
+    let spectrum = &report.envelope_spectrum;
+    let top = envelope_top(report);
+    // The line at 0 Hz is the envelope's mean and says nothing about damage.
+    let shown =
+        ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));
+    Domain::from_zero(spectrum.amplitude.iter().take(shown + 1).skip(1).copied())
+}
+
+pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
+    let spectrum = &report.envelope_spectrum;
+    let (top, y) = (envelope_top(report), envelope_domain(report));
+    let title = format!("Envelope spectrum: {}", spectrum.label);
+    spectrum_spec(
+        "envelope-spectrum",
+        title,
+        spectrum,
+        size,
+        top,
+        y,
+        marker_lanes(&report.markers),
+    )
+}
+
+pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
+    let mut chart = Chart::new(spec);
+    draw_spectrum(&mut chart, &report.envelope_spectrum);
+    chart.interactive("envelope");
+    chart.finish()
+}
+
+fn spectrum_spec(
+    name: &str,
+    title: String,
+    spectrum: &Spectrum,
+    size: Size,
+    top: f64,
+    y: Domain,
+    lanes: Vec<Lane>,
+) -> Spec {
+    Spec {
+        name: name.into(),
+        title,
+        size,
+        x: Domain::exact(0.0, if top > 0.0 { top } else { 1.0 }),
+        y,
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        y_label: if spectrum.label.is_empty() {
+            "Amplitude".into()
+        } else {
+            spectrum.label.clone()
+        },
+        y_unit: spectrum.unit.clone(),
+        lanes,
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    }
+}
+
+fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum) {
+    if range(spectrum.amplitude.iter().copied()).is_none() {
+        chart.say("No spectrum");
+    } else if !known(spectrum.df_hz) {
+        chart.say("The line spacing is not known");
+    } else {
+        chart.curve(
+            0.0,
+            spacing(spectrum.df_hz),
+            &spectrum.amplitude,
+            true,
+            CURVE,
+        );
+    }
+}

@@ -1,0 +1,195 @@
+//! The measured signal: the whole run, and the stretch close up with what rollers do in it.
+
+use super::layout::{CURVE, Layout, known, spacing, start, time_unit};
+use super::markers::telling;
+use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
+use crate::data::{EventKind, MinMax, Report, Series};
+use crate::number::significant;
+use crate::picture::{Paint, Picture, ink};
+
+fn span(series: &Series) -> (f64, f64) {
+    let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
+    (t0, t0 + dt * series.values.len().saturating_sub(1) as f64)
+}
+
+/// Start and end in seconds of the waveform shown close up: the last five periods of the quickest damage in the bearing.
+pub fn detail_window(report: &Report) -> (f64, f64) {
+    let series = &report.waveform.series;
+    let (first, last) = span(series);
+    let quickest = telling(&report.markers)
+        .iter()
+        .map(|m| m.frequency_hz)
+        .fold(0.0, f64::max);
+    let wanted = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
+    let width = wanted.max(32.0 * spacing(series.dt_s));
+    ((last - width).max(first), last)
+}
+
+/// Of the run, this share is its start.
+const START: f64 = 0.05;
+/// The start is cut off where it is as many times as large as all that follows.
+const OUTSHINES: f64 = 2.0;
+
+/// What the overview's axis shows, and from where to where the start goes where it is cut off: else a bearing that drops into its load zone
+/// would flatten the run to a line.
+fn settled_domain(min: &[f64], max: &[f64]) -> (Domain, Option<(f64, f64)>) {
+    let whole = || min.iter().chain(max).copied();
+    let first = ((START * min.len() as f64) as usize).max(1).min(min.len());
+    let later = range(min[first..].iter().chain(&max[first..]).copied());
+    match (range(whole()), later) {
+        (Some((lo, hi)), Some((low, high))) if high > low && hi - lo > OUTSHINES * (high - low) => {
+            // Room at the top for the words that say so.
+            let shown = [low, high + 0.2 * (high - low)];
+            (Domain::around(shown), Some((lo, hi)))
+        }
+        _ => (Domain::around(whole()), None),
+    }
+}
+
+/// The whole run, the smallest and largest value of each stretch; the close-up's window is shaded.
+pub fn overview(report: &Report, layout: Layout) -> Picture {
+    let series = &report.waveform.series;
+    let whole = MinMax {
+        t0_s: start(series.t0_s) - 0.5 * spacing(series.dt_s),
+        dt_s: series.dt_s,
+        min: series.values.clone(),
+        max: series.values.clone(),
+    };
+    let bins = report.waveform.overview.as_ref().unwrap_or(&whole);
+    let (t0, dt, count) = (
+        start(bins.t0_s),
+        spacing(bins.dt_s),
+        bins.min.len().min(bins.max.len()),
+    );
+    let end = t0 + dt * count as f64;
+    let (unit, scale) = time_unit(end - t0);
+    let (y, cut) = settled_domain(&bins.min[..count], &bins.max[..count]);
+    let mut chart = Chart::new(Spec {
+        name: "overview".into(),
+        title: format!("Whole run: {}", series.label),
+        size: layout.size(if layout == Layout::Wide { 190.0 } else { 170.0 }),
+        x: Domain::exact(t0 * scale, end * scale),
+        y,
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: "Acceleration".into(),
+        y_unit: series.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    });
+    if range(bins.min.iter().copied()).is_none() {
+        chart.say("No samples");
+    } else {
+        let (low, high) = (&bins.min[..count], &bins.max[..count]);
+        let paint = Paint::line(ink::BLUE, 0.6).filled(ink::BLUE, 0.75);
+        chart.band(t0 * scale, dt * scale, low, high, paint);
+        let (lo, hi) = detail_window(report);
+        chart.highlight(lo * scale, hi * scale);
+        if let Some((lo, hi)) = cut {
+            let words = format!(
+                "Cut off: the start reaches from {} to {} {}",
+                significant(lo, 3),
+                significant(hi, 3),
+                series.unit
+            );
+            chart.remark(&words);
+        }
+    }
+    chart.interactive("overview");
+    chart.finish()
+}
+
+pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
+    let lane = |kind: EventKind, label: &str, color, dash: &'static [f64]| Lane {
+        label: label.into(),
+        value: String::new(),
+        color,
+        dash,
+        through: true,
+        marks: {
+            let mut marks: Vec<Mark> = report
+                .waveform
+                .events
+                .iter()
+                .filter(|event| event.kind == kind && event.t_s.is_finite())
+                .map(|event| Mark {
+                    x: event.t_s * scale,
+                    name: format!("Roller {} {label}", event.label),
+                    label: event.label.clone(),
+                })
+                .collect();
+            marks.sort_by(|a, b| a.x.total_cmp(&b.x));
+            marks
+        },
+    };
+    [
+        lane(EventKind::Enter, "enters", ink::VERMILLION, &[]),
+        lane(EventKind::Leave, "leaves", ink::GREEN, &[5.0, 3.0]),
+    ]
+    .into_iter()
+    .filter(|lane| !lane.marks.is_empty())
+    .collect()
+}
+
+/// The measured signal close up, with the instants at which rollers enter and leave defects.
+pub fn waveform(report: &Report, layout: Layout) -> Picture {
+    let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
+    draw_waveform(report, waveform_spec(report, layout.size(height)))
+}
+
+pub(super) fn draw_waveform(report: &Report, spec: Spec) -> Picture {
+    let mut chart = Chart::new(spec);
+    let series = &report.waveform.series;
+    let (_, scale) = waveform_unit(report);
+    if range(series.values.iter().copied()).is_none() {
+        chart.say("No samples");
+    } else if !known(series.dt_s) && series.values.len() > 1 {
+        chart.say("The sample interval is not known");
+    } else {
+        chart.curve(
+            start(series.t0_s) * scale,
+            spacing(series.dt_s) * scale,
+            &series.values,
+            false,
+            CURVE,
+        );
+    }
+    chart.interactive("waveform");
+    chart.finish()
+}
+
+pub(crate) fn waveform_unit(report: &Report) -> (&'static str, f64) {
+    let (lo, hi) = detail_window(report);
+    time_unit(hi - lo)
+}
+
+pub(crate) fn waveform_domain(report: &Report) -> Domain {
+    let series = &report.waveform.series;
+    let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
+    let first =
+        (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
+    Domain::around(series.values[first..].iter().copied())
+}
+
+pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {
+    let series = &report.waveform.series;
+    let (lo, hi) = detail_window(report);
+    let (unit, scale) = waveform_unit(report);
+    Spec {
+        name: "waveform".into(),
+        title: format!("Waveform: {}", series.label),
+        size,
+        x: Domain::exact(lo * scale, hi * scale),
+        y: waveform_domain(report),
+        x_label: "Time".into(),
+        x_unit: unit.into(),
+        y_label: series.label.clone(),
+        y_unit: series.unit.clone(),
+        lanes: event_lanes(report, scale),
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    }
+}

@@ -1,0 +1,158 @@
+//! The section of the page about damage.
+
+use crate::sample::{filled, ordinary, square_with_a_hole};
+use brinell_report::{
+    DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section,
+    html, pictures,
+};
+
+#[test]
+fn analytic_the_plan_is_to_one_scale_and_a_hole_winds_against_its_outline() {
+    for layout in [Layout::Wide, Layout::Narrow] {
+        let svg = damage_plan(&square_with_a_hole(), 0, layout).svg();
+        let path = svg
+            .split("<path d=\"")
+            .find(|p| p.contains("fill=\"#f2aa6b\""))
+            .expect("the damage is drawn");
+        let rings: Vec<Vec<[f64; 2]>> = path
+            .split('"')
+            .next()
+            .unwrap()
+            .split('Z')
+            .filter(|r| !r.is_empty())
+            .map(|r| {
+                let points = r.trim_start_matches('M').split('L');
+                points
+                    .map(|p| {
+                        let (x, y) = p.split_once(' ').unwrap();
+                        [x.parse().unwrap(), y.parse().unwrap()]
+                    })
+                    .collect()
+            })
+            .collect();
+        assert_eq!(rings.len(), 2);
+        let area = |r: &[[f64; 2]]| -> f64 {
+            let next = r.iter().skip(1).chain(r.first());
+            0.5 * r
+                .iter()
+                .zip(next)
+                .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
+                .sum::<f64>()
+        };
+        let (outer, hole) = (area(&rings[0]), area(&rings[1]));
+        assert!(outer * hole < 0.0, "{outer} {hole}");
+        assert!((outer / hole + 4.0).abs() < 0.02, "{outer} {hole}");
+        let side = |k: usize| {
+            (0..4).map(|i| rings[0][i][k]).fold(0.0, f64::max)
+                - (0..4).map(|i| rings[0][i][k]).fold(f64::INFINITY, f64::min)
+        };
+        assert!(
+            (side(0) / side(1) - 1.0).abs() < 0.005,
+            "{} {}",
+            side(0),
+            side(1)
+        );
+    }
+}
+
+#[test]
+fn regress_a_view_of_nothing_is_drawn_all_the_same() {
+    let empty = DamageView::default();
+    for draw in [damage_plan, damage_passage, damage_section] {
+        let picture = draw(&empty, 0, Layout::Narrow);
+        assert!(picture.png(1.0).is_ok());
+    }
+}
+
+#[test]
+fn analytic_a_rollers_view_goes_once_around_with_both_contacts_half_a_turn_apart() {
+    let around = 6.0 * std::f64::consts::PI;
+    let view = DamageView {
+        half_turn_mm: Some(0.5 * around),
+        load_zone_mm: None,
+        ..square_with_a_hole()
+    };
+    let svg = damage_plan(&view, 0, Layout::Wide).svg();
+    assert!(svg.contains("Around the roller") && svg.contains("the other raceway"));
+    let tree = roxmltree::Document::parse(&svg).expect("valid");
+    // Upright strokes: the contacts in blue, 2.4 and 2 wide, and the ends of the roller's surface.
+    let uprights = |width: &str| -> Vec<f64> {
+        tree.descendants()
+            .filter(|n| n.attribute("stroke-width") == Some(width))
+            .filter_map(|n| n.attribute("d"))
+            .flat_map(|d| {
+                d.split('M')
+                    .filter_map(|part| {
+                        let numbers: Vec<f64> = part
+                            .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+                            .filter_map(|x| x.parse().ok())
+                            .collect();
+                        (numbers.len() == 4 && numbers[0] == numbers[2]).then(|| numbers[0])
+                    })
+                    .collect::<Vec<f64>>()
+            })
+            .collect()
+    };
+    let (one, other) = (uprights("2.4"), uprights("2"));
+    assert!(one.len() == 1 && other.len() == 1, "{one:?} {other:?}");
+    let ends = uprights("1");
+    let [.., from, to] = ends[..] else {
+        panic!("the ends of the surface are drawn: {ends:?}")
+    };
+    let mm = (other[0] - one[0]).abs() / (to - from).abs() * around;
+    assert!(
+        (mm - 0.5 * around).abs() < 0.05,
+        "{one:?} {other:?} {ends:?}"
+    );
+}
+
+#[test]
+fn regress_damage_that_cannot_be_drawn_is_not_called_healthy() {
+    let mut report = filled("plain", &[1.0, -2.0, 3.0], 1e-4, 250.0);
+    report.damage.clear();
+    report.undrawn_damage = Some("contact.slices: 0".into());
+    let page = html(&report);
+    assert!(page.contains("could not be drawn") && page.contains("contact.slices: 0"));
+    assert!(!page.contains("healthy"));
+    report.undrawn_damage = None;
+    assert!(html(&report).contains("The bearing is healthy."));
+}
+
+#[test]
+fn regress_the_page_shows_what_a_roller_meets_and_the_rings_section() {
+    let mut report = ordinary();
+    let curve = |name: &str| DamageCurve {
+        name: name.into(),
+        values: vec![1.0, 2.0, 1.0],
+    };
+    let panel = |label: &str| DamagePanel {
+        label: label.into(),
+        unit: "mm".into(),
+        from_zero: true,
+        curves: vec![curve("in contact, L_e"), curve("damaged, L_s")],
+    };
+    report.damage = vec![DamageView {
+        passage_title: "What a passing roller meets".into(),
+        section_title: "Section under it".into(),
+        angle_deg: vec![-1.0, 0.0, 1.0],
+        passage: vec![panel("Length")],
+        passage_note: "stiffness at 1 um".into(),
+        section_s_mm: vec![-1.0, 0.0, 1.0],
+        section: vec![panel("Thickness")],
+        ..square_with_a_hole()
+    }];
+    let page = html(&report);
+    for words in [
+        "What a passing roller meets",
+        "Section under it",
+        "Stiffness at 1 um.",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    // Symbols have lowered indices, not underscores.
+    assert!(!page.contains(">damaged, L_s<") && page.contains(">damaged, L<tspan"));
+    let names: Vec<String> = pictures(&report).into_iter().map(|p| p.name).collect();
+    for name in ["damage-1", "damage-1-passage", "damage-1-section"] {
+        assert!(names.iter().any(|n| n == name), "{names:?}");
+    }
+}

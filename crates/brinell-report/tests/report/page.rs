@@ -1,0 +1,155 @@
+//! The page: what must be in it, and that nothing odd breaks it.
+
+use crate::checks::{check, check_pictures};
+use crate::sample::{filled, ordinary};
+use brinell_report::{
+    Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
+};
+use proptest::prelude::*;
+
+const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
+
+#[test]
+fn regress_an_ordinary_page_is_whole_and_small() {
+    let report = ordinary();
+    let page = html(&report);
+    check(&page);
+    check_pictures(&report);
+    assert!(page.len() < 2_000_000, "{} bytes", page.len());
+    for text in ["m/s²", "Time (", "Frequency (Hz)", "Force (N)", "250.102"] {
+        assert!(page.contains(text), "{text}");
+    }
+    // Two drawings of every figure, and data for the three that zoom.
+    assert_eq!(
+        page.matches("class=\"wide\"").count(),
+        page.matches("class=\"narrow\"").count()
+    );
+    assert_eq!(page.matches("data-chart=").count(), 3);
+}
+
+#[test]
+fn regress_units_with_exponents_are_raised() {
+    let mut report = ordinary();
+    report.audits = vec![Fact::new("Stiffness", 1.898e8, "N/m^(10/9)", "")];
+    let page = html(&report);
+    assert!(page.contains("1.898×10⁸") && page.contains("N/m<sup>10/9</sup>"));
+}
+
+#[test]
+fn regress_an_empty_report_says_so() {
+    let page = html(&Report::default());
+    check(&page);
+    check_pictures(&Report::default());
+    for words in [
+        "No waveform was recorded",
+        "No spectrum was made",
+        "No roller passed a defect",
+        "No audit was made",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(!page.contains("<svg"));
+    let svg = load_distribution(&[], Layout::Narrow).svg();
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+}
+
+#[test]
+fn regress_every_string_is_escaped() {
+    let report = filled(HOSTILE, &[1.0, 2.0, 3.0, 0.5, 0.7], 0.1, 2.0);
+    let page = html(&report);
+    check(&page);
+    check_pictures(&report);
+    assert!(!page.contains("<img") && !page.contains('\u{0}'));
+}
+
+#[test]
+fn regress_the_close_up_spans_five_periods_of_the_damage() {
+    let mut report = ordinary();
+    let (lo, hi) = detail_window(&report);
+    assert!((hi - lo - 5.0 / 250.102).abs() < 1e-9 && (hi - 255_999.0 / 25_600.0).abs() < 1e-9);
+    report.markers.clear();
+    let (lo, hi) = detail_window(&report);
+    assert!((hi - lo - 0.02).abs() < 1e-9);
+}
+
+/// A start that outshines the run is cut off and said to be; one that does not is shown whole.
+#[test]
+fn regress_the_start_does_not_flatten_the_overview() {
+    let mut report = ordinary();
+    let bins = |first: f64| MinMax {
+        t0_s: 0.0,
+        dt_s: 0.01,
+        min: [vec![-first; 10], vec![-1.0; 990]].concat(),
+        max: vec![1.0; 1000],
+    };
+    report.waveform.overview = Some(bins(650.0));
+    let svg = overview(&report, Layout::Wide).svg();
+    assert!(
+        svg.contains("the start reaches from −650 to 1 m/s²"),
+        "{svg}"
+    );
+    report.waveform.overview = Some(bins(2.5));
+    assert!(!overview(&report, Layout::Wide).svg().contains("Cut off"));
+}
+
+#[test]
+fn regress_odd_data_is_drawn() {
+    for values in [
+        vec![],
+        vec![0.0],
+        vec![7.0],
+        vec![f64::NAN; 5],
+        vec![0.0; 1000],
+        vec![1.0, f64::NAN, 2.0, f64::INFINITY, -3.0],
+        vec![f64::MAX, f64::MIN, f64::MIN_POSITIVE, 5e-324],
+        vec![-1.0, -2.0, -3.0],
+    ] {
+        for (dt, frequency) in [
+            (0.1, 2.0),
+            (0.0, 0.0),
+            (f64::NAN, f64::INFINITY),
+            (1e300, 1e-300),
+        ] {
+            let report = filled("x", &values, dt, frequency);
+            check(&html(&report));
+            check_pictures(&report);
+            assert!(headline_png(&report).is_ok_and(|png| png.starts_with(b"\x89PNG")));
+        }
+    }
+}
+
+#[test]
+fn regress_the_headline_is_1400_by_700() {
+    let png = headline_png(&ordinary()).unwrap();
+    let size = |at: usize| u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]);
+    assert_eq!((size(16), size(20)), (1400, 700));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn prop_no_data_breaks_the_page(
+        text in "\\PC{0,12}",
+        values in prop::collection::vec(any::<f64>(), 0..200),
+        dt in any::<f64>(),
+        frequency in any::<f64>(),
+    ) {
+        let report = filled(&text, &values, dt, frequency);
+        let page = html(&report);
+        prop_assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
+        check_pictures(&report);
+    }
+
+    #[test]
+    fn prop_ordinary_values_break_nothing(
+        values in prop::collection::vec(prop_oneof![Just(f64::NAN), -1e3..1e3, Just(0.0)], 0..300),
+        dt in 1e-6..1.0,
+        frequency in 1e-3..1e5,
+    ) {
+        let report = filled("x", &values, dt, frequency);
+        check(&html(&report));
+        check_pictures(&report);
+        prop_assert!(headline_png(&report).is_ok());
+    }
+}

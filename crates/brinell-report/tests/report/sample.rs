@@ -1,0 +1,280 @@
+//! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
+
+use brinell_report::{
+    Assumption, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView, DamagedSurface,
+    DepthPatch, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
+    Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, Series, SlipRow, Spectrogram, Spectrum,
+    Waveform, bin_centres,
+};
+
+/// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
+fn damage_view(text: &str, values: &[f64]) -> DamageView {
+    let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
+    let panel = DamagePanel {
+        label: text.into(),
+        unit: text.into(),
+        from_zero: at(1) > 0.0,
+        curves: vec![
+            DamageCurve {
+                name: text.into(),
+                values: values.to_vec(),
+            };
+            2
+        ],
+    };
+    DamageView {
+        title: text.into(),
+        surface: text.into(),
+        plan_title: text.into(),
+        passage_title: text.into(),
+        section_title: text.into(),
+        half_turn_mm: (at(2) > 0.0).then(|| at(3)),
+        facts: vec![Fact::new(text, at(0), text, text)],
+        polygons_mm: vec![values.windows(2).map(|w| [w[0], w[1]]).collect()],
+        depths: (at(0) > 0.0).then(|| DepthPatch {
+            start_mm: [at(1), at(2)],
+            step_mm: [at(3), 0.5],
+            columns: 3,
+            depth_um: values.to_vec(),
+        }),
+        roller_length_mm: at(4),
+        roller_diameter_mm: at(5),
+        load_zone_mm: Some([at(6), at(7)]),
+        angle_deg: values.to_vec(),
+        passage: vec![panel.clone(); 2],
+        passage_note: text.into(),
+        section_s_mm: values.to_vec(),
+        section: vec![panel],
+        section_note: text.into(),
+    }
+}
+
+/// A square of side 4 with a square hole of side 2, both wound the same way.
+pub(crate) fn square_with_a_hole() -> DamageView {
+    let square = |h: f64| vec![[-h, -h], [h, -h], [h, h], [-h, h]];
+    DamageView {
+        polygons_mm: vec![square(2.0), square(1.0)],
+        roller_length_mm: 6.0,
+        roller_diameter_mm: 6.0,
+        load_zone_mm: Some([-30.0, 30.0]),
+        ..DamageView::default()
+    }
+}
+
+fn slip_row(text: &str, values: &[f64], dt: f64) -> SlipRow {
+    let some: Vec<f64> = values.iter().take(1000).copied().collect();
+    SlipRow {
+        name: text.into(),
+        t0_s: 0.5 * dt,
+        dt_s: dt,
+        cage: some.clone(),
+        orbit: some.clone(),
+        spin: some.clone(),
+        angle_deg: some.clone(),
+        orbit_there: some.clone(),
+        spin_there: some,
+    }
+}
+
+/// Two rows of two rollers, as many frames as the values allow.
+fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
+    let some: Vec<f32> = values.iter().take(480).map(|v| *v as f32).collect();
+    let row = MotionRow {
+        title: text.into(),
+        pockets: vec![0.0, 3.1],
+        cage: some.clone(),
+        orbit: some.clone(),
+        spin: some.clone(),
+        inner_n: some.clone(),
+        outer_n: some.clone(),
+    };
+    Motion {
+        t0_s: 0.0,
+        dt_s: dt,
+        inner_radius_mm: 21.5,
+        outer_radius_mm: 27.5,
+        pitch_radius_mm: 24.5,
+        roller_radius_mm: 3.0,
+        ring: some,
+        rows: vec![row; 2],
+        damage: [
+            DamagedSurface::Outer,
+            DamagedSurface::Inner,
+            DamagedSurface::Roller(1),
+        ]
+        .map(|surface| MotionDamage {
+            row: 0,
+            surface,
+            angle: [
+                values.first().copied().unwrap_or(f64::NAN),
+                values.last().copied().unwrap_or(0.1),
+            ],
+        })
+        .to_vec(),
+    }
+}
+
+/// A report in which every list is filled, strings from `text` and numbers from `values`.
+pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Report {
+    let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
+    let fact = || Fact::new(text, at(0), text, text).judged(at(1) > 0.0);
+    let spectrum = || Spectrum {
+        label: text.into(),
+        df_hz: dt,
+        amplitude: values.to_vec(),
+        unit: text.into(),
+        note: text.into(),
+    };
+    Report {
+        title: text.into(),
+        subtitle: text.into(),
+        version: text.into(),
+        partial: Some(text.into()),
+        undrawn_damage: (at(2) < 0.0).then(|| text.to_owned()),
+        facts: vec![fact(), Fact::new(text, text, text, text)],
+        waveform: Waveform {
+            series: Series {
+                label: text.into(),
+                unit: text.into(),
+                t0_s: at(2),
+                dt_s: dt,
+                values: values.to_vec(),
+            },
+            overview: Some(MinMax {
+                t0_s: at(2),
+                dt_s: dt,
+                min: values.to_vec(),
+                max: values.iter().skip(1).copied().collect(),
+            }),
+            events: vec![
+                Event {
+                    t_s: at(3),
+                    kind: EventKind::Enter,
+                    label: text.into(),
+                },
+                Event {
+                    t_s: at(4),
+                    kind: EventKind::Leave,
+                    label: text.into(),
+                },
+            ],
+        },
+        spectrum: spectrum(),
+        envelope_spectrum: spectrum(),
+        markers: [true, false]
+            .map(|present| Marker {
+                label: text.into(),
+                meaning: text.into(),
+                frequency_hz: frequency,
+                harmonics: 5,
+                present,
+            })
+            .to_vec(),
+        damage: vec![damage_view(text, values)],
+        passes: vec![Pass {
+            title: text.into(),
+            angle_deg: values.to_vec(),
+            length_mm: values.to_vec(),
+            other_length_mm: Some(values.iter().rev().copied().collect()),
+            stiffness: values.iter().skip(1).copied().collect(),
+            stiffness_unit: text.into(),
+            force_n: vec![],
+            contact: text.into(),
+            other_contact: text.into(),
+        }],
+        load_distribution: vec![RowLoad {
+            title: text.into(),
+            angle_deg: values.to_vec(),
+            mean_n: values.to_vec(),
+            max_n: values.iter().rev().copied().collect(),
+            static_points: values.iter().map(|v| (*v, at(0))).collect(),
+        }],
+        indicators: IndicatorTable {
+            columns: vec![text.into(), text.into()],
+            rows: vec![IndicatorRow {
+                channel: text.into(),
+                kind: text.into(),
+                cells: vec![Estimate {
+                    value: at(0),
+                    half_width: Some(at(1)),
+                    unit: text.into(),
+                }],
+            }],
+            note: text.into(),
+        },
+        slip: vec![fact()],
+        slip_rows: vec![slip_row(text, values, dt); 2],
+        cage_orbits: CageOrbits {
+            rows: vec![
+                CageOrbit {
+                    title: text.into(),
+                    x_um: values.iter().take(2000).copied().collect(),
+                    y_um: values.iter().take(2000).rev().copied().collect(),
+                    last_turn: 3,
+                };
+                3
+            ],
+            clearance_um: Some(at(1)),
+            note: text.into(),
+        },
+        motion: motion(text, values, dt),
+        spectrogram: Spectrogram {
+            label: text.into(),
+            unit: text.into(),
+            t0_s: at(1),
+            dt_s: dt,
+            df_hz: frequency,
+            bins: 3,
+            density: values.iter().take(3000).copied().collect(),
+            note: text.into(),
+        },
+        audits: vec![fact()],
+        solver_work: vec![fact()],
+        assumptions: vec![Assumption {
+            key: text.into(),
+            value: at(0).into(),
+            unit: text.into(),
+            source: text.into(),
+            estimated: true,
+        }],
+        scenario_toml: text.into(),
+    }
+}
+
+/// Ten seconds at 25.6 kHz with bursts every 4 ms.
+pub(crate) fn ordinary() -> Report {
+    let values: Vec<f64> = (0..256_000)
+        .map(|i| {
+            let phase = f64::from(i) / 25_600.0 % 0.004;
+            60.0 * (-phase * 900.0).exp() * (phase * 26_000.0).sin()
+        })
+        .collect();
+    let mut report = filled("plain", &values, 1.0 / 25_600.0, 250.102);
+    report.spectrum.df_hz = 0.1;
+    report.envelope_spectrum.df_hz = 0.1;
+    report.waveform.series.t0_s = 0.0;
+    report.waveform.series.unit = "m/s^2".into();
+    let angle_deg: Vec<f64> = (0..500).map(|i| 0.02 * f64::from(i) - 5.0).collect();
+    report.damage = vec![square_with_a_hole()];
+    report.passes[0] = Pass {
+        title: "Row 1, roller 7".into(),
+        length_mm: angle_deg
+            .iter()
+            .map(|a| if a.abs() < 3.1 { 2.0 } else { 6.0 })
+            .collect(),
+        other_length_mm: None,
+        stiffness: vec![1.9e8; 500],
+        stiffness_unit: "N/m^(10/9)".into(),
+        force_n: vec![40.0; 500],
+        angle_deg,
+        ..Pass::default()
+    };
+    report.load_distribution[0] = RowLoad {
+        title: "Row 1".into(),
+        angle_deg: bin_centres(36),
+        mean_n: vec![10.0; 36],
+        max_n: vec![12.0; 36],
+        static_points: vec![(0.0, 11.0)],
+    };
+    report
+}
