@@ -16,7 +16,8 @@ use std::path::PathBuf;
         brinell init bearing.toml           write a commented scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
         brinell run bearing.toml -o out     simulate; then open out/report.html\n\n\
-        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 interrupted (what was computed is kept)."
+        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 a run interrupted (what was computed is kept; an \
+        interrupted sweep or comparison ends with 1)."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -46,6 +47,10 @@ pub(crate) enum Command {
     },
     /// Say what a measured signal shows: which component's damage, how sure; or lay it over a simulated one
     Analyze(Box<crate::analyze::AnalyzeArgs>),
+    /// Vary keys over lists and ranges, many runs in parallel, one table and plots; goes on where it stopped
+    Sweep(crate::sweep::SweepArgs),
+    /// Lay scenarios side by side: signals, spectra, contact over the defect, impacts, ratios with intervals
+    Compare(crate::compare::CompareArgs),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

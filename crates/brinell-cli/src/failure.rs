@@ -48,6 +48,21 @@ impl Failure {
         })
     }
 
+    /// In words, without the lines of the file; problems of a scenario one after the other.
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Self::Scenario { problems, .. } => {
+                let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                texts.join("\n")
+            }
+            Self::Usage(message) => message.clone(),
+            Self::Read(path, error) => format!("cannot read {}: {error}", path.display()),
+            Self::Write(error) => error.to_string(),
+            Self::Picture(error) => error.to_string(),
+            Self::Run(error) => error.to_string(),
+        }
+    }
+
     /// To standard error.
     pub(crate) fn print(&self) {
         self.print_of("");

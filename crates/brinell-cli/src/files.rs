@@ -5,51 +5,82 @@ use crate::failure::{Failure, print_problems};
 use crate::say::complain;
 use brinell::document::{Loaded, Place, Problem, Severity, locate, read_bytes};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest scenario read, bytes: nobody writes longer ones, and a device file never ends.
 const LARGEST: u64 = 64 << 20;
 
 /// Reads and validates a scenario; its warnings go to standard error unless `quiet`.
 pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failure> {
-    let overrides = args
-        .set
-        .iter()
-        .map(|text| match text.split_once('=') {
-            Some((key, value)) if !key.trim().is_empty() => {
-                Ok((key.trim().to_owned(), value.trim().to_owned()))
-            }
-            _ => Err(Failure::Usage(format!(
-                "--set {text}: expected KEY=VALUE, for instance --set operation.speed_rpm=3000"
-            ))),
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let bytes = bytes(&args.scenario)?;
-    let name = if is_stdin(&args.scenario) {
-        "standard input".to_owned()
-    } else {
-        args.scenario.display().to_string()
-    };
-    match read_bytes(&bytes, &overrides) {
-        Ok(mut loaded) => {
-            if !quiet && !loaded.warnings.is_empty() {
-                print_problems(&name, &String::from_utf8_lossy(&bytes), &loaded.warnings);
-            }
-            let text = String::from_utf8_lossy(&bytes);
-            read_damage(&mut loaded, &args.scenario, &text, &overrides, quiet).map_err(
-                |problems| Failure::Scenario {
-                    name,
-                    text: text.to_string(),
-                    problems,
-                },
-            )?;
-            Ok(loaded)
-        }
-        Err(problems) => Err(Failure::Scenario {
+    Source::open(args)?.load(&[], quiet)
+}
+
+/// A scenario's text and the overrides of the command line, to be read as often as there are variants of it.
+pub(crate) struct Source {
+    path: PathBuf,
+    name: String,
+    bytes: Vec<u8>,
+    overrides: Vec<(String, String)>,
+}
+
+impl Source {
+    /// Reads the file.
+    pub(crate) fn open(args: &ScenarioArgs) -> Result<Self, Failure> {
+        let overrides = args.set.iter().map(|text| setting("--set ", text));
+        let overrides = overrides.collect::<Result<_, _>>()?;
+        let name = if is_stdin(&args.scenario) {
+            "standard input".to_owned()
+        } else {
+            args.scenario.display().to_string()
+        };
+        Ok(Self {
+            bytes: bytes(&args.scenario)?,
+            path: args.scenario.clone(),
             name,
-            text: String::from_utf8_lossy(&bytes).into_owned(),
+            overrides,
+        })
+    }
+
+    /// The file as it stands.
+    pub(crate) fn text(&self) -> String {
+        String::from_utf8_lossy(&self.bytes).into_owned()
+    }
+
+    /// The overrides of the command line.
+    pub(crate) fn overrides(&self) -> &[(String, String)] {
+        &self.overrides
+    }
+
+    /// The scenario with `settings` over the overrides; its warnings go to standard error unless `quiet`.
+    pub(crate) fn load(
+        &self,
+        settings: &[(String, String)],
+        quiet: bool,
+    ) -> Result<Loaded, Failure> {
+        let overrides = [&self.overrides, settings].concat();
+        let failed = |problems| Failure::Scenario {
+            name: self.name.clone(),
+            text: self.text(),
             problems,
-        }),
+        };
+        let mut loaded = read_bytes(&self.bytes, &overrides).map_err(failed)?;
+        if !quiet && !loaded.warnings.is_empty() {
+            print_problems(&self.name, &self.text(), &loaded.warnings);
+        }
+        read_damage(&mut loaded, &self.path, &self.text(), &overrides, quiet).map_err(failed)?;
+        Ok(loaded)
+    }
+}
+
+/// `KEY=VALUE`, what was asked for by `option`.
+pub(crate) fn setting(option: &str, text: &str) -> Result<(String, String), Failure> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => {
+            Ok((key.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err(Failure::Usage(format!(
+            "{option}{text}: expected KEY=VALUE, for instance {option}operation.speed_rpm=3000"
+        ))),
     }
 }
 
@@ -58,6 +89,15 @@ pub(crate) fn warn_idle(patterns: &[String]) {
     for pattern in patterns {
         complain!("warning: simulation.record: \"{pattern}\" matches no channel of this bearing");
     }
+}
+
+/// What a scenario's file is called without its ending.
+pub(crate) fn stem(path: &Path) -> String {
+    if is_stdin(path) {
+        return "stdin".into();
+    }
+    let stem = path.file_stem().unwrap_or(path.as_os_str());
+    stem.to_string_lossy().into_owned()
 }
 
 /// `-` is standard input.

@@ -4,7 +4,9 @@
 
 mod analyze;
 mod args;
+mod campaign;
 mod check;
+mod compare;
 mod damage;
 mod defect;
 mod failure;
@@ -15,6 +17,7 @@ mod plan;
 mod progress;
 mod run;
 mod say;
+mod sweep;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -30,6 +33,8 @@ fn main() -> ExitCode {
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Compare(args) => compare::side_by_side(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

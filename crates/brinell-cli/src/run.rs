@@ -157,18 +157,8 @@ fn writers(
     simulation: &Simulation,
     folder: &Path,
 ) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
-    let columns: Vec<Column> = std::iter::once(Column::new("t", "s", "time"))
-        .chain(
-            simulation
-                .channels()
-                .iter()
-                .map(|c| Column::new(&c.name, c.unit, &c.description)),
-        )
-        .collect();
-    let metadata = Metadata::default()
-        .with(keys::SCENARIO, loaded.to_toml())
-        .with(keys::VERSION, brinell::VERSION)
-        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string());
+    let columns = signal_columns(simulation);
+    let metadata = signal_metadata(loaded.to_toml(), simulation);
     let mut formats: Vec<Format> = Vec::new();
     for format in &args.signals {
         let format = match format {
@@ -192,6 +182,22 @@ fn writers(
     formats.into_iter().map(make).collect()
 }
 
+/// Time and the recorded channels.
+pub(crate) fn signal_columns(simulation: &Simulation) -> Vec<Column> {
+    let channels = simulation.channels().iter();
+    std::iter::once(Column::new("t", "s", "time"))
+        .chain(channels.map(|c| Column::new(&c.name, c.unit, &c.description)))
+        .collect()
+}
+
+/// What a file of signals says of itself.
+pub(crate) fn signal_metadata(scenario_toml: String, simulation: &Simulation) -> Metadata {
+    Metadata::default()
+        .with(keys::SCENARIO, scenario_toml)
+        .with(keys::VERSION, brinell::VERSION)
+        .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string())
+}
+
 /// Each picture as a file, and the one that says most on its own.
 fn plots(
     args: &RunArgs,
@@ -202,12 +208,22 @@ fn plots(
     if args.plots.is_empty() {
         return Ok(());
     }
-    let folder = folder.join("plots");
-    make_folder(&folder)?;
     let mut pictures = brinell_report::pictures(report);
     pictures.push(brinell_report::headline(report));
-    for picture in &pictures {
-        for format in &args.plots {
+    write_pictures(&pictures, &args.plots, folder, written)
+}
+
+/// Pictures as files of `folder`/plots.
+pub(crate) fn write_pictures(
+    pictures: &[brinell_report::Picture],
+    formats: &[PlotFormat],
+    folder: &Path,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    let folder = folder.join("plots");
+    make_folder(&folder)?;
+    for picture in pictures {
+        for format in formats {
             let (ending, bytes) = match format {
                 PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
                 PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
@@ -230,7 +246,7 @@ pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 /// Set by Ctrl-C; a second Ctrl-C ends the process at once.
-fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     ctrlc::set_handler(move || {

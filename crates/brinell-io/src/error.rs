@@ -244,6 +244,16 @@ pub enum IoError {
         /// What is wrong.
         why: String,
     },
+    /// A journal with a line that is not one of its own.
+    #[error("{}: line {line} is no line of a journal: {why}", path.display())]
+    Journal {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What the parser said.
+        why: String,
+    },
     /// A damaged or unsupported Parquet file.
     #[error("{}: cannot read this Parquet file: {why}", path.display())]
     Parquet {

@@ -38,13 +38,16 @@
 mod atomic;
 mod csv;
 mod error;
+mod journal;
 mod read;
 mod signals;
+mod table;
 mod write;
 
 pub use atomic::atomic_write;
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
+pub use journal::Journal;
 #[cfg(feature = "parquet")]
 pub use read::parquet::read_parquet;
 pub use read::{
@@ -52,6 +55,7 @@ pub use read::{
     open, open_as,
 };
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
+pub use table::{Cells, Table};
 pub use write::mat::MatWriter;
 #[cfg(feature = "npz")]
 pub use write::npz::NpzWriter;

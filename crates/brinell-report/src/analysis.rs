@@ -325,7 +325,7 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     page
 }
 
-fn table(page: &mut String, table: &Table) {
+pub(crate) fn table(page: &mut String, table: &Table) {
     let _ = write!(
         page,
         "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>",

@@ -27,8 +27,10 @@ mod picture;
 mod plots;
 mod raster;
 mod shape;
+mod side_by_side;
 mod slip;
 mod spectrogram;
+mod sweep;
 mod tables;
 mod thin;
 
@@ -49,5 +51,13 @@ pub use plots::{
     Layout, detail_window, envelope_spectrum, headline, headline_png, overview, pass, pictures,
     spectrum, waveform,
 };
+pub use side_by_side::{
+    Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,
+    side_by_side_pictures,
+};
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};
+pub use sweep::{
+    IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,
+    sweep_pictures,
+};

@@ -24,25 +24,7 @@ pub fn html(report: &Report) -> String {
     } else {
         &report.title
     };
-    let _ = write!(
-        page,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{} · brinell</title>\n<style>\n",
-        escape(title)
-    );
-    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
-        let _ = writeln!(
-            page,
-            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
-            base64(face)
-        );
-    }
-    page.push_str(include_str!("page.css"));
-    let _ = write!(
-        page,
-        "</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n",
-        escape(title)
-    );
+    head(&mut page, title);
     if !report.subtitle.is_empty() {
         let _ = writeln!(
             page,
@@ -108,6 +90,28 @@ pub fn html(report: &Report) -> String {
     page.push_str(include_str!("motion.js"));
     page.push_str("</script>\n</body>\n</html>\n");
     page
+}
+
+/// From the first byte to the heading; `header` stays open.
+pub(crate) fn head(page: &mut String, title: &str) {
+    let title = escape(title);
+    let _ = write!(
+        page,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n",
+    );
+    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
+        let _ = writeln!(
+            page,
+            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
+            base64(face)
+        );
+    }
+    page.push_str(include_str!("page.css"));
+    let _ = write!(
+        page,
+        "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
+    );
 }
 
 /// Anchor, heading, and what is under it.

@@ -12,7 +12,8 @@ use brinell::summary::Parts;
 use brinell_report::Report;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
-use signals::{envelope_spectrum, indicators, markers, spectrum, waveform};
+pub(crate) use signals::defect_markers;
+use signals::{envelope_spectrum, indicators, spectrum, waveform};
 use tables::{assumptions, audits, facts, slip, solver_work};
 
 /// The page's data.
@@ -36,7 +37,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         spectrogram: spectrogram(parts, measured(parts)),
         envelope_spectrum: envelope_spectrum(parts),
-        markers: markers(parts),
+        markers: defect_markers(scenario, parts.simulation.model()),
         damage,
         undrawn_damage,
         passes: parts

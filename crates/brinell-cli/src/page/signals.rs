@@ -3,8 +3,9 @@
 use super::{axis, measured};
 use crate::say::short;
 use brinell::bearing::Kinematics;
+use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, Kind};
-use brinell::scenario::Speed;
+use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
 use brinell::summary::Parts;
 use brinell_report::{
@@ -107,12 +108,10 @@ pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
 }
 
 /// Defect frequencies at constant speed; at a varying speed there are none to mark.
-pub(super) fn markers(parts: &Parts) -> Vec<Marker> {
-    let scenario = &parts.loaded.scenario;
+pub(crate) fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
     let Speed::Constant(_) = scenario.operation.speed_rpm else {
         return Vec::new();
     };
-    let model = parts.simulation.model();
     let k: Kinematics = model.kinematics(model.rotation.at(0.0).0);
     let damaged: Vec<&str> = scenario
         .defects

@@ -5,3 +5,4 @@ mod damage;
 mod page;
 mod pictures;
 mod sample;
+mod sweep;

@@ -1,7 +1,7 @@
 //! Signals: what a data logger would hold, and what an analyst reads off it.
 //!
 //! Following a run, sample by sample: [`mod@decimate`] is the anti-alias chain of the measured channels, [`indicators`]
-//! the condition indicators with their scatter, [`spectrum`] amplitude spectra and power spectral densities,
+//! the condition indicators with their scatter, [`mod@ratio`] how those of two runs compare, [`spectrum`] amplitude spectra and power spectral densities,
 //! [`mod@envelope`] the envelope spectrum, and [`frequency`] the precise repetition frequency of a train of impacts.
 //! These hold a bounded amount of memory, however long the run is; nothing is allocated per sample.
 //!
@@ -31,6 +31,7 @@ pub mod kurtogram;
 pub mod lines;
 pub mod order;
 pub mod psd;
+pub mod ratio;
 pub mod spectrogram;
 pub mod spectrum;
 pub mod velocity_bands;

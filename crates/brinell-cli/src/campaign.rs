@@ -1,0 +1,252 @@
+//! Many runs with a journal: what is finished is on the disk, and is not run again.
+//!
+//! A folder's `journal.jsonl` begins with what it is the journal of; then comes one line a finished point, a [`Row`]. A point counts as
+//! finished where a row has the fingerprint of its scenario and the version of this program.
+
+use crate::failure::Failure;
+use crate::progress::Joint;
+use brinell::campaign::{Finished, Row, finish};
+use brinell::channel::Frame;
+use brinell::scenario::Scenario;
+use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
+use brinell_io::{IoError, Journal, Outcome, SignalWriter};
+use serde_json::Value;
+use std::collections::{HashMap, HashSet};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Name of the journal within its folder.
+pub(crate) const JOURNAL: &str = "journal.jsonl";
+
+/// A folder's journal and the points that are finished.
+pub(crate) struct Ledger {
+    journal: Journal,
+    rows: HashMap<String, Row>,
+    /// Scenarios that another version of this program finished.
+    outdated: HashSet<String>,
+}
+
+impl Ledger {
+    /// Opens the journal of `folder`, which exists, for the campaign that `header` describes: an object with `campaign`, its kind, and
+    /// whatever tells it from others. Another campaign's journal is refused, with `words` for what to do; `extend` makes it this one's.
+    pub(crate) fn open(
+        folder: &Path,
+        header: &Value,
+        extend: bool,
+        words: impl Fn(&Value) -> String,
+    ) -> Result<Self, Failure> {
+        let (mut journal, lines) = Journal::open(folder.join(JOURNAL))?;
+        let is_header = |line: &&Value| line.get("campaign").is_some();
+        let latest = lines.iter().rfind(is_header);
+        match latest {
+            Some(other) if other["campaign"] != header["campaign"] => {
+                return Err(Failure::Usage(words(other)));
+            }
+            Some(other) if other != header && !extend => {
+                return Err(Failure::Usage(words(other)));
+            }
+            Some(other) if other == header => {}
+            None if !lines.is_empty() => return Err(Failure::Usage(words(&Value::Null))),
+            _ => journal.append(header)?,
+        }
+        let (mut rows, mut outdated) = (HashMap::new(), HashSet::new());
+        for row in lines.iter().filter_map(Row::from_json) {
+            if row.version == brinell::VERSION {
+                rows.insert(row.scenario.clone(), row);
+            } else {
+                outdated.insert(row.scenario);
+            }
+        }
+        Ok(Self {
+            journal,
+            rows,
+            outdated,
+        })
+    }
+
+    /// The row of a scenario that is finished.
+    pub(crate) fn row(&self, fingerprint: &str) -> Option<&Row> {
+        self.rows.get(fingerprint)
+    }
+
+    /// Whether a scenario is finished, but by another version of this program.
+    pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
+        self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
+    }
+
+    fn add(&mut self, row: Row) -> Result<(), Failure> {
+        self.journal.append(&row.to_json())?;
+        self.rows.insert(row.scenario.clone(), row);
+        Ok(())
+    }
+}
+
+/// A point to be run.
+#[derive(Debug, Clone)]
+pub(crate) struct Task {
+    /// Key and value of what it sets.
+    pub(crate) settings: Vec<(String, String)>,
+    /// Of its scenario.
+    pub(crate) fingerprint: String,
+    /// Simulated time, s.
+    pub(crate) duration_s: f64,
+}
+
+/// What makes runs of tasks.
+pub(crate) trait Work: Sync {
+    /// The scenario of a task. It is made by the thread that runs it, so that memory goes with the runs in progress.
+    fn scenario(&self, task: &Task) -> Result<Scenario, Failure>;
+
+    /// Where the task's signals go, if anywhere.
+    fn signals(
+        &self,
+        task: &Task,
+        scenario: &Scenario,
+        simulation: &Simulation,
+    ) -> Result<Option<Box<dyn SignalWriter>>, Failure>;
+}
+
+/// How the tasks went.
+pub(crate) struct Went {
+    /// Some were not run, or not to their end.
+    pub(crate) interrupted: bool,
+}
+
+/// Runs tasks side by side, up to `threads` at a time, each on the disk as soon as it is done. A run that fails is a row like
+/// another; only files that cannot be read or written end the campaign.
+pub(crate) fn run(
+    tasks: &[Task],
+    work: &impl Work,
+    ledger: &mut Ledger,
+    threads: NonZeroUsize,
+    quiet: bool,
+    stop: &AtomicBool,
+) -> Result<Went, Failure> {
+    let total = tasks.iter().map(|task| task.duration_s).sum();
+    let mut joint = Joint::new(tasks.len(), total, quiet);
+    let bar = joint.bar();
+    let (mut interrupted, mut failure) = (false, None);
+    brinell::many::each(
+        tasks.len(),
+        threads,
+        |k| {
+            one(
+                &tasks[k],
+                work,
+                Joint::part(&bar, tasks[k].duration_s),
+                stop,
+            )
+        },
+        |_, result| {
+            match result {
+                Ok(Some(row)) => {
+                    if failure.is_none() {
+                        failure = ledger.add(row).err();
+                    }
+                }
+                Ok(None) => interrupted = true,
+                Err(error) => failure = failure.take().or(Some(error)),
+            }
+            if failure.is_some() {
+                stop.store(true, Ordering::Relaxed);
+            }
+            joint.ended(&[], Path::new(""));
+        },
+    );
+    drop(joint);
+    match failure {
+        Some(failure) => Err(failure),
+        None => Ok(Went { interrupted }),
+    }
+}
+
+/// One task; `None` where it was broken off.
+fn one(
+    task: &Task,
+    work: &impl Work,
+    progress: crate::progress::Progress,
+    stop: &AtomicBool,
+) -> Result<Option<Row>, Failure> {
+    if stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let row = |result| Row {
+        settings: task.settings.clone(),
+        scenario: task.fingerprint.clone(),
+        version: brinell::VERSION.to_owned(),
+        result,
+    };
+    let scenario = work.scenario(task)?;
+    let simulation = match Simulation::new(&scenario) {
+        Ok(simulation) => simulation,
+        Err(error) => return Ok(Some(row(Err(error.to_string())))),
+    };
+    let mut recorder = Recorder {
+        row: vec![0.0; simulation.channels().len() + 1],
+        sample_rate: simulation.sample_rate(),
+        writer: work.signals(task, &scenario, &simulation)?,
+        failed: None,
+        progress,
+        stop,
+    };
+    let finished = finish(scenario, simulation, &mut recorder);
+    recorder.progress.finish();
+    if let Some(error) = recorder.failed {
+        return Err(error.into());
+    }
+    let outcome = match &finished.outcome.end {
+        End::Complete => Outcome::Complete,
+        End::Stopped => return Ok(None),
+        End::Failed(error) => Outcome::Partial(error.to_string()),
+    };
+    if let Some(writer) = recorder.writer {
+        writer.finish(outcome)?;
+    }
+    Ok(Some(row(numbers(&finished).map_err(|e| e.to_string()))))
+}
+
+fn numbers(finished: &Finished) -> Result<Vec<brinell::campaign::Quantity>, RunError> {
+    match &finished.outcome.end {
+        End::Failed(error) => Err(error.clone()),
+        _ => Ok(finished.quantities()),
+    }
+}
+
+/// Rows to a file, time to the bar.
+struct Recorder<'a> {
+    row: Vec<f64>,
+    sample_rate: f64,
+    writer: Option<Box<dyn SignalWriter>>,
+    failed: Option<IoError>,
+    progress: crate::progress::Progress,
+    stop: &'a AtomicBool,
+}
+
+impl Observer for Recorder<'_> {
+    fn step(&mut self, _: &Frame) {}
+
+    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+        let Some(writer) = &mut self.writer else {
+            return ControlFlow::Continue(());
+        };
+        self.row[0] = index as f64 / self.sample_rate;
+        self.row[1..].copy_from_slice(row);
+        match writer.write_row(&self.row) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.failed = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.progress.at(t);
+        if self.stop.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}

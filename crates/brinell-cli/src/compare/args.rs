@@ -1,0 +1,46 @@
+//! The command line of `brinell compare`.
+
+use crate::args::PlotFormat;
+use clap::Args;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The first scenario is what the others are held against. A variant is that one with some keys changed.\n\n\
+    Files in the folder:\n  \
+    compare.html   signals, spectra, envelope spectra, contact length and stiffness over the defect, entries and exits, ratios; one file\n  \
+    compare.csv    a row a number: value and interval in each run, and its ratio to the first\n  \
+    compare.json   the same with the scenarios\n\n\
+    The interval of a ratio follows from the scatter of both runs' blocks of whole revolutions: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), a and \
+    b being means over blocks and s their standard errors, t Student's with Welch's degrees of freedom. It supposes runs that scatter \
+    independently. There is none where a mean is known to less than a quarter, and no ratio where blocks differ in length.\n\n\
+    Exit codes: 0 done, 1 a run failed or was interrupted (nothing is written), 2 bad input.\n\n\
+    Examples:\n  \
+    brinell compare actual.toml simplified.toml -o out/compare\n  \
+    brinell compare base.toml --variant reference:simulation.model=reference\n  \
+    brinell compare base.toml --variant 'sliced:contact.law=sliced; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
+)]
+pub(crate) struct CompareArgs {
+    /// The scenarios (TOML), the first of them the one that others are held against
+    #[arg(required = true, value_name = "SCENARIO")]
+    pub(crate) scenarios: Vec<PathBuf>,
+    /// The first scenario with some keys changed, under a name
+    #[arg(long, value_name = "NAME:KEY=VALUE; KEY=VALUE")]
+    pub(crate) variant: Vec<String>,
+    /// Override any key, in all of them
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Folder for the results [default: out/compare-STEM, STEM being the first scenario's file name without ending]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Runs at a time [default: one a core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Also write each plot into FOLDER/plots, as files of these formats
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
+    pub(crate) plots: Vec<PlotFormat>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

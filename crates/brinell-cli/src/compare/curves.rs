@@ -1,0 +1,245 @@
+//! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
+
+use super::sides::Side;
+use brinell::campaign::{Finished, Impacts, impacts};
+use brinell::observe::passes::{PassPoint, place};
+use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
+
+/// Name of the acceleration that a run's curves show.
+fn acceleration(run: &Finished) -> String {
+    format!(
+        "acceleration measured_a{}",
+        if run.findings.axis == 0 { "x" } else { "y" }
+    )
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    first + letters.as_str()
+}
+
+/// A stretch of the waveforms, five strikes long, from where all are analysed.
+pub(super) fn waveform(runs: &[&Finished]) -> Overlay {
+    let kept = |run: &Finished| {
+        let (first, values) = run.findings.waveform.latest();
+        (first as f64 / run.simulation.sample_rate(), values)
+    };
+    let begin = |run: &&Finished| run.findings.from.max(kept(run).0);
+    let from = runs.iter().map(begin).fold(0.0, f64::max);
+    let strike = |run: &&Finished| {
+        let model = run.simulation.model();
+        let k = model.kinematics(model.rotation.max_speed());
+        let struck = model.defects.iter().map(|d| k.struck_by(d.surface).1);
+        struck.fold(k.bpfo, f64::max)
+    };
+    let quickest = runs.iter().map(strike).fold(0.0, f64::max);
+    let width = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
+    let curves = runs.iter().enumerate().map(|(of, run)| {
+        let (first, values) = kept(run);
+        let step = 1e3 / run.simulation.sample_rate();
+        let along = Along::Even {
+            first: 1e3 * first,
+            step,
+        };
+        OverlaidCurve { of, along, values }
+    });
+    Overlay {
+        name: "waveform".into(),
+        x_label: "Time".into(),
+        x_unit: "ms".into(),
+        x_range: Some((1e3 * from, 1e3 * (from + width))),
+        y_label: capital(&acceleration(runs[0])),
+        y_unit: "m/s^2".into(),
+        curves: curves.collect(),
+        note: "The first strikes of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
+               statistics agree."
+            .into(),
+        ..Overlay::default()
+    }
+}
+
+pub(super) fn spectrum(runs: &[&Finished]) -> Piece {
+    let curves = runs.iter().enumerate().filter_map(|(of, run)| {
+        let s = run.findings.spectrum.as_ref()?;
+        Some(even(of, s.frequency_step, s.amplitude.clone()))
+    });
+    let curves: Vec<_> = curves.collect();
+    if curves.is_empty() {
+        return Piece::Words("The runs are too short for a spectrum.".into());
+    }
+    Piece::Overlay(Overlay {
+        name: "spectrum".into(),
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        y_label: format!("Amplitude of {}", acceleration(runs[0])),
+        y_unit: "m/s^2".into(),
+        vertical: Vertical::Decades,
+        curves,
+        note: "Peak amplitude, Hann window, whole analysed time.".into(),
+        ..Overlay::default()
+    })
+}
+
+fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
+    let along = Along::Even { first: 0.0, step };
+    OverlaidCurve { of, along, values }
+}
+
+pub(super) fn envelope(sides: &[Side], runs: &[&Finished]) -> Piece {
+    let curves = runs.iter().enumerate().filter_map(|(of, run)| {
+        let (e, _) = run.findings.envelope.as_ref()?;
+        let mut values = e.spectrum.amplitude.clone();
+        // The line at 0 Hz is the envelope's mean and says nothing about damage.
+        if let Some(mean) = values.first_mut() {
+            *mean = f64::NAN;
+        }
+        Some(even(of, e.spectrum.frequency_step, values))
+    });
+    let curves: Vec<_> = curves.collect();
+    let Some((_, band)) = runs.iter().find_map(|run| run.findings.envelope.as_ref()) else {
+        return Piece::Words("The runs are too short for an envelope spectrum.".into());
+    };
+    let markers = crate::page::defect_markers(&runs[0].scenario, runs[0].simulation.model());
+    let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
+    let top = top.fold(0.0, f64::max);
+    Piece::Overlay(Overlay {
+        name: "envelope-spectrum".into(),
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        x_range: (top > 0.0).then_some((0.0, 5.5 * top)),
+        y_label: "Envelope amplitude".into(),
+        y_unit: "m/s^2".into(),
+        vertical: Vertical::FromZero,
+        curves,
+        note: format!(
+            "Envelope of {} between {:.1} and {:.1} kHz. Marked: the defect frequencies of {} in pure rolling.",
+            acceleration(runs[0]),
+            1e-3 * band.low,
+            1e-3 * band.high,
+            sides[0].label
+        ),
+        markers,
+        ..Overlay::default()
+    })
+}
+
+/// "defect 1 (outer raceway, row 1)".
+pub(super) fn called(runs: &[&Finished], defect: usize) -> String {
+    let of = |run: &&Finished| run.simulation.model().defects.get(defect).map(place);
+    let place = runs.iter().find_map(of).unwrap_or_default();
+    format!("defect {} ({place})", defect + 1)
+}
+
+/// Name of the picture, quantity, unit, and how a point of a pass gives it.
+type Shown = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&PassPoint) -> f64,
+);
+
+/// Contact length, stiffness and force of the heaviest pass of each run.
+pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
+    let passes: Vec<_> = runs
+        .iter()
+        .map(|run| {
+            run.findings
+                .passes
+                .best()
+                .into_iter()
+                .find(|p| p.defect == defect)
+        })
+        .collect();
+    if passes.iter().all(Option::is_none) {
+        return vec![Piece::Words("No roller passed it from end to end.".into())];
+    }
+    let exponent = runs[0].scenario.contact.exponent;
+    let stiffness = if (exponent - 10.0 / 9.0).abs() < 1e-9 {
+        "N/m^(10/9)"
+    } else {
+        "N/m^n"
+    };
+    let quantities: [Shown; 3] = [
+        ("length", "Effective contact length", "mm", |p| {
+            1e3 * p.length
+        }),
+        ("stiffness", "Contact stiffness", stiffness, |p| p.stiffness),
+        ("force", "Contact force", "N", |p| p.force),
+    ];
+    let overlay = |(name, label, unit, value): Shown| {
+        let curves = passes.iter().enumerate().filter_map(|(of, pass)| {
+            let points = &pass.as_ref()?.points;
+            let degrees = points.iter().map(|p| p.angle.to_degrees());
+            Some(OverlaidCurve {
+                of,
+                along: Along::At(degrees.collect()),
+                values: points.iter().map(value).collect(),
+            })
+        });
+        Piece::Overlay(Overlay {
+            name: format!("defect{}-{name}", defect + 1),
+            x_label: "Angle from the defect’s centre".into(),
+            x_unit: "°".into(),
+            y_label: label.into(),
+            y_unit: unit.into(),
+            vertical: Vertical::FromZero,
+            curves: curves.collect(),
+            ..Overlay::default()
+        })
+    };
+    let mut pieces: Vec<Piece> = quantities.into_iter().map(overlay).collect();
+    pieces.push(Piece::Words(
+        "The pass with the largest contact force of each run, step by step of the solver.".into(),
+    ));
+    pieces
+}
+
+/// The mean acceleration around the instants at which rollers come onto the defect and leave it.
+pub(super) fn entry_and_exit(runs: &[&Finished], defect: usize) -> Vec<Piece> {
+    let all: Vec<Vec<Impacts>> = runs
+        .iter()
+        .map(|run| impacts(&run.simulation, &run.findings))
+        .collect();
+    let mut pieces = Vec::new();
+    for (enters, word) in [(true, "entry"), (false, "exit")] {
+        let mut counts = Vec::new();
+        let mut curves = Vec::new();
+        for (of, impacts) in all.iter().enumerate() {
+            let mine = |i: &&Impacts| i.defect == defect && i.enters == enters;
+            let Some(one) = impacts.iter().find(mine).filter(|i| i.count > 0) else {
+                continue;
+            };
+            counts.push(one.count.to_string());
+            let along = Along::Even {
+                first: 1e3 * one.from,
+                step: 1e3 * one.step,
+            };
+            let values = one.mean.clone();
+            curves.push(OverlaidCurve { of, along, values });
+        }
+        if curves.is_empty() {
+            let words = format!("No {word} lies within the waveform that was kept.");
+            pieces.push(Piece::Words(words));
+            continue;
+        }
+        pieces.push(Piece::Overlay(Overlay {
+            name: format!("defect{}-{word}", defect + 1),
+            x_label: format!("Time from the {word}"),
+            x_unit: "ms".into(),
+            y_label: format!("Mean {}", acceleration(runs[0])),
+            y_unit: "m/s^2".into(),
+            curves,
+            note: format!(
+                "Measured acceleration averaged over {} instants of {word}: what they have in common.",
+                counts.join(" and ")
+            ),
+            ..Overlay::default()
+        }));
+    }
+    pieces
+}

@@ -1,0 +1,126 @@
+//! `brinell compare`: scenarios side by side, each against the first.
+
+mod args;
+mod curves;
+mod page;
+mod sides;
+mod table;
+
+use crate::failure::Failure;
+use crate::files::{self, stem};
+use crate::progress::Joint;
+use crate::run::{make_folder, stop_flag, write_pictures};
+use crate::say::{complain, say, short};
+pub(crate) use args::CompareArgs;
+use brinell::campaign::{Compared, Finished, Unfinished, compare, run_all};
+use brinell::simulate::Simulation;
+use brinell_io::{Metadata, atomic_write, keys};
+use sides::Side;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::Ordering;
+
+/// Exit code where a run failed or was broken off.
+const NOT_DONE: u8 = 1;
+
+pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
+    let sides = sides::read(args)?;
+    for side in &sides {
+        let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
+        if !args.quiet {
+            files::warn_idle(simulation.idle_patterns());
+        }
+    }
+    let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
+    let folder = args.output.clone().unwrap_or_else(named);
+    make_folder(&folder)?;
+    let Some(runs) = run(args, &sides)? else {
+        return Ok(ExitCode::from(NOT_DONE));
+    };
+    let all: Vec<&Finished> = runs.iter().collect();
+    let compared = compare(&all);
+    let report = page::report(&sides, &all, &compared);
+    let mut written = Vec::new();
+    let table = table::table(&sides, &compared);
+    written.push(table.write_csv(folder.join("compare.csv"))?);
+    let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
+    written.push(table.write_parquet(folder.join("compare.parquet"), &metadata)?);
+    let json = serde_json::to_string_pretty(&table::json(&sides, &compared)).unwrap_or_default();
+    let mut put = |name: &str, text: String| -> Result<(), Failure> {
+        let path = folder.join(name);
+        atomic_write(&path, text.as_bytes())?;
+        written.push(path);
+        Ok(())
+    };
+    put("compare.json", json + "\n")?;
+    put("compare.html", brinell_report::side_by_side_html(&report))?;
+    if !args.plots.is_empty() {
+        let pictures = brinell_report::side_by_side_pictures(&report);
+        write_pictures(&pictures, &args.plots, &folder, &mut written)?;
+    }
+    if !args.quiet {
+        tell(&sides, &compared);
+        for path in &written {
+            say!("  wrote {}", path.display());
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// All runs, or `None` with what went wrong told.
+fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Failure> {
+    let stop = stop_flag()?;
+    let list: Vec<_> = sides.iter().map(Side::labelled).collect();
+    let threads = brinell::many::threads(list.len());
+    let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
+    let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
+    let bar = joint.bar();
+    let parts: Vec<Mutex<_>> = sides
+        .iter()
+        .map(|side| Mutex::new(Joint::part(&bar, duration(side))))
+        .collect();
+    let results = run_all(&list, args.jobs.unwrap_or(threads), |k, t| {
+        if let Ok(mut part) = parts[k].lock() {
+            part.at(t);
+        }
+        if stop.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    drop(joint);
+    let (mut runs, mut stopped) = (Vec::new(), false);
+    for (side, result) in sides.iter().zip(results) {
+        match result {
+            Ok(finished) => runs.push(finished),
+            Err(Unfinished::Stopped) => stopped = true,
+            Err(Unfinished::Failed(error)) => complain!("error: {}: {error}", side.label),
+        }
+    }
+    if stopped {
+        complain!("interrupted: nothing is written; the same command begins anew");
+    }
+    Ok((runs.len() == sides.len()).then_some(runs))
+}
+
+/// What matters most of the comparison.
+fn tell(sides: &[Side], compared: &[Compared]) {
+    for (k, side) in sides.iter().enumerate().skip(1) {
+        say!("{} over {}:", side.label, sides[0].label);
+        for name in page::headline(compared) {
+            let Some(ratio) = compared
+                .iter()
+                .find(|c| c.name == name)
+                .and_then(|c| c.ratios[k])
+            else {
+                continue;
+            };
+            let interval = ratio.interval.map_or(String::new(), |(low, high)| {
+                format!(" (95 %: {} to {})", short(low, 3), short(high, 3))
+            });
+            say!("  {name}: {}{interval}", short(ratio.value, 3));
+        }
+    }
+}

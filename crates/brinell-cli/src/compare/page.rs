@@ -1,0 +1,257 @@
+//! A comparison as its page shows it.
+
+use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
+use super::sides::Side;
+use crate::say::short;
+use crate::sweep::words;
+use brinell::campaign::{Compared, Finished, Quantity};
+use brinell::signal::ratio::Ratio;
+use brinell_report::{Fact, Part, Piece, SideBySide, Table, Value};
+
+/// Longest value in the table of what differs.
+const LONGEST: usize = 60;
+
+pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) -> SideBySide {
+    let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
+    let mut parts = vec![
+        part("What differs", vec![Piece::Table(differing(sides))]),
+        part(
+            "Measured acceleration",
+            vec![Piece::Overlay(waveform(runs))],
+        ),
+        part("Spectrum", vec![spectrum(runs)]),
+        part("Envelope spectrum", vec![envelope(sides, runs)]),
+    ];
+    let defects = runs.iter().map(|run| run.scenario.defects.len()).max();
+    for defect in 0..defects.unwrap_or(0) {
+        parts.push(part(
+            &format!("Over {}", called(runs, defect)),
+            over_defect(runs, defect),
+        ));
+        parts.push(part(
+            &format!("Entry and exit, {}", called(runs, defect)),
+            entry_and_exit(runs, defect),
+        ));
+    }
+    for (title, wanted) in TABLES {
+        let rows: Vec<&Compared> = compared.iter().filter(|c| wanted(&c.name)).collect();
+        if !rows.is_empty() {
+            parts.push(part(
+                title,
+                vec![Piece::Table(numbers(title, &names, &rows))],
+            ));
+        }
+    }
+    SideBySide {
+        title: names.join(" and "),
+        subtitle: format!("{} runs, each held against {}", names.len(), names[0]),
+        version: brinell::VERSION.into(),
+        warnings: warnings(sides, runs),
+        facts: facts(&names, compared),
+        names,
+        parts,
+    }
+}
+
+/// A table's heading, and which numbers are in it.
+type Wanted = (&'static str, fn(&str) -> bool);
+
+const TABLES: [Wanted; 3] = [
+    ("Indicators", |name| {
+        let of = ["measured_a", "inner_a", "outer_a", "cage1_a"];
+        let which = [".rms", ".peak_to_peak", ".kurtosis", ".crest_factor"];
+        of.iter().any(|o| name.starts_with(o))
+            && which.iter().any(|w| name.ends_with(w))
+            && !name.contains("anti_aliased")
+    }),
+    ("Defects, envelope and slip", |name| {
+        ["defect", "envelope.", "row"]
+            .iter()
+            .any(|o| name.starts_with(o))
+    }),
+    ("Audits and work", |name| {
+        ["audit.", "work."].iter().any(|o| name.starts_with(o))
+    }),
+];
+
+/// Names of the numbers that say most, of those that are there.
+pub(super) fn headline(compared: &[Compared]) -> Vec<&str> {
+    let names = compared.iter().map(|c| c.name.as_str());
+    let wanted = |name: &&str| {
+        let of_acceleration = name.starts_with("measured_a")
+            && [".rms", ".peak_to_peak", ".kurtosis"]
+                .iter()
+                .any(|w| name.ends_with(w));
+        of_acceleration || name.ends_with("entry_peak") || name.ends_with("exit_peak")
+    };
+    names.filter(wanted).collect()
+}
+
+fn part(title: &str, pieces: Vec<Piece>) -> Part {
+    Part {
+        title: title.into(),
+        pieces,
+    }
+}
+
+fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    for name in headline(compared).into_iter().take(8) {
+        let Some(one) = compared.iter().find(|c| c.name == name) else {
+            continue;
+        };
+        let ratios: Vec<String> = names
+            .iter()
+            .zip(&one.ratios)
+            .filter_map(|(name, ratio)| Some(format!("{name}: {}", with_interval((*ratio)?))))
+            .collect();
+        let [first, rest @ ..] = &ratios[..] else {
+            continue;
+        };
+        let (value, interval) = first.split_once(" [").unwrap_or((first, ""));
+        let mut note = format!("of {}", names[0]);
+        if !interval.is_empty() {
+            note = format!("{note}; 95 %: [{interval}");
+        }
+        for more in rest {
+            note = format!("{note}; {more}");
+        }
+        facts.push(Fact::new(
+            words(name),
+            Value::Text(format!("{value} ×")),
+            "",
+            note,
+        ));
+    }
+    facts
+}
+
+/// What makes curves hard to hold against each other.
+fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
+    let mut all = Vec::new();
+    let rate = |run: &Finished| run.simulation.sample_rate();
+    if runs.iter().any(|run| rate(run) != rate(runs[0])) {
+        all.push("The runs' sample rates differ: what lies above half the lower one is in one of them alone.".into());
+    }
+    let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
+    if sides
+        .iter()
+        .any(|side| duration(side) != duration(&sides[0]))
+    {
+        all.push(
+            "The runs' durations differ: compare means over blocks, not extremes of whole runs."
+                .into(),
+        );
+    }
+    let axis = |run: &Finished| run.findings.axis;
+    if runs.iter().any(|run| axis(run) != axis(runs[0])) {
+        all.push("The loads point along different axes: curves show each run's own, the one nearer its load.".into());
+    }
+    all
+}
+
+/// Keys with different values.
+fn differing(sides: &[Side]) -> Table {
+    let value = |side: &Side, key: &str| {
+        let entry = side.loaded.provenance.iter().find(|p| p.key == key)?;
+        Some((entry.value.clone(), entry.unit))
+    };
+    let mut keys: Vec<&str> = Vec::new();
+    for p in sides.iter().flat_map(|side| &side.loaded.provenance) {
+        if !keys.contains(&p.key.as_str()) {
+            keys.push(&p.key);
+        }
+    }
+    let mut rows = Vec::new();
+    for key in keys {
+        let values: Vec<_> = sides.iter().map(|side| value(side, key)).collect();
+        if values.windows(2).all(|pair| pair[0] == pair[1]) || key == "name" {
+            continue;
+        }
+        let unit = values.iter().flatten().map(|v| v.1).next().unwrap_or("");
+        let mut row = vec![if unit.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{key} ({unit})")
+        }];
+        row.extend(
+            values
+                .into_iter()
+                .map(|v| v.map_or("–".into(), |v| cut(&v.0))),
+        );
+        rows.push(row);
+    }
+    let note = if rows.is_empty() {
+        "No key differs: the runs are the same."
+    } else {
+        "Every key that has not the same value in all runs, derived ones included."
+    };
+    let mut columns = vec!["Key".to_owned()];
+    columns.extend(sides.iter().map(|side| side.label.clone()));
+    Table {
+        title: "What differs".into(),
+        columns,
+        rows,
+        note: note.into(),
+    }
+}
+
+fn cut(text: &str) -> String {
+    if text.chars().count() <= LONGEST {
+        return text.to_owned();
+    }
+    let cut: String = text.chars().take(LONGEST).collect();
+    cut + "…"
+}
+
+/// A unit as a table's cell shows it.
+fn unit(unit: &str) -> String {
+    match unit {
+        "1" => String::new(),
+        unit => unit.replace("^2", "²"),
+    }
+}
+
+/// Values of each run, and ratios to the first.
+fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
+    let mut columns = vec!["Quantity".to_owned(), "Unit".to_owned()];
+    columns.extend(names.iter().map(|name| format!("#{name}")));
+    columns.extend(
+        names
+            .iter()
+            .skip(1)
+            .map(|name| format!("#{name} / {}", names[0])),
+    );
+    let rows = rows.iter().map(|c| {
+        let mut row = vec![c.name.clone(), unit(&c.unit)];
+        let told = |q: &Option<Quantity>| q.as_ref().map_or("–".into(), told);
+        row.extend(c.of.iter().map(told));
+        let ratio = |r: &Option<Ratio>| r.map_or("–".into(), with_interval);
+        row.extend(c.ratios.iter().skip(1).map(ratio));
+        row
+    });
+    Table {
+        title: title.into(),
+        columns,
+        rows: rows.collect(),
+        note: "In brackets 95 % intervals. Values are of whole runs; ratios with an interval are of the means over blocks of whole \
+               revolutions (of impacts: over instants), and suppose runs that scatter independently."
+            .into(),
+    }
+}
+
+fn told(quantity: &Quantity) -> String {
+    let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
+    match quantity.interval() {
+        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        None => value,
+    }
+}
+
+fn with_interval(ratio: Ratio) -> String {
+    let value = short(ratio.value, 3);
+    match ratio.interval {
+        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        None => value,
+    }
+}

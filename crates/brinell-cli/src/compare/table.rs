@@ -1,0 +1,80 @@
+//! A comparison as a table and as JSON: every number of each run, and its ratio to the first run's.
+
+use super::sides::Side;
+use brinell::campaign::{Compared, Quantity};
+use brinell::signal::ratio::Ratio;
+use brinell_io::{Cells, Column, Table};
+use serde_json::{Map, Value, json};
+
+pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
+    let mut table = Table::default();
+    let words = |of: fn(&Compared) -> &str| {
+        Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect())
+    };
+    table.push(Column::new("quantity", "", ""), words(|c| &c.name));
+    table.push(Column::new("unit", "", "SI"), words(|c| &c.unit));
+    let mut push = |name: String, of: &dyn Fn(&Compared) -> Option<f64>| {
+        let numbers = compared.iter().map(of).collect();
+        table.push(Column::new(name, "", ""), Cells::Numbers(numbers));
+    };
+    for (k, side) in sides.iter().enumerate() {
+        let label = &side.label;
+        let quantity = |c: &Compared| c.of[k].clone();
+        push(label.clone(), &|c| quantity(c)?.value);
+        push(format!("{label}.low"), &|c| {
+            Some(quantity(c)?.interval()?.0)
+        });
+        push(format!("{label}.high"), &|c| {
+            Some(quantity(c)?.interval()?.1)
+        });
+        if k > 0 {
+            push(format!("{label}.ratio"), &|c| Some(c.ratios[k]?.value));
+            push(format!("{label}.ratio.low"), &|c| {
+                Some(c.ratios[k]?.interval?.0)
+            });
+            push(format!("{label}.ratio.high"), &|c| {
+                Some(c.ratios[k]?.interval?.1)
+            });
+        }
+    }
+    table
+}
+
+pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
+    let value = |q: &Quantity| match q.interval() {
+        Some((low, high)) => json!({ "value": q.value, "low": low, "high": high }),
+        None => json!({ "value": q.value }),
+    };
+    let ratio = |r: &Ratio| match r.interval {
+        Some((low, high)) => json!({ "value": r.value, "low": low, "high": high }),
+        None => json!({ "value": r.value }),
+    };
+    let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
+        let pairs = sides.iter().enumerate();
+        pairs
+            .filter_map(|(k, side)| Some((side.label.clone(), of(k)?)))
+            .collect()
+    };
+    let quantities: Map<String, Value> = compared
+        .iter()
+        .map(|c| {
+            let entry = json!({
+                "unit": c.unit,
+                "runs": by_label(&|k| c.of[k].as_ref().map(value)),
+                "ratios": by_label(&|k| c.ratios[k].as_ref().map(ratio)),
+            });
+            (c.name.clone(), entry)
+        })
+        .collect();
+    let scenarios = by_label(&|k| Some(sides[k].loaded.to_toml().into()));
+    json!({
+        "brinell": brinell::VERSION,
+        "first": sides[0].label,
+        "interval": "95 % of the mean over blocks of whole revolutions, or over a defect's entries or exits (Student's t)",
+        "ratio": "of the means over blocks, to the first run; of what has no blocks, of the values",
+        "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
+                                supposes runs that scatter independently",
+        "quantities": quantities,
+        "scenarios": scenarios,
+    })
+}

@@ -1,0 +1,60 @@
+//! What a sweep will cost: some of its points are run for a moment, and the clock is read. Nothing of that enters the results.
+
+use crate::campaign::{Task, Work};
+use brinell::campaign::finish;
+use brinell::simulate::{Observer, Simulation, SolverWork};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// Points that are tried: the first, the last, and some between.
+const TRIED: usize = 5;
+/// Wall time of one trial.
+const MOMENT: Duration = Duration::from_millis(60);
+
+/// Wall time of all tasks, s; `None` where no trial ran.
+pub(super) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
+    let tried = tasks.len().min(TRIED);
+    let chosen = (0..tried).map(|k| k * (tasks.len() - 1) / (tried - 1).max(1));
+    let costs: Vec<f64> = chosen.filter_map(|k| trial(&tasks[k], work)).collect();
+    if costs.is_empty() {
+        return None;
+    }
+    let per_second = costs.iter().sum::<f64>() / costs.len() as f64;
+    let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
+    let at_once = threads.get().min(tasks.len().max(1));
+    Some(per_second * simulated / at_once as f64)
+}
+
+/// Wall time of a simulated second, s.
+fn trial(task: &Task, work: &impl Work) -> Option<f64> {
+    let scenario = work.scenario(task).ok()?;
+    let simulation = Simulation::new(&scenario).ok()?;
+    let mut trial = Trial {
+        begin: Instant::now(),
+        reached: 0.0,
+    };
+    let duration = scenario.simulation.duration_s;
+    finish(scenario, simulation, &mut trial);
+    let reached = trial.reached.min(duration);
+    (reached > 0.0).then(|| trial.begin.elapsed().as_secs_f64() / reached)
+}
+
+struct Trial {
+    begin: Instant,
+    reached: f64,
+}
+
+impl Observer for Trial {
+    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.reached = t;
+        if self.begin.elapsed() > MOMENT {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}

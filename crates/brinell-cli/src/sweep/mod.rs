@@ -1,0 +1,298 @@
+//! `brinell sweep`: keys over lists and ranges, many runs, one table and its plots.
+
+mod args;
+mod cost;
+mod page;
+mod points;
+mod table;
+
+use crate::campaign::{self, JOURNAL, Ledger, Task};
+use crate::failure::Failure;
+use crate::files::stem;
+use crate::run::{make_folder, stop_flag, write_pictures};
+use crate::say::{complain, say, short};
+pub(crate) use args::SweepArgs;
+use brinell::simulate::Simulation;
+use brinell_io::{Metadata, atomic_write, keys};
+
+pub(crate) use page::words;
+use page::{plural, usual};
+use points::{FromSource, Points};
+use serde_json::{Value, json};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use table::{Standing, standings};
+
+/// Exit code where a point failed, or Ctrl-C stopped the sweep.
+const NOT_WHOLE: u8 = 1;
+
+pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
+    let begin = Instant::now();
+    let threads = |jobs| args.jobs.unwrap_or(brinell::many::threads(jobs));
+    let points = Points::read(args, threads(usize::MAX))?;
+    let plots = plots(args, &points)?;
+    let named = || Path::new("out").join(format!("sweep-{}", stem(&args.scenario)));
+    let folder = args.output.clone().unwrap_or_else(named);
+    let work = FromSource {
+        source: &points.source,
+        signals: args.keep_signals.then(|| folder.join("signals")),
+    };
+    if args.dry_run {
+        let tasks: Vec<Task> = points.tasks.iter().flatten().cloned().collect();
+        tell_plan(&points, &tasks, 0, &work, threads(tasks.len()));
+        return Ok(ExitCode::SUCCESS);
+    }
+    make_folder(&folder)?;
+    let header = points.header();
+    let words = |other: &Value| other_sweep(&folder, other);
+    let mut ledger = Ledger::open(&folder, &header, args.extend, words)?;
+    let finished = |task: &&Task| {
+        let kept = work.path(&task.fingerprint);
+        let row = ledger.row(&task.fingerprint);
+        row.is_some_and(|row| row.result.is_err() || kept.is_none_or(|path| path.exists()))
+    };
+    let good = || points.tasks.iter().flatten();
+    let mut tasks: Vec<Task> = Vec::new();
+    for task in good().filter(|task| !finished(task)) {
+        // Settings that mean the same make one run.
+        if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
+            tasks.push(task.clone());
+        }
+    }
+    let threads = threads(tasks.len());
+    if !args.quiet {
+        let before = good().filter(finished).count();
+        tell_plan(&points, &tasks, before, &work, threads);
+        let outdated = |task: &&Task| ledger.is_outdated(&task.fingerprint);
+        let outdated = good().filter(outdated).count();
+        if outdated > 0 {
+            say!(
+                "  {} of another version of brinell, to be run again",
+                plural(outdated, "finished point")
+            );
+        }
+    }
+    let stop = stop_flag()?;
+    let went = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
+
+    let standings = standings(&points, |fingerprint| ledger.row(fingerprint));
+    let written = write(args, &points, &standings, &plots, &folder)?;
+    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+    let (failed, missing) = (count("failed"), count("not run"));
+    if !args.quiet {
+        say!(
+            "{} in {:.2} s; {} of {} complete",
+            plural(tasks.len() - missing.min(tasks.len()), "run"),
+            begin.elapsed().as_secs_f64(),
+            count("complete"),
+            plural(standings.len(), "point")
+        );
+        for path in &written {
+            say!("  wrote {}", path.display());
+        }
+    }
+    tell_failures(&points, &standings);
+    if went.interrupted {
+        complain!(
+            "interrupted: {} kept, {missing} to go; the same command goes on where this one stopped",
+            plural(standings.len() - missing, "finished point")
+        );
+    }
+    Ok(if failed > 0 || went.interrupted {
+        ExitCode::from(NOT_WHOLE)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// What is plotted; a name that no point will have is refused before anything runs.
+fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
+    // A point without a model is a row with its reason, and says nothing of the others' numbers.
+    let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| {
+        brinell::campaign::names(&points.example, &simulation)
+    });
+    for name in &args.plot {
+        if names.is_empty() || names.contains(name) {
+            continue;
+        }
+        let part = name.split('.').next_back().unwrap_or(name);
+        let mut near: Vec<&str> = names
+            .iter()
+            .map(String::as_str)
+            .filter(|n| n.ends_with(part) || n.starts_with(name.as_str()))
+            .take(8)
+            .collect();
+        if near.is_empty() {
+            near = vec!["measured_ax.rms", "envelope.bpfo", "row1.cage_slip"];
+        }
+        return Err(Failure::Usage(format!(
+            "--plot {name}: no such number\n  allowed: the columns of sweep.csv, such as {}",
+            near.join(", ")
+        )));
+    }
+    Ok(match &args.plot[..] {
+        [] => usual(&points.example, &names),
+        chosen => chosen.to_vec(),
+    })
+}
+
+fn tell_plan(
+    points: &Points,
+    tasks: &[Task],
+    before: usize,
+    work: &FromSource,
+    threads: NonZeroUsize,
+) {
+    let axes: Vec<String> = points
+        .plan
+        .axes()
+        .iter()
+        .map(|axis| format!("{} ({})", axis.keys().join(" with "), axis.settings().len()))
+        .collect();
+    say!(
+        "{}: {}",
+        plural(points.tasks.len(), "point"),
+        axes.join(" x ")
+    );
+    for (warning, count) in &points.warnings {
+        complain!("{warning}\n  (in {} of the sweep)", plural(*count, "point"));
+    }
+    let bad = points.tasks.iter().filter(|task| task.is_err()).count();
+    if bad > 0 {
+        say!(
+            "  {} with a bad scenario, not to be run",
+            plural(bad, "point")
+        );
+    }
+    if before > 0 {
+        say!("  {} finished before", plural(before, "point"));
+    }
+    if tasks.is_empty() {
+        return;
+    }
+    let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
+    let cost = cost::estimate(tasks, work, threads).map_or(String::new(), |seconds| {
+        format!(", about {}", duration(seconds))
+    });
+    say!(
+        "  {} to do: {} s simulated, {} at a time{cost}",
+        plural(tasks.len(), "run"),
+        short(simulated, 3),
+        threads.get().min(tasks.len())
+    );
+}
+
+/// Wall time to one or two digits: no trial knows more.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "a second".into(),
+        s if s < 100.0 => format!("{} s", s.ceil()),
+        s if s < 6000.0 => format!("{} min", (s / 60.0).ceil()),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+/// The folder's journal is of something else.
+fn other_sweep(folder: &Path, other: &Value) -> String {
+    let folder = folder.display();
+    let Some(axes) = other["plan"]
+        .as_array()
+        .filter(|_| other["campaign"] == "sweep")
+    else {
+        let kind = other["campaign"].as_str().unwrap_or("something else");
+        return format!(
+            "{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o"
+        );
+    };
+    let axis = |axis: &Value| {
+        let keys = axis["keys"].as_array().into_iter().flatten();
+        let keys: Vec<&str> = keys.filter_map(Value::as_str).collect();
+        let count = axis["settings"].as_array().map_or(0, Vec::len);
+        format!("{} ({count})", keys.join(" with "))
+    };
+    let axes: Vec<String> = axes.iter().map(axis).collect();
+    format!(
+        "{folder} holds another sweep, of {}, or of another base scenario; choose another folder with -o, or go on in it with --extend, \
+         which keeps what matches",
+        axes.join(" x ")
+    )
+}
+
+fn tell_failures(points: &Points, standings: &[Standing]) {
+    const SHOWN: usize = 10;
+    let failed = standings.iter().enumerate().filter_map(|(k, s)| match s {
+        Standing::Failed(reason) => Some((k, reason)),
+        _ => None,
+    });
+    let failed: Vec<_> = failed.collect();
+    for (k, reason) in failed.iter().take(SHOWN) {
+        let settings = points.plan.settings(*k);
+        let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k}={v}")).collect();
+        complain!("point {} failed ({}): {reason}", k + 1, texts.join(", "));
+    }
+    if failed.len() > SHOWN {
+        complain!("and {} more: see sweep.csv", failed.len() - SHOWN);
+    }
+    if !failed.is_empty() {
+        complain!(
+            "{} of {} failed",
+            failed.len(),
+            plural(standings.len(), "point")
+        );
+    }
+}
+
+/// Everything that the sweep leaves; the same points give the same bytes.
+fn write(
+    args: &SweepArgs,
+    points: &Points,
+    standings: &[Standing],
+    plots: &[String],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
+    let table = table::table(points, standings, args.keep_signals);
+    let metadata = Metadata::default()
+        .with(keys::VERSION, brinell::VERSION)
+        .with(keys::SCENARIO, points.source.text());
+    let mut written = vec![
+        table.write_csv(folder.join("sweep.csv"))?,
+        table.write_parquet(folder.join("sweep.parquet"), &metadata)?,
+    ];
+    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+    let columns: serde_json::Map<String, Value> = table
+        .columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.as_str().into()))
+        .collect();
+    let overrides: serde_json::Map<String, Value> = points
+        .source
+        .overrides()
+        .iter()
+        .map(|(key, value)| (key.clone(), value.as_str().into()))
+        .collect();
+    let json = json!({
+        "brinell": brinell::VERSION,
+        "plan": points.header()["plan"],
+        "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },
+        "interval": "95 % of the mean over blocks of whole revolutions of the inner ring (Student's t)",
+        "units": columns,
+        "base": { "toml": points.source.text(), "set": overrides },
+    });
+    let mut put = |name: &str, text: String| -> Result<(), Failure> {
+        let path = folder.join(name);
+        atomic_write(&path, text.as_bytes())?;
+        written.push(path);
+        Ok(())
+    };
+    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
+    put("sweep.json", text)?;
+    let report = page::report(points, standings, plots);
+    put("sweep.html", brinell_report::sweep_html(&report))?;
+    if !args.plots.is_empty() {
+        let pictures = brinell_report::sweep_pictures(&report);
+        write_pictures(&pictures, &args.plots, folder, &mut written)?;
+    }
+    Ok(written)
+}

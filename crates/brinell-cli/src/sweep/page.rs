@@ -1,0 +1,276 @@
+//! A sweep as its page shows it: which key lies on the x axis, which points make a line.
+
+use super::points::Points;
+use super::table::{Standing, number};
+use crate::say::short;
+use brinell::campaign::{Quantity, Row};
+use brinell::scenario::Scenario;
+use brinell_report::{
+    Fact, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
+};
+
+/// Points and failures that the page lists; beyond that, nobody reads them there.
+const LISTED: usize = 1000;
+/// Lines of one picture; more go to further pictures.
+const LINES: usize = 12;
+
+/// RMS and peak to peak of the measured acceleration, the rings' and a cage's, along the axis nearer the load; of `names` that are there.
+pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
+    let [x, y] = scenario.operation.load_n;
+    let axis = if y.abs() > x.abs() { "y" } else { "x" };
+    let mut usual = Vec::new();
+    for channel in ["measured", "inner", "outer", "cage1"] {
+        for indicator in ["rms", "peak_to_peak"] {
+            usual.push(format!("{channel}_a{axis}.{indicator}"));
+        }
+    }
+    usual.retain(|name| names.is_empty() || names.contains(name));
+    usual
+}
+
+pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) -> SweepReport {
+    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+    let (failed, missing) = (count("failed"), count("not run"));
+    let axes: Vec<String> = points
+        .plan
+        .axes()
+        .iter()
+        .map(|axis| axis.keys().join(" with "))
+        .collect();
+    let fact =
+        |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
+    let mut facts = vec![fact("Points", standings.len(), &axes.join(" × "))];
+    facts.push(fact("Complete", count("complete"), ""));
+    if failed > 0 {
+        facts.push(fact("Failed", failed, "reasons below"));
+    }
+    if missing > 0 {
+        facts.push(fact("Not run", missing, "the sweep was interrupted"));
+    }
+    let name = |k: usize| {
+        let settings = points.plan.settings(k);
+        let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
+        format!("{}: {}", k + 1, texts.join(", "))
+    };
+    let failures = standings.iter().enumerate().filter_map(|(k, s)| match s {
+        Standing::Failed(reason) => Some((name(k), (*reason).to_owned())),
+        _ => None,
+    });
+    SweepReport {
+        title: format!("Sweep of {}", points.example.name),
+        subtitle: format!(
+            "{} over {}",
+            plural(standings.len(), "point"),
+            axes.join(" × ")
+        ),
+        version: brinell::VERSION.into(),
+        partial: (missing > 0).then(|| {
+            format!(
+                "{} not run yet; the same command goes on.",
+                plural(missing, "point")
+            )
+        }),
+        facts,
+        plots: plots
+            .iter()
+            .flat_map(|name| pictures(points, standings, name))
+            .collect(),
+        failures: failures.take(LISTED).collect(),
+        table: table(points, standings, plots),
+        scenario_toml: points.source.text(),
+    }
+}
+
+pub(super) fn plural(n: usize, word: &str) -> String {
+    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
+}
+
+/// The axis along x: the first one with a key of numbers that takes several values, or else the first.
+fn x_axis(points: &Points) -> (usize, usize) {
+    let axes = points.plan.axes();
+    for (a, axis) in axes.iter().enumerate() {
+        for key in 0..axis.keys().len() {
+            let all = axis.settings().iter().all(|s| number(&s[key]).is_some());
+            if all && axis.settings().len() > 1 {
+                return (a, key);
+            }
+        }
+    }
+    (0, 0)
+}
+
+/// An indicator's pictures: one, or several where there are many lines.
+fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<IndicatorPlot> {
+    let (axis, key) = x_axis(points);
+    let along = &points.plan.axes()[axis];
+    let values: Vec<&str> = along.settings().iter().map(|s| s[key].as_str()).collect();
+    let numeric: Option<Vec<f64>> = values.iter().map(|v| number(v)).collect();
+    let others: Vec<usize> = (0..points.plan.axes().len())
+        .filter(|a| *a != axis)
+        .collect();
+    let mut lines: Vec<(Vec<usize>, IndicatorLine)> = Vec::new();
+    let mut unit = String::new();
+    for (k, standing) in standings.iter().enumerate() {
+        let place = points.plan.place(k);
+        let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
+        let quantity = match standing {
+            Standing::Complete(row) => row.quantity(name),
+            _ => None,
+        };
+        if let Some(q) = quantity {
+            unit = if q.unit == "1" {
+                String::new()
+            } else {
+                q.unit.clone()
+            };
+        }
+        let x = numeric
+            .as_ref()
+            .map_or(place[axis] as f64, |numbers| numbers[place[axis]]);
+        let point = point(x, quantity);
+        match lines.iter_mut().find(|(of, _)| *of == rest) {
+            Some((_, line)) => line.points.push(point),
+            None => {
+                let label = label(points, &others, &rest);
+                let points = vec![point];
+                lines.push((rest, IndicatorLine { label, points }));
+            }
+        }
+    }
+    for (_, line) in &mut lines {
+        line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    }
+    let x_key = &along.keys()[key];
+    let legend: Vec<String> = others
+        .iter()
+        .map(|a| points.plan.axes()[*a].keys().join(" with "))
+        .collect();
+    let lines: Vec<IndicatorLine> = lines.into_iter().map(|(_, line)| line).collect();
+    let parts = lines.chunks(LINES).enumerate();
+    parts
+        .map(|(part, lines)| IndicatorPlot {
+            name: match part {
+                0 => name.to_owned(),
+                part => format!("{name}-{}", part + 1),
+            },
+            label: words(name),
+            unit: unit.clone(),
+            x_label: x_key.clone(),
+            x_unit: points.units.get(x_key).copied().unwrap_or("").into(),
+            x_names: match numeric {
+                Some(_) => Vec::new(),
+                None => values.iter().map(|v| (*v).to_owned()).collect(),
+            },
+            legend: legend.join(", "),
+            lines: lines.to_vec(),
+        })
+        .collect()
+}
+
+/// What a line's points have in common.
+fn label(points: &Points, others: &[usize], rest: &[usize]) -> String {
+    let axes = others.iter().zip(rest);
+    let parts: Vec<String> = axes
+        .map(|(axis, k)| points.plan.axes()[*axis].settings()[*k].join(" with "))
+        .collect();
+    parts.join(", ")
+}
+
+fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
+    let value = quantity.and_then(|q| q.value).unwrap_or(f64::NAN);
+    match quantity.and_then(Quantity::interval) {
+        Some((low, high)) => IndicatorPoint {
+            x,
+            value: 0.5 * (low + high),
+            interval: Some((low, high)),
+            whole: value,
+        },
+        None => IndicatorPoint {
+            x,
+            value,
+            interval: None,
+            whole: f64::NAN,
+        },
+    }
+}
+
+/// "RMS of measured_ax" for `measured_ax.rms`.
+pub(crate) fn words(name: &str) -> String {
+    let Some((of, what)) = name.rsplit_once('.') else {
+        return name.replace('_', " ");
+    };
+    let what = match what {
+        "rms" => "RMS".to_owned(),
+        other => {
+            let mut letters = other.chars();
+            let first = letters.next().map(|c| c.to_uppercase().to_string());
+            format!("{}{}", first.unwrap_or_default(), letters.as_str()).replace('_', " ")
+        }
+    };
+    match of {
+        "envelope" => format!("Envelope spectrum at {}", what.to_uppercase()),
+        "work" | "audit" => what,
+        of => format!(
+            "{what} of {}",
+            of.replace(".anti_aliased", ", anti-aliased,")
+        ),
+    }
+}
+
+/// The points with their keys and what is plotted.
+fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
+    let mut columns = vec!["#Point".to_owned()];
+    columns.extend(points.plan.keys().map(|key| format!("#{key}")));
+    columns.push("Status".into());
+    let unit = |name: &String| {
+        let rows = standings.iter().filter_map(complete);
+        let unit = rows.filter_map(|row| row.quantity(name)).next();
+        unit.map_or("", |q| q.unit.as_str())
+    };
+    for name in plots {
+        let unit = match unit(name) {
+            "" | "1" => String::new(),
+            unit => format!(" ({unit})"),
+        };
+        columns.push(format!("#{name}{unit}"));
+    }
+    let listed = standings.iter().enumerate().take(LISTED);
+    let rows = listed.map(|(k, standing)| {
+        let mut row = vec![(k + 1).to_string()];
+        row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
+        row.push(standing.word().into());
+        let cell = |name: &String| {
+            let quantity = complete(standing).and_then(|row| row.quantity(name));
+            quantity.map_or("–".to_owned(), told)
+        };
+        row.extend(plots.iter().map(cell));
+        row
+    });
+    let more = match standings.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!("{more} more points are in sweep.csv. "),
+    };
+    let note = "Values over the whole run; in brackets the 95 % interval of the mean over blocks of whole revolutions, which an extreme of \
+                the whole run may lie above.";
+    Table {
+        title: "Points".into(),
+        columns,
+        rows: rows.collect(),
+        note: more + note,
+    }
+}
+
+fn complete<'a>(standing: &Standing<'a>) -> Option<&'a Row> {
+    match standing {
+        Standing::Complete(row) => Some(row),
+        _ => None,
+    }
+}
+
+fn told(quantity: &Quantity) -> String {
+    let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
+    match quantity.interval() {
+        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        None => value,
+    }
+}

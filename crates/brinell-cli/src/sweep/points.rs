@@ -1,0 +1,204 @@
+//! The points of a sweep, each read and checked before any runs.
+
+use super::SweepArgs;
+use crate::args::ScenarioArgs;
+use crate::campaign::{Task, Work};
+use crate::failure::Failure;
+use crate::files::Source;
+use crate::run::{make_folder, signal_columns, signal_metadata};
+use brinell::campaign::{Axis, Plan, digest, fingerprint};
+use brinell::scenario::Scenario;
+use brinell::simulate::Simulation;
+use brinell_io::{ParquetWriter, SignalWriter};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// A sweep before it runs.
+pub(super) struct Points {
+    pub(super) source: Source,
+    pub(super) plan: Plan,
+    /// Of each point: what to run, or why its scenario is bad.
+    pub(super) tasks: Vec<Result<Task, String>>,
+    /// Unit of each varied key, as the file format states it.
+    pub(super) units: BTreeMap<String, &'static str>,
+    /// What the author should know, and of how many points.
+    pub(super) warnings: BTreeMap<String, usize>,
+    /// The first good point.
+    pub(super) example: Scenario,
+}
+
+/// The plan of the command line.
+fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
+    let usage = |option: &str, error: brinell::campaign::PlanError| {
+        Failure::Usage(format!("{option}: {error}"))
+    };
+    let vary = args
+        .vary
+        .iter()
+        .map(|text| Axis::vary(text).map_err(|e| usage("--vary", e)));
+    let together = args
+        .together
+        .iter()
+        .map(|text| Axis::together(text).map_err(|e| usage("--together", e)));
+    let axes = vary.chain(together).collect::<Result<Vec<_>, _>>()?;
+    if axes.is_empty() {
+        return Err(Failure::Usage(
+            "nothing varies: give --vary KEY=VALUES, for instance --vary operation.speed_rpm=1000:5000:500".into(),
+        ));
+    }
+    Plan::new(axes).map_err(|error| usage("the sweep", error))
+}
+
+/// What is known of one point.
+struct Checked {
+    task: Task,
+    units: Vec<(String, &'static str)>,
+    warnings: Vec<String>,
+}
+
+impl Points {
+    /// Reads every point. A point that is bad is a row of the table; where all are, the input is.
+    pub(super) fn read(args: &SweepArgs, threads: NonZeroUsize) -> Result<Self, Failure> {
+        let plan = plan(args)?;
+        let source = Source::open(&ScenarioArgs {
+            scenario: args.scenario.clone(),
+            set: args.set.clone(),
+        })?;
+        let mut checked: Vec<Option<Result<Checked, Failure>>> = Vec::new();
+        checked.resize_with(plan.points(), || None);
+        brinell::many::each(
+            plan.points(),
+            threads,
+            |k| check(&source, plan.settings(k)),
+            |k, result| checked[k] = Some(result),
+        );
+        let (mut units, mut warnings) = (BTreeMap::new(), BTreeMap::new());
+        let (mut tasks, mut first) = (Vec::new(), None);
+        for result in checked.into_iter().flatten() {
+            tasks.push(match result {
+                Ok(checked) => {
+                    units.extend(checked.units);
+                    for warning in checked.warnings {
+                        *warnings.entry(warning).or_insert(0) += 1;
+                    }
+                    Ok(checked.task)
+                }
+                Err(failure) => {
+                    let reason = reason(&failure);
+                    first.get_or_insert(failure);
+                    Err(reason)
+                }
+            });
+        }
+        let Some(good) = tasks.iter().position(Result::is_ok) else {
+            return Err(first.unwrap_or_else(|| Failure::Usage("the sweep has no points".into())));
+        };
+        let example = source.load(&plan.settings(good), true)?.scenario;
+        Ok(Self {
+            source,
+            plan,
+            tasks,
+            units,
+            warnings,
+            example,
+        })
+    }
+
+    /// What tells this sweep from others: the plan, and the scenarios of its points.
+    pub(super) fn header(&self) -> Value {
+        let plan: Vec<Value> = self
+            .plan
+            .axes()
+            .iter()
+            .map(|axis| json!({ "keys": axis.keys(), "settings": axis.settings() }))
+            .collect();
+        let scenarios: Vec<&str> = self
+            .tasks
+            .iter()
+            .map(|task| task.as_ref().map_or("bad", |t| &t.fingerprint))
+            .collect();
+        json!({ "campaign": "sweep", "plan": plan, "scenarios": digest(&scenarios.join(" ")) })
+    }
+}
+
+fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Failure> {
+    let loaded = source.load(&settings, true)?;
+    let unit = |(key, _): &(String, String)| {
+        let entry = loaded.provenance.iter().find(|p| p.key == *key)?;
+        Some((key.clone(), entry.unit))
+    };
+    let plain = |problem: &brinell::document::Problem| {
+        let mut problem = problem.clone();
+        // What the settings give stands nowhere in the file.
+        (problem.line, problem.column) = (None, None);
+        problem.to_string()
+    };
+    Ok(Checked {
+        units: settings.iter().filter_map(unit).collect(),
+        warnings: loaded.warnings.iter().map(plain).collect(),
+        task: Task {
+            fingerprint: fingerprint(&loaded.scenario),
+            duration_s: loaded.scenario.simulation.duration_s,
+            settings,
+        },
+    })
+}
+
+/// A failure on one line.
+fn reason(failure: &Failure) -> String {
+    let text = match failure {
+        Failure::Scenario { problems, .. } => {
+            let errors = problems
+                .iter()
+                .filter(|p| p.severity == brinell::document::Severity::Error);
+            let said = errors.map(ToString::to_string);
+            let texts = said.map(|text| text.trim_start_matches("error: ").to_owned());
+            texts.collect::<Vec<_>>().join("; ")
+        }
+        other => other.words(),
+    };
+    let lines = text.lines().map(str::trim);
+    lines.collect::<Vec<_>>().join("; ")
+}
+
+/// Runs points from their source, and keeps their signals where that is asked for.
+pub(super) struct FromSource<'a> {
+    pub(super) source: &'a Source,
+    pub(super) signals: Option<PathBuf>,
+}
+
+/// A point's file of signals within its folder: the same point has the same name in every sweep.
+pub(super) fn signal_file(fingerprint: &str) -> String {
+    format!("{}.parquet", &fingerprint[..fingerprint.len().min(16)])
+}
+
+impl FromSource<'_> {
+    pub(super) fn path(&self, fingerprint: &str) -> Option<PathBuf> {
+        let folder = self.signals.as_deref().map(Path::to_owned)?;
+        Some(folder.join(signal_file(fingerprint)))
+    }
+}
+
+impl Work for FromSource<'_> {
+    fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
+        Ok(self.source.load(&task.settings, true)?.scenario)
+    }
+
+    fn signals(
+        &self,
+        task: &Task,
+        scenario: &Scenario,
+        simulation: &Simulation,
+    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+        let (Some(folder), Some(path)) = (&self.signals, self.path(&task.fingerprint)) else {
+            return Ok(None);
+        };
+        make_folder(folder)?;
+        let columns = signal_columns(simulation);
+        let metadata = signal_metadata(scenario.to_toml(), simulation);
+        let writer = ParquetWriter::create(path, &columns, &metadata)?;
+        Ok(Some(Box::new(writer)))
+    }
+}

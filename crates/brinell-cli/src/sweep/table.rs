@@ -1,0 +1,136 @@
+//! The table of a sweep: a row a point, in the plan's order.
+
+use super::points::{Points, signal_file};
+use brinell::campaign::{Quantity, Row, Spread};
+use brinell_io::{Cells, Column, Table};
+use std::collections::HashMap;
+
+/// How a point stands.
+pub(super) enum Standing<'a> {
+    Complete(&'a Row),
+    Failed(&'a str),
+    NotRun,
+}
+
+impl Standing<'_> {
+    pub(super) fn word(&self) -> &'static str {
+        match self {
+            Self::Complete(_) => "complete",
+            Self::Failed(_) => "failed",
+            Self::NotRun => "not run",
+        }
+    }
+}
+
+/// How every point stands.
+pub(super) fn standings<'a>(
+    points: &'a Points,
+    row: impl Fn(&str) -> Option<&'a Row>,
+) -> Vec<Standing<'a>> {
+    let one = |task: &'a Result<crate::campaign::Task, String>| match task {
+        Err(reason) => Standing::Failed(reason),
+        Ok(task) => match row(&task.fingerprint) {
+            None => Standing::NotRun,
+            Some(Row {
+                result: Err(reason),
+                ..
+            }) => Standing::Failed(reason),
+            Some(row) => Standing::Complete(row),
+        },
+    };
+    points.tasks.iter().map(one).collect()
+}
+
+/// Point, keys, status, reason, and every number that any point has, with its interval.
+pub(super) fn table(points: &Points, standings: &[Standing], signals: bool) -> Table {
+    let mut table = Table::default();
+    let rows = standings.len();
+    let number = (1..=rows).map(|k| Some(k as f64)).collect();
+    let about = "number of the point, in the plan's order";
+    table.push(Column::new("point", "1", about), Cells::Numbers(number));
+    let settings: Vec<Vec<(String, String)>> = (0..rows).map(|k| points.plan.settings(k)).collect();
+    for (index, key) in points.plan.keys().enumerate() {
+        let values: Vec<&str> = settings.iter().map(|s| s[index].1.as_str()).collect();
+        let unit = points.units.get(key).copied().unwrap_or("");
+        table.push(
+            Column::new(key, unit, "what the point sets"),
+            cells(&values),
+        );
+    }
+    let words =
+        |of: &dyn Fn(&Standing) -> Option<String>| Cells::Words(standings.iter().map(of).collect());
+    let status = words(&|s| Some(s.word().to_owned()));
+    table.push(
+        Column::new("status", "", "complete, failed or not run"),
+        status,
+    );
+    let reason = words(&|s| match s {
+        Standing::Failed(reason) => Some((*reason).to_owned()),
+        _ => None,
+    });
+    table.push(Column::new("reason", "", "why it failed"), reason);
+    if signals {
+        let file = words(&|s| match s {
+            Standing::Complete(row) => Some(format!("signals/{}", signal_file(&row.scenario))),
+            _ => None,
+        });
+        table.push(Column::new("signals", "", "file of its channels"), file);
+    }
+    numbers(standings, &mut table);
+    table
+}
+
+/// Numbers where all are numbers.
+fn cells(values: &[&str]) -> Cells {
+    let numbers: Option<Vec<f64>> = values.iter().map(|v| number(v)).collect();
+    match numbers {
+        Some(numbers) => Cells::Numbers(numbers.into_iter().map(Some).collect()),
+        None => Cells::Words(values.iter().map(|v| Some((*v).to_owned())).collect()),
+    }
+}
+
+/// The value of a setting, where it is a finite number.
+pub(super) fn number(value: &str) -> Option<f64> {
+    let value = value.trim().replace('_', "").parse::<f64>().ok()?;
+    value.is_finite().then_some(value)
+}
+
+/// A column for each number, three for one with an interval. Columns come in the order of the first point that has them.
+fn numbers(standings: &[Standing], table: &mut Table) {
+    let mut order: Vec<&Quantity> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    for standing in standings {
+        for quantity in of(standing) {
+            if !places.contains_key(quantity.name.as_str()) {
+                places.insert(&quantity.name, order.len());
+                order.push(quantity);
+            }
+        }
+    }
+    let mut cells = vec![vec![None; standings.len()]; order.len()];
+    for (row, standing) in standings.iter().enumerate() {
+        for quantity in of(standing) {
+            cells[places[quantity.name.as_str()]][row] = Some(quantity);
+        }
+    }
+    for (first, cells) in order.into_iter().zip(cells) {
+        let mut push = |suffix: &str, about: &str, of: fn(&Quantity) -> Option<f64>| {
+            let numbers = cells.iter().map(|cell| cell.and_then(of)).collect();
+            let column = Column::new(format!("{}{suffix}", first.name), &first.unit, about);
+            table.push(column, Cells::Numbers(numbers));
+        };
+        push("", "", |q| q.value);
+        if first.spread != Spread::Without {
+            let about = "end of its 95 % interval";
+            push(".low", about, |q| q.interval().map(|i| i.0));
+            push(".high", about, |q| q.interval().map(|i| i.1));
+        }
+    }
+}
+
+fn of<'a>(standing: &Standing<'a>) -> &'a [Quantity] {
+    match standing {
+        Standing::Complete(row) => row.result.as_deref().unwrap_or(&[]),
+        Standing::Failed(_) | Standing::NotRun => &[],
+    }
+}

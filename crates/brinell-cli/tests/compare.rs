@@ -1,0 +1,138 @@
+//! Scenarios side by side: what comes out, that a run beside itself is itself, and what is refused.
+
+mod common;
+
+use brinell_io::{Cells, Table};
+use common::{SHORT, brinell, files, json};
+use std::fs;
+use tempfile::{TempDir, tempdir};
+
+/// Two scenarios of four turns of the shaft.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    let text = SHORT
+        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
+        .replace("duration_s = 0.02", "duration_s = 0.1");
+    fs::write(folder.path().join("actual.toml"), &text).unwrap();
+    let simple = text.replace("length_mm = 2.0", "length_mm = 3.0");
+    fs::write(folder.path().join("simple.toml"), simple).unwrap();
+    folder
+}
+
+#[test]
+fn regress_files_and_variants_come_side_by_side() {
+    let folder = folder();
+    brinell(
+        folder.path(),
+        &[
+            "compare",
+            "actual.toml",
+            "simple.toml",
+            "--variant",
+            "lumped:simulation.model=reference; defects.0.depth_um=10",
+            "-o",
+            "out",
+            "--plots",
+            "svg",
+        ],
+    )
+    .exits(0)
+    .says(&[
+        "simple over actual:",
+        "lumped over actual:",
+        "measured_ax.rms: ",
+        "(95 %: ",
+    ])
+    .keeps_quiet();
+    let out = folder.path().join("out");
+    let names = files(&out);
+    for name in [
+        "compare.csv",
+        "compare.html",
+        "compare.json",
+        "compare.parquet",
+    ] {
+        assert!(names.contains(&name.to_owned()), "{names:?}");
+    }
+    for name in ["waveform", "spectrum", "defect1-length", "defect1-entry"] {
+        assert!(names.contains(&format!("plots/{name}.svg")), "{names:?}");
+    }
+    let json = json(&out.join("compare.json"));
+    let rms = &json["quantities"]["measured_ax.rms"];
+    let value = |label: &str| rms["runs"][label]["value"].as_f64().unwrap();
+    assert!(value("actual") > 0.0 && value("simple") > 0.0 && value("lumped") > 0.0);
+    let ratio = &rms["ratios"]["simple"];
+    let number = |key: &str| ratio[key].as_f64().unwrap();
+    assert!(number("low") < number("value") && number("value") < number("high"));
+    assert!(rms["ratios"].get("actual").is_none());
+    assert!(
+        json["scenarios"]["lumped"]
+            .as_str()
+            .unwrap()
+            .contains("model = \"reference\"")
+    );
+    let page = fs::read_to_string(out.join("compare.html")).unwrap();
+    for part in [
+        "What differs",
+        "simulation.model",
+        "Entry and exit",
+        "simple / actual",
+    ] {
+        assert!(page.contains(part), "no {part}");
+    }
+    assert!(!page.contains("NaN"));
+}
+
+#[test]
+fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
+    let folder = folder();
+    let args = [
+        "compare",
+        "actual.toml",
+        "--variant",
+        "again:name=twin",
+        "-o",
+    ];
+    for (out, jobs) in [("one", "1"), ("two", "2")] {
+        let args: Vec<&str> = args.into_iter().chain([out, "-q", "-j", jobs]).collect();
+        brinell(folder.path(), &args).exits(0).keeps_quiet();
+    }
+    for name in files(&folder.path().join("one")) {
+        let read = |out: &str| fs::read(folder.path().join(out).join(&name)).unwrap();
+        assert!(read("one") == read("two"), "{name} differs");
+    }
+    let table = Table::read_parquet(folder.path().join("one/compare.parquet")).unwrap();
+    let column = |name: &str| {
+        let k = table.columns.iter().position(|c| c.name == name).unwrap();
+        match &table.cells[k] {
+            Cells::Numbers(cells) => cells.clone(),
+            Cells::Words(_) => panic!("{name} holds words"),
+        }
+    };
+    assert_eq!(column("actual"), column("again"));
+    let ratios = column("again.ratio");
+    assert!(ratios.iter().flatten().all(|ratio| *ratio == 1.0));
+    assert!(ratios.iter().flatten().count() > 100);
+}
+
+#[test]
+fn regress_what_cannot_be_compared() {
+    let folder = folder();
+    let call = |more: &[&str]| {
+        let args: Vec<&str> = ["compare", "actual.toml"]
+            .iter()
+            .chain(more)
+            .copied()
+            .collect();
+        brinell(folder.path(), &args).exits(2)
+    };
+    call(&[]).complains(&["1 to compare", "allowed: 2 to 6 scenarios and variants"]);
+    call(&["--variant", "x"]).complains(&["--variant x: expected NAME:KEY=VALUE"]);
+    call(&["--variant", "a=b:c"]).complains(&["expected NAME:KEY=VALUE"]);
+    call(&["--variant", "x:a"]).complains(&["expected KEY=VALUE"]);
+    call(&["--variant", "5:name=x"]).complains(&["`5` cannot name a run"]);
+    call(&["actual.toml"]).complains(&["two runs would be called actual"]);
+    call(&["--variant", "x:operation.speed_rpm=\"fast\""]).complains(&["operation.speed_rpm"]);
+    call(&["none.toml"]).complains(&["cannot read none.toml"]);
+    assert!(!folder.path().join("out").exists());
+}

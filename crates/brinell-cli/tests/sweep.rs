@@ -1,0 +1,409 @@
+//! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to bad points.
+
+mod common;
+
+use brinell_io::{Cells, Table};
+use common::{SHORT, brinell, files, json};
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+/// SHORT, four turns of the shaft long, so that there are blocks for intervals.
+fn base(folder: &Path) {
+    let text = SHORT
+        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
+        .replace("duration_s = 0.02", "duration_s = 0.1");
+    fs::write(folder.join("base.toml"), text).unwrap();
+}
+
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    base(folder.path());
+    folder
+}
+
+const GRID: [&str; 6] = [
+    "sweep",
+    "base.toml",
+    "--vary",
+    "operation.speed_rpm=2900,3100",
+    "--vary",
+    "simulation.model=reference,full",
+];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    GRID.iter().chain(more).copied().collect()
+}
+
+/// Every file of the results but the journal, whose lines come in the order of completion.
+fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
+    names
+        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
+        .collect()
+}
+
+fn same(a: &Path, b: &Path) {
+    let (a, b) = (results(a), results(b));
+    let names = |r: &[(String, Vec<u8>)]| r.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&a), names(&b));
+    for ((name, a), (_, b)) in a.iter().zip(&b) {
+        assert!(a == b, "{name} differs");
+    }
+}
+
+/// Cells of RFC 4180.
+fn csv(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let (mut rows, mut row, mut cell) = (vec![], vec![], String::new());
+    let (mut quoted, mut letters) = (false, text.chars().peekable());
+    while let Some(c) = letters.next() {
+        match c {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                cell.push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => row.push(std::mem::take(&mut cell)),
+            '\n' if !quoted => {
+                row.push(std::mem::take(&mut cell));
+                rows.push(std::mem::take(&mut row));
+            }
+            c => cell.push(c),
+        }
+    }
+    assert!(row.is_empty() && cell.is_empty(), "the last line is whole");
+    rows
+}
+
+#[test]
+fn prop_neither_threads_nor_a_cut_journal_change_a_byte() {
+    let folder = folder();
+    let out = |name: &str| folder.path().join(name);
+    brinell(folder.path(), &with(&["-o", "one", "--jobs", "1"]))
+        .exits(0)
+        .says(&[
+            "4 points: operation.speed_rpm (2) x simulation.model (2)",
+            "4 runs to do: 0.400 s simulated, 1 at a time, about",
+            "4 of 4 points complete",
+        ])
+        .keeps_quiet();
+    brinell(folder.path(), &with(&["-o", "two", "--jobs", "2", "-q"]))
+        .exits(0)
+        .keeps_quiet();
+    same(&out("one"), &out("two"));
+    assert_eq!(
+        results(&out("one"))
+            .into_iter()
+            .map(|f| f.0)
+            .collect::<Vec<_>>(),
+        ["sweep.csv", "sweep.html", "sweep.json", "sweep.parquet"]
+    );
+
+    // The header and two points are whole, the third was being written.
+    let journal = fs::read(out("two").join("journal.jsonl")).unwrap();
+    let ends: Vec<usize> = (0..journal.len())
+        .filter(|k| journal[*k] == b'\n')
+        .collect();
+    assert_eq!(ends.len(), 5);
+    fs::create_dir(out("cut")).unwrap();
+    fs::write(out("cut").join("journal.jsonl"), &journal[..ends[2] + 100]).unwrap();
+    brinell(folder.path(), &with(&["-o", "cut"]))
+        .exits(0)
+        .says(&[
+            "2 points finished before",
+            "2 runs to do",
+            "4 of 4 points complete",
+        ])
+        .keeps_quiet();
+    same(&out("one"), &out("cut"));
+
+    // Once more: nothing is left to do.
+    brinell(folder.path(), &with(&["-o", "cut"]))
+        .exits(0)
+        .says(&["4 points finished before", "0 runs in"]);
+    same(&out("one"), &out("cut"));
+}
+
+#[test]
+fn prop_csv_and_parquet_hold_the_same_table() {
+    let folder = folder();
+    brinell(folder.path(), &with(&["-o", "out", "-q"])).exits(0);
+    let out = folder.path().join("out");
+    let rows = csv(&out.join("sweep.csv"));
+    let table = Table::read_parquet(out.join("sweep.parquet")).unwrap();
+    let names: Vec<&str> = table.columns.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(rows[0], names);
+    assert_eq!(
+        names[..5],
+        [
+            "point",
+            "operation.speed_rpm",
+            "simulation.model",
+            "status",
+            "reason"
+        ]
+    );
+    assert_eq!((rows.len(), table.rows()), (5, 4));
+    for (k, cells) in table.cells.iter().enumerate() {
+        for row in 0..4 {
+            let text = &rows[row + 1][k];
+            match cells {
+                Cells::Numbers(cells) => {
+                    let number = (!text.is_empty()).then(|| text.parse::<f64>().unwrap());
+                    assert_eq!(number.map(f64::to_bits), cells[row].map(f64::to_bits));
+                }
+                Cells::Words(cells) => assert_eq!(*text, cells[row].clone().unwrap_or_default()),
+            }
+        }
+    }
+    let cell = |row: usize, name: &str| {
+        let k = names.iter().position(|n| *n == name);
+        rows[row][k.unwrap_or_else(|| panic!("no column {name}"))].clone()
+    };
+    assert_eq!(cell(1, "operation.speed_rpm"), "2900.0");
+    assert_eq!(cell(2, "simulation.model"), "full");
+    for row in 1..=4 {
+        assert_eq!(cell(row, "status"), "complete");
+        let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
+        assert!(number("measured_ax.rms.low") < number("measured_ax.rms.high"));
+        assert!(number("measured_ax.peak_to_peak") > number("measured_ax.rms"));
+        // 2 of 8.8 mm lie bare in the rectangle of 4 mm: the rest of the line carries.
+        assert!((number("defect1.least_contact_length") - 4.8e-3).abs() < 1e-12);
+        assert!(number("work.steps") > 0.0);
+    }
+    let bpfo = json(&out.join("sweep.json"))["units"]["envelope.bpfo"].clone();
+    assert_eq!(bpfo, "m/s^2");
+}
+
+#[test]
+fn regress_a_bad_point_is_a_row_and_the_others_run() {
+    let folder = folder();
+    let args = [
+        "sweep",
+        "base.toml",
+        "--vary",
+        "defects.0.depth_um=10,-1,20",
+        "--set",
+        "simulation.model=reference",
+        "-o",
+        "out",
+    ];
+    brinell(folder.path(), &args)
+        .exits(1)
+        .says(&[
+            "3 points",
+            "1 point with a bad scenario",
+            "2 of 3 points complete",
+        ])
+        .complains(&[
+            "point 2 failed (defects.0.depth_um=-1): ",
+            "allowed: ",
+            "1 of 3 points failed",
+        ]);
+    let rows = csv(&folder.path().join("out/sweep.csv"));
+    let column = |name: &str| rows[0].iter().position(|n| n == name).unwrap();
+    let status: Vec<&str> = rows[1..]
+        .iter()
+        .map(|r| r[column("status")].as_str())
+        .collect();
+    assert_eq!(status, ["complete", "failed", "complete"]);
+    assert!(rows[2][column("reason")].contains("defects.0.depth_um = -1"));
+    assert_eq!(rows[2][column("measured_ax.rms")], "");
+    let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
+    assert!(page.contains("Points that failed") && page.contains("2: defects.0.depth_um = -1"));
+}
+
+#[test]
+fn regress_what_no_point_can_run_with_is_bad_input() {
+    let folder = folder();
+    let call = |more: &[&str]| {
+        let args: Vec<&str> = ["sweep", "base.toml"].iter().chain(more).copied().collect();
+        brinell(folder.path(), &args).exits(2)
+    };
+    call(&[]).complains(&["nothing varies: give --vary KEY=VALUES"]);
+    call(&["--vary", "operation.speed_rmp=1,2"]).complains(&["operation.speed_rmp", "speed_rpm"]);
+    call(&["--vary", "operation.speed_rpm=1000:500:100"]).complains(&[
+        "--vary: operation.speed_rpm = 1000:500:100: the range's step leads away from its end; a step of -100 would reach it",
+    ]);
+    call(&["--vary", "a.b=1", "--vary", "a.b=2"]).complains(&["the sweep: a.b varies twice"]);
+    call(&["--together", "a=1,2; b=1"]).complains(&["--together: a and b have 2 and 1 values"]);
+    call(&[
+        "--vary",
+        "bearing.radial_clearance_um=5,10",
+        "--plot",
+        "measured_ax.rsm",
+    ])
+    .complains(&["--plot measured_ax.rsm: no such number"]);
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn regress_another_sweep_is_refused_unless_extended() {
+    let folder = folder();
+    let sweep = |values: &str, more: &[&str]| {
+        let vary = format!("operation.speed_rpm={values}");
+        let mut args = vec!["sweep", "base.toml", "--vary", &vary, "-o", "out"];
+        args.extend(["--set", "simulation.model=reference"]);
+        args.extend(more);
+        brinell(folder.path(), &args)
+    };
+    sweep("2900,3000", &[]).exits(0);
+    let before = results(&folder.path().join("out"));
+    sweep("2900,3000,3100", &[]).exits(2).complains(&[
+        "out holds another sweep, of operation.speed_rpm (2), or of another base scenario; choose another folder",
+        "--extend",
+    ]);
+    assert!(
+        before == results(&folder.path().join("out")),
+        "nothing is touched"
+    );
+    sweep("2900,3000,3100", &["--extend"]).exits(0).says(&[
+        "2 points finished before",
+        "1 run to do",
+        "3 of 3 points complete",
+    ]);
+    // The extended one is now the folder's.
+    sweep("2900,3000,3100", &[])
+        .exits(0)
+        .says(&["3 points finished before"]);
+    // Another base, the same plan.
+    sweep("2900,3000,3100", &["--set", "defects.0.depth_um=5"])
+        .exits(2)
+        .complains(&["another base scenario"]);
+    // A journal of something else.
+    let journal = folder.path().join("out/journal.jsonl");
+    fs::write(&journal, "{\"campaign\":\"calibration\"}\n").unwrap();
+    sweep("2900,3000,3100", &["--extend"])
+        .exits(2)
+        .complains(&["is the journal of calibration; choose another folder"]);
+    fs::write(&journal, "[1]\n").unwrap();
+    sweep("2900,3000,3100", &[])
+        .exits(2)
+        .complains(&["is the journal of something else"]);
+}
+
+#[test]
+fn regress_points_of_another_version_are_run_again() {
+    let folder = folder();
+    let args = [
+        "sweep",
+        "base.toml",
+        "--vary",
+        "operation.speed_rpm=2900,3000",
+        "--set",
+        "simulation.model=reference",
+        "-o",
+        "out",
+    ];
+    brinell(folder.path(), &args).exits(0);
+    let journal = folder.path().join("out/journal.jsonl");
+    let text = fs::read_to_string(&journal).unwrap();
+    let mine = format!("\"brinell\":\"{}\"", env!("CARGO_PKG_VERSION"));
+    let older = text.replacen(&mine, "\"brinell\":\"0.0.1\"", 1);
+    assert_ne!(text, older);
+    fs::write(&journal, older).unwrap();
+    brinell(folder.path(), &args).exits(0).says(&[
+        "1 point finished before",
+        "1 run to do",
+        "1 finished point of another version",
+    ]);
+}
+
+#[test]
+fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
+    let folder = folder();
+    let args = |more: &[&'static str]| {
+        let mut args = vec!["sweep", "base.toml", "--together"];
+        args.push("operation.speed_rpm=2900,3000; operation.load_n=[300,0],[0,400]");
+        args.extend(["--set", "simulation.model=reference", "-o", "out"]);
+        args.extend(more);
+        args
+    };
+    brinell(folder.path(), &args(&["--dry-run"]))
+        .exits(0)
+        .says(&[
+            "2 points: operation.speed_rpm with operation.load_n (2)",
+            "2 runs to do",
+        ]);
+    assert!(!folder.path().join("out").exists());
+    brinell(folder.path(), &args(&["--plots", "svg"])).exits(0);
+    let out = folder.path().join("out");
+    assert!(files(&out).contains(&"plots/measured_ax.rms.svg".to_owned()));
+    assert!(!out.join("signals").exists());
+    // Signals were not kept: asked for now, the points run again.
+    brinell(folder.path(), &args(&["--keep-signals"]))
+        .exits(0)
+        .says(&["2 runs to do"]);
+    let table = Table::read_parquet(out.join("sweep.parquet")).unwrap();
+    let k = table
+        .columns
+        .iter()
+        .position(|c| c.name == "signals")
+        .unwrap();
+    let Cells::Words(names) = &table.cells[k] else {
+        panic!("names are words")
+    };
+    for name in names.iter().flatten() {
+        let signals = brinell_io::read_parquet(out.join(name)).unwrap();
+        assert!(
+            signals
+                .column("measured_ax")
+                .is_some_and(|x| x.len() == 2561)
+        );
+    }
+    assert_eq!(names.iter().flatten().count(), 2);
+    brinell(folder.path(), &args(&["--keep-signals"]))
+        .exits(0)
+        .says(&["2 points finished before"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
+    let folder = folder();
+    let args = [
+        "sweep",
+        "base.toml",
+        "--vary",
+        "operation.speed_rpm=2000:3000:10",
+        "--set",
+        "simulation.model=reference",
+        "-o",
+        "out",
+        "-j",
+        "1",
+    ];
+    let journal = folder.path().join("out/journal.jsonl");
+    let lines = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    let child = common::command(folder.path(), &args)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begin = std::time::Instant::now();
+    while lines() < 3 {
+        assert!(begin.elapsed().as_secs() < 60, "no point is finished");
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    let call: common::Call = child.wait_with_output().unwrap().into();
+    call.exits(1).complains(&[
+        "interrupted: ",
+        "to go; the same command goes on where this one stopped",
+    ]);
+    let done = lines() - 1;
+    assert!((2..101).contains(&done));
+    let rows = csv(&folder.path().join("out/sweep.csv"));
+    assert_eq!(rows.len(), 102);
+    let status = rows[0].iter().position(|n| n == "status").unwrap();
+    assert_eq!(
+        rows.iter().filter(|r| r[status] == "complete").count(),
+        done
+    );
+    let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
+    assert!(page.contains("This sweep is not whole."));
+}

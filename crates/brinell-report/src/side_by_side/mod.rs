@@ -1,0 +1,182 @@
+//! The page of several runs side by side: overlays of their curves, and tables. What the sections are is the caller's.
+
+mod overlay;
+
+use std::fmt::Write as _;
+
+use crate::analysis::{Table, table};
+use crate::data::{Fact, Marker};
+use crate::page::{figure, head, none};
+use crate::picture::{Picture, escape};
+use crate::plots::Layout;
+use crate::tables::facts;
+pub use overlay::overlay;
+
+/// Where the values of a curve stand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// From a first place on, evenly.
+    Even {
+        /// Place of the first value.
+        first: f64,
+        /// From one value to the next.
+        step: f64,
+    },
+    /// Each in its own place.
+    At(Vec<f64>),
+}
+
+/// One run's curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OverlaidCurve {
+    /// Which of the page's names it belongs to, from 0.
+    pub of: usize,
+    /// Where its values stand.
+    pub along: Along,
+    /// The values; NaN is a gap.
+    pub values: Vec<f64>,
+}
+
+/// How the y axis is laid out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Vertical {
+    /// Around the values.
+    #[default]
+    Around,
+    /// From zero up.
+    FromZero,
+    /// Decades of what is largest.
+    Decades,
+}
+
+/// Curves of several runs in one plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overlay {
+    /// Name of the picture's file.
+    pub name: String,
+    /// Over the plot; may be empty.
+    pub title: String,
+    /// Quantity on the x axis.
+    pub x_label: String,
+    /// Its unit; may be empty.
+    pub x_unit: String,
+    /// Ends of the x axis; all that the curves have where there are none.
+    pub x_range: Option<(f64, f64)>,
+    /// Quantity on the y axis.
+    pub y_label: String,
+    /// Its unit; may be empty.
+    pub y_unit: String,
+    /// The y axis.
+    pub vertical: Vertical,
+    /// The curves, the first lowest.
+    pub curves: Vec<OverlaidCurve>,
+    /// Frequencies marked above the plot.
+    pub markers: Vec<Marker>,
+    /// Under it; may be empty.
+    pub note: String,
+}
+
+/// A piece of a section.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Piece {
+    /// Curves.
+    Overlay(Overlay),
+    /// Words and numbers.
+    Table(Table),
+    /// A sentence where something is missing.
+    Words(String),
+}
+
+/// A heading and what is under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The heading.
+    pub title: String,
+    /// In this order; a table's title is a heading of its own.
+    pub pieces: Vec<Piece>,
+}
+
+/// Everything that the page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SideBySide {
+    /// Heading of the page.
+    pub title: String,
+    /// One line under it.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// What deserves attention.
+    pub warnings: Vec<String>,
+    /// Names of the runs, in the order of colours.
+    pub names: Vec<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The sections.
+    pub parts: Vec<Part>,
+}
+
+/// The page's pictures, drawn wide.
+pub fn side_by_side_pictures(report: &SideBySide) -> Vec<Picture> {
+    let pieces = report.parts.iter().flat_map(|part| &part.pieces);
+    let overlays = pieces.filter_map(|piece| match piece {
+        Piece::Overlay(one) => Some(overlay(one, &report.names, Layout::Wide)),
+        _ => None,
+    });
+    overlays.collect()
+}
+
+/// The self-contained page.
+pub fn side_by_side_html(report: &SideBySide) -> String {
+    let mut page = String::with_capacity(1 << 20);
+    head(&mut page, &report.title);
+    let _ = writeln!(
+        page,
+        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
+        escape(&report.subtitle),
+        escape(&report.version)
+    );
+    for warning in &report.warnings {
+        let _ = writeln!(
+            page,
+            "<p class=\"partial\" role=\"alert\">{}</p>",
+            escape(warning)
+        );
+    }
+    page.push_str("</header>\n<main>\n");
+    facts(&mut page, &report.facts);
+    let mut count = 0;
+    for part in &report.parts {
+        // A lone table brings its own heading.
+        let headed =
+            !matches!(&part.pieces[..], [Piece::Table(table)] if table.title == part.title);
+        let _ = writeln!(page, "<section>");
+        if headed {
+            let _ = writeln!(page, "<h2>{}</h2>", escape(&part.title));
+        }
+        for piece in &part.pieces {
+            match piece {
+                Piece::Overlay(one) => {
+                    if !one.title.is_empty() {
+                        let _ = writeln!(page, "<h3>{}</h3>", escape(&one.title));
+                    }
+                    count += 1;
+                    let draw = |layout| overlay(one, &report.names, layout);
+                    figure(
+                        &mut page,
+                        &format!("overlay{count}"),
+                        draw,
+                        &escape(&one.note),
+                    );
+                }
+                Piece::Table(one) => table(&mut page, one),
+                Piece::Words(words) => none(&mut page, &escape(words)),
+            }
+        }
+        page.push_str("</section>\n");
+    }
+    page.push_str(
+        "</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its \
+         largest.</footer>\n</body>\n</html>\n",
+    );
+    page
+}

@@ -1,0 +1,106 @@
+//! Curves of several runs in one plot, under a legend.
+
+use super::{Along, OverlaidCurve, Overlay, Vertical};
+use crate::chart::{Chart, Domain, Spec, range};
+use crate::picture::{Paint, Picture, ink};
+use crate::plots::{Layout, legend, marker_lanes};
+
+/// Told apart by everybody; a dash more where two might be taken for one another in grey.
+const PAINTS: [(&str, &[f64]); 6] = [
+    (ink::BLUE, &[]),
+    (ink::VERMILLION, &[]),
+    (ink::GREEN, &[]),
+    (ink::PURPLE, &[]),
+    (ink::BLACK, &[7.0, 3.0]),
+    (ink::ORANGE, &[7.0, 3.0]),
+];
+
+fn paint(run: usize) -> Paint {
+    let (color, dash) = PAINTS[run % PAINTS.len()];
+    Paint::line(color, 1.4).dashed(dash)
+}
+
+fn ends(curve: &OverlaidCurve) -> [f64; 2] {
+    match &curve.along {
+        Along::Even { first, step } => [
+            *first,
+            first + step * curve.values.len().saturating_sub(1) as f64,
+        ],
+        Along::At(places) => {
+            let (lo, hi) = range(places.iter().copied()).unwrap_or((f64::NAN, f64::NAN));
+            [lo, hi]
+        }
+    }
+}
+
+/// Values within the x axis.
+fn shown(curve: &OverlaidCurve, (lo, hi): (f64, f64)) -> Vec<f64> {
+    let place = |k: usize| match &curve.along {
+        Along::Even { first, step } => first + step * k as f64,
+        Along::At(places) => places.get(k).copied().unwrap_or(f64::NAN),
+    };
+    let inside = |(k, _): &(usize, &f64)| (lo..=hi).contains(&place(*k));
+    let values = curve.values.iter().enumerate().filter(inside);
+    values.map(|(_, value)| *value).collect()
+}
+
+/// The plot; `names` are those of the runs.
+pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
+    let (lo, hi) = overlay
+        .x_range
+        .unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
+    let values: Vec<f64> = overlay
+        .curves
+        .iter()
+        .flat_map(|curve| shown(curve, (lo, hi)))
+        .collect();
+    let height = if layout == Layout::Wide { 330.0 } else { 290.0 };
+    let lanes = marker_lanes(&overlay.markers);
+    let spec = Spec {
+        name: overlay.name.clone(),
+        title: format!("{} over {}", overlay.y_label, overlay.x_label),
+        size: layout.size(height + 16.0 * lanes.len() as f64),
+        x: Domain::exact(lo, hi),
+        y: match overlay.vertical {
+            Vertical::Around => Domain::around(values.iter().copied()),
+            Vertical::FromZero => Domain::from_zero(values.iter().copied()),
+            Vertical::Decades => Domain::decades(&values),
+        },
+        x_label: overlay.x_label.clone(),
+        x_unit: overlay.x_unit.clone(),
+        y_label: overlay.y_label.clone(),
+        y_unit: overlay.y_unit.clone(),
+        lanes,
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    };
+    let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
+    let mut chart = Chart::new(spec);
+    if range(values).is_none() {
+        chart.say("Nothing to show");
+    }
+    let peak = overlay.vertical != Vertical::Around;
+    for curve in &overlay.curves {
+        let full = paint(curve.of);
+        // What lies on top lets the lower ones shine through.
+        let paint = if curve.of > 0 { full.faded(0.8) } else { full };
+        match &curve.along {
+            Along::Even { first, step } => chart.curve(*first, *step, &curve.values, peak, paint),
+            Along::At(places) => chart.points(places, &curve.values, paint),
+        }
+    }
+    let drawn = chart.finish();
+    let entries: Vec<(&str, Paint)> = names
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| overlay.curves.iter().any(|curve| curve.of == *k))
+        .map(|(k, name)| (name.as_str(), paint(k)))
+        .collect();
+    let width = layout.size(0.0).width;
+    let mut picture = Picture::new(&name, &title, width, size.height);
+    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
+    picture.height = top + size.height;
+    picture.place(drawn, 0.0, top);
+    picture
+}

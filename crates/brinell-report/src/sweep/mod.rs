@@ -1,0 +1,165 @@
+//! The page of a sweep: indicators with intervals against the key that varies, what failed, and the table of points.
+
+mod plot;
+
+use std::fmt::Write as _;
+
+use crate::analysis::{Table, table};
+use crate::data::Fact;
+use crate::page::{figure, head, none};
+use crate::picture::{Picture, escape};
+use crate::plots::Layout;
+use crate::tables::facts;
+pub use plot::indicator_plot;
+
+/// One point of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IndicatorPoint {
+    /// The varied key's value, or the place among [`IndicatorPlot::x_names`].
+    pub x: f64,
+    /// The dot: the mean over blocks where there is an interval. NaN where the point failed: the line has a gap there.
+    pub value: f64,
+    /// Ends of the 95 % interval.
+    pub interval: Option<(f64, f64)>,
+    /// Over the whole run, where that is another number than the dot's; NaN otherwise.
+    pub whole: f64,
+}
+
+/// Points that differ in the key on the x axis alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IndicatorLine {
+    /// What the others have: "full, 10".
+    pub label: String,
+    /// In the order of x.
+    pub points: Vec<IndicatorPoint>,
+}
+
+/// An indicator against a key.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IndicatorPlot {
+    /// Name of the picture's file.
+    pub name: String,
+    /// The quantity, for the y axis: "RMS of measured_ax".
+    pub label: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// The key.
+    pub x_label: String,
+    /// Its unit; empty where it has none.
+    pub x_unit: String,
+    /// Names on the x axis where the key's values are no numbers; x then counts them from 0.
+    pub x_names: Vec<String>,
+    /// What the lines' labels are values of; may be empty.
+    pub legend: String,
+    /// The lines.
+    pub lines: Vec<IndicatorLine>,
+}
+
+/// Everything that the page of a sweep shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SweepReport {
+    /// The sweep's name.
+    pub title: String,
+    /// What varies.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// Why points are missing, where some are.
+    pub partial: Option<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The plots.
+    pub plots: Vec<IndicatorPlot>,
+    /// Point and reason of everything that failed.
+    pub failures: Vec<(String, String)>,
+    /// The points.
+    pub table: Table,
+    /// The scenario that the points vary.
+    pub scenario_toml: String,
+}
+
+/// The page's pictures, drawn wide.
+pub fn sweep_pictures(report: &SweepReport) -> Vec<Picture> {
+    let wide = |plot| indicator_plot(plot, Layout::Wide);
+    report.plots.iter().map(wide).collect()
+}
+
+/// The self-contained page.
+pub fn sweep_html(report: &SweepReport) -> String {
+    let mut page = String::with_capacity(1 << 19);
+    head(&mut page, &report.title);
+    let _ = writeln!(
+        page,
+        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
+        escape(&report.subtitle),
+        escape(&report.version)
+    );
+    if let Some(why) = &report.partial {
+        let _ = writeln!(
+            page,
+            "<p class=\"partial\" role=\"alert\"><strong>This sweep is not whole.</strong> {}</p>",
+            escape(why)
+        );
+    }
+    page.push_str("</header>\n<main>\n");
+    facts(&mut page, &report.facts);
+    page.push_str("<section id=\"indicators\">\n<h2>Indicators</h2>\n");
+    if report.plots.is_empty() {
+        none(&mut page, "No indicator was chosen, or no point has one.");
+    }
+    none(&mut page, &legend(&report.plots));
+    for (index, plot) in report.plots.iter().enumerate() {
+        let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
+        let draw = |layout| indicator_plot(plot, layout);
+        figure(&mut page, &format!("plot{index}"), draw, "");
+    }
+    page.push_str("</section>\n");
+    if !report.failures.is_empty() {
+        page.push_str("<section id=\"failures\">\n<h2>Points that failed</h2>\n");
+        page.push_str(
+            "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Point</th><th>Why</th></tr></thead><tbody>\n",
+        );
+        for (point, reason) in &report.failures {
+            let _ = writeln!(
+                page,
+                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
+                escape(point),
+                escape(reason)
+            );
+        }
+        page.push_str("</tbody></table></div>\n</section>\n");
+    }
+    table(&mut page, &report.table);
+    if !report.scenario_toml.is_empty() {
+        let _ = writeln!(
+            page,
+            "<section id=\"scenario\">\n<h2>Base scenario</h2>\n<pre><code>{}</code></pre>\n</section>",
+            escape(&report.scenario_toml)
+        );
+    }
+    page.push_str("</main>\n<footer>The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.</footer>\n</body>\n</html>\n");
+    page
+}
+
+/// What the marks mean, of those that are there.
+fn legend(plots: &[IndicatorPlot]) -> String {
+    let lines = || plots.iter().flat_map(|plot| &plot.lines);
+    let points = || lines().flat_map(|line| &line.points);
+    let mut parts = Vec::new();
+    if points().any(|p| p.interval.is_some()) {
+        parts.push("Dots: mean over blocks of whole revolutions, with its 95 % interval.");
+    }
+    if points().any(|p| p.whole.is_finite()) {
+        parts.push("Short bars: over the whole run; an extreme grows with the length looked at.");
+    }
+    if points().any(|p| p.interval.is_none() && p.value.is_finite()) {
+        parts.push("Rings: a value without an interval.");
+    }
+    if points().any(|p| !p.value.is_finite()) {
+        parts.push("Crosses on the axis: no value.");
+    }
+    if plots.iter().any(|plot| plot.lines.len() > 1) {
+        parts.push("Lines stand a little beside each other, so that intervals can be told apart.");
+    }
+    parts.join(" ")
+}

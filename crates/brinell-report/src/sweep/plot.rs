@@ -1,0 +1,205 @@
+//! One indicator against a key: a line for each value of the other keys, with intervals.
+
+use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
+use crate::chart::{Chart, Domain, Spec, range};
+use crate::font;
+use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
+use crate::plots::{Layout, legend};
+
+/// Colours that are told apart by everybody, then the same with dashes.
+const COLORS: [&str; 6] = [
+    ink::BLUE,
+    ink::VERMILLION,
+    ink::GREEN,
+    ink::PURPLE,
+    ink::ORANGE,
+    ink::BLACK,
+];
+const DASHES: [&[f64]; 3] = [&[], &[6.0, 3.0], &[2.0, 2.5]];
+/// Pixels between the same point of neighbouring lines, and of all lines together at most.
+const BESIDE: f64 = 5.0;
+const BESIDE_ALL: f64 = 30.0;
+
+fn paint(line: usize) -> Paint {
+    let color = COLORS[line % COLORS.len()];
+    Paint::line(color, 1.6).dashed(DASHES[line / COLORS.len() % DASHES.len()])
+}
+
+/// The plot.
+pub fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
+    let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
+    let mut size = layout.size(height);
+    let named = !plot.x_names.is_empty();
+    let axis_room = 3.4 * size.font - 8.0;
+    if named {
+        size.height -= axis_room;
+    }
+    let points = || plot.lines.iter().flat_map(|line| &line.points);
+    let heights = points().flat_map(|p| {
+        let (low, high) = p.interval.unwrap_or((p.value, p.value));
+        [p.value, low, high, p.whole]
+    });
+    let x = if named {
+        Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
+    } else {
+        Domain::around(points().map(|p| p.x))
+    };
+    let spec = Spec {
+        name: plot.name.clone(),
+        title: format!("{} over {}", plot.label, plot.x_label),
+        size,
+        x,
+        y: y_domain(heights),
+        x_label: plot.x_label.clone(),
+        x_unit: plot.x_unit.clone(),
+        y_label: plot.label.clone(),
+        y_unit: plot.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: !named,
+    };
+    let (name, title) = (spec.name.clone(), spec.title.clone());
+    let mut chart = Chart::new(spec);
+    if named {
+        name_x(&mut chart, plot, size.font);
+    }
+    if range(points().map(|p| p.value)).is_none() {
+        chart.say("No point has a value");
+    }
+    let count = plot.lines.len();
+    let step = BESIDE.min(BESIDE_ALL / count.max(1) as f64);
+    for (k, line) in plot.lines.iter().enumerate() {
+        let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
+        draw(&mut chart, line, paint(k), beside, !named);
+    }
+    let mut drawn = chart.finish();
+    if named {
+        drawn.height += axis_room;
+    }
+    if count < 2 {
+        return drawn;
+    }
+    let entries: Vec<(&str, Paint)> = plot
+        .lines
+        .iter()
+        .enumerate()
+        .map(|(k, line)| (line.label.as_str(), paint(k)))
+        .collect();
+    let width = layout.size(0.0).width;
+    let mut picture = Picture::new(&name, &title, width, 0.0);
+    let mut top = 2.0;
+    if !plot.legend.is_empty() {
+        let words = Text::new(
+            12.0,
+            top + size.font,
+            size.font,
+            Anchor::Start,
+            &plot.legend,
+        );
+        picture.text(words.color(ink::FAINT));
+        top += 1.6 * size.font;
+    }
+    top += legend(&mut picture, &entries, 12.0, width - 12.0, top, size.font);
+    picture.height = top + drawn.height;
+    picture.place(drawn, 0.0, top);
+    picture
+}
+
+/// From zero where the values come near it, and otherwise around them: a sweep is about differences.
+fn y_domain(values: impl Iterator<Item = f64>) -> Domain {
+    match range(values) {
+        Some((lo, hi)) if lo >= 0.0 && lo < 0.5 * hi => Domain::from_zero([lo, hi]),
+        Some((lo, hi)) => Domain::around([lo, hi]),
+        None => Domain::from_zero([]),
+    }
+}
+
+/// Names instead of numbers under the x axis.
+fn name_x(chart: &mut Chart, plot: &IndicatorPlot, size: f64) {
+    // Between names there is nothing to divide: the lines of a numeric axis go.
+    let shapes = &mut chart.picture.shapes;
+    if let Some(open) = shapes
+        .iter()
+        .position(|s| matches!(s, Shape::Open("ticks-x")))
+    {
+        let length = shapes[open..]
+            .iter()
+            .position(|s| matches!(s, Shape::Close))
+            .unwrap_or(0);
+        shapes.drain(open + 1..open + length);
+    }
+    let room = chart.frame.width() / plot.x_names.len() as f64 - 6.0;
+    for (k, name) in plot.x_names.iter().enumerate() {
+        let name = font::fitted(name, size, false, room);
+        let y = chart.frame.bottom + 1.4 * size;
+        let text = Text::new(chart.x.at(k as f64), y, size, Anchor::Middle, &name);
+        chart.picture.text(text);
+    }
+    let middle = 0.5 * (chart.frame.left + chart.frame.right);
+    let y = chart.frame.bottom + 3.0 * size;
+    let label = Text::with_unit(middle, y, size, Anchor::Middle, &plot.x_label);
+    chart.picture.text(label);
+}
+
+fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, joined: bool) {
+    let at = |chart: &Chart, p: &IndicatorPoint| chart.x.at(p.x) + beside;
+    let solid = Paint {
+        dash: &[],
+        ..Paint::line(paint.stroke, 1.4)
+    };
+    let clip = Some(chart.frame);
+    let mut strokes: Vec<Vec<(f64, f64)>> = vec![vec![]];
+    let (mut bars, mut crosses) = (vec![], vec![]);
+    for p in &line.points {
+        let x = at(chart, p);
+        if !p.value.is_finite() {
+            strokes.push(vec![]);
+            let y = chart.frame.bottom;
+            crosses.push(vec![(x - 4.0, y - 4.0), (x + 4.0, y + 4.0)]);
+            crosses.push(vec![(x - 4.0, y + 4.0), (x + 4.0, y - 4.0)]);
+            continue;
+        }
+        if let Some(stroke) = strokes.last_mut() {
+            stroke.push((x, chart.y.at(p.value)));
+        }
+        if let Some((low, high)) = p.interval {
+            let (low, high) = (chart.y.at(low), chart.y.at(high));
+            bars.push(vec![(x, low), (x, high)]);
+            bars.push(vec![(x - 3.5, low), (x + 3.5, low)]);
+            bars.push(vec![(x - 3.5, high), (x + 3.5, high)]);
+        }
+        if p.whole.is_finite() {
+            let y = chart.y.at(p.whole);
+            bars.push(vec![(x - 7.0, y), (x + 7.0, y)]);
+        }
+    }
+    // Between names there is nothing.
+    strokes.retain(|stroke| joined && stroke.len() > 1);
+    let mut path = |lines: Vec<Vec<(f64, f64)>>, paint: Paint, clip| {
+        if !lines.is_empty() {
+            chart.picture.shapes.push(Shape::Path {
+                lines,
+                close: false,
+                paint,
+                clip,
+            });
+        }
+    };
+    path(strokes, paint.faded(0.7), clip);
+    path(bars, solid, clip);
+    path(crosses, Paint::line(paint.stroke, 2.0), None);
+    for p in line.points.iter().filter(|p| p.value.is_finite()) {
+        let ring = p.interval.is_none();
+        chart.picture.shapes.push(Shape::Circle {
+            x: at(chart, p),
+            y: chart.y.at(p.value),
+            r: 3.4,
+            paint: if ring {
+                Paint::line(paint.stroke, 1.5).filled("#ffffff", 1.0)
+            } else {
+                Paint::fill(paint.stroke, 1.0)
+            },
+        });
+    }
+}

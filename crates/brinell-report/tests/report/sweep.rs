@@ -1,0 +1,146 @@
+//! The pages of a sweep and of runs side by side: what is in them, whatever the data.
+
+use brinell_report::{
+    Along, IndicatorLine, IndicatorPlot, IndicatorPoint, OverlaidCurve, Overlay, Part, Piece,
+    SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html,
+    sweep_pictures,
+};
+
+fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
+    IndicatorPoint {
+        x,
+        value,
+        interval,
+        whole: f64::NAN,
+    }
+}
+
+fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
+    IndicatorPlot {
+        name: "measured_ax.rms".into(),
+        label: "RMS of measured_ax".into(),
+        unit: "m/s^2".into(),
+        x_label: "operation.speed_rpm".into(),
+        x_unit: "r/min".into(),
+        x_names: names.iter().map(|n| (*n).to_owned()).collect(),
+        legend: String::new(),
+        lines: vec![IndicatorLine {
+            label: "full".into(),
+            points,
+        }],
+    }
+}
+
+fn page(plot: IndicatorPlot) -> (String, String) {
+    let report = SweepReport {
+        title: "Sweep of <x>".into(),
+        plots: vec![plot],
+        ..SweepReport::default()
+    };
+    let pictures = sweep_pictures(&report);
+    assert_eq!(pictures.len(), 1);
+    (sweep_html(&report), pictures[0].svg())
+}
+
+#[test]
+fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
+    let points = vec![
+        point(1000.0, 3.0, Some((2.5, 3.5))),
+        point(2000.0, f64::NAN, None),
+        point(3000.0, 5.0, None),
+    ];
+    let (page, svg) = page(plot(points, &[]));
+    for words in [
+        "Dots: mean over blocks",
+        "Rings: a value",
+        "Crosses on the axis",
+    ] {
+        assert!(page.contains(words), "no {words}");
+    }
+    assert!(page.contains("Sweep of &lt;x&gt;") && !page.contains("Short bars"));
+    // Two dots, none for the point that failed.
+    assert_eq!(svg.matches("<circle").count(), 2);
+    assert!(!svg.contains("NaN") && !page.contains("NaN"));
+}
+
+#[test]
+fn regress_names_stand_under_the_axis() {
+    let points = vec![point(0.0, 3.0, None), point(1.0, 4.0, None)];
+    let (_, svg) = page(plot(points, &["full", "reference"]));
+    for words in [">full<", ">reference<", "operation.speed_rpm"] {
+        assert!(svg.contains(words), "no {words} in {svg}");
+    }
+    assert!(!svg.contains(">0.5<"), "nothing lies between names");
+}
+
+#[test]
+fn prop_odd_data_make_a_page() {
+    let odd = [f64::NAN, f64::INFINITY, -1e308, 0.0, 1e-320];
+    for a in odd {
+        for b in odd {
+            let points = vec![point(a, b, Some((b, a))), point(b, a, None)];
+            let (page, svg) = page(plot(points, &[]));
+            assert!(page.ends_with("</html>\n"));
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{a} {b}");
+        }
+    }
+    let (page, svg) = page(plot(vec![], &[]));
+    assert!(svg.contains("No point has a value") && page.ends_with("</html>\n"));
+}
+
+fn overlaid(vertical: Vertical, values: Vec<f64>) -> SideBySide {
+    let curve = |of, along| OverlaidCurve {
+        of,
+        along,
+        values: values.clone(),
+    };
+    let places = (0..values.len()).map(|k| k as f64).collect();
+    let even = Along::Even {
+        first: 0.0,
+        step: 1.0,
+    };
+    let overlay = Overlay {
+        name: "spectrum".into(),
+        x_label: "Frequency".into(),
+        x_unit: "Hz".into(),
+        y_label: "Amplitude".into(),
+        y_unit: "m/s^2".into(),
+        vertical,
+        curves: vec![curve(0, even), curve(2, Along::At(places))],
+        ..Overlay::default()
+    };
+    SideBySide {
+        title: "a and b".into(),
+        names: ["actual", "unseen", "simple"].map(str::to_owned).to_vec(),
+        parts: vec![Part {
+            title: "Spectrum".into(),
+            pieces: vec![Piece::Overlay(overlay), Piece::Words("That is all.".into())],
+        }],
+        ..SideBySide::default()
+    }
+}
+
+#[test]
+fn regress_an_overlay_names_the_runs_that_it_shows() {
+    let report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
+    let pictures = side_by_side_pictures(&report);
+    let svg = pictures[0].svg();
+    assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
+    let page = side_by_side_html(&report);
+    assert!(page.contains("That is all.") && page.contains("<h2>Spectrum</h2>"));
+}
+
+#[test]
+fn prop_odd_curves_make_a_page() {
+    for vertical in [Vertical::Around, Vertical::FromZero, Vertical::Decades] {
+        for values in [
+            vec![],
+            vec![f64::NAN; 3],
+            vec![f64::INFINITY, -1e308, 1e308],
+            vec![0.0; 4],
+        ] {
+            let page = side_by_side_html(&overlaid(vertical, values));
+            assert!(page.ends_with("</html>\n") && !page.contains("NaN"));
+        }
+    }
+}

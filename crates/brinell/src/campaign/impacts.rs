@@ -1,0 +1,170 @@
+//! What the measured acceleration does when rollers come onto a defect and leave it: the mean course around those instants, and the
+//! peak after them.
+//!
+//! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time that a roller takes over the
+//! defect at the top speed: half of it before the instant, one and a half after it; the peak is the largest |acceleration| within one.
+//! Other rollers, in other places, add to both.
+
+use crate::derived::defect_passes;
+use crate::observe::Findings;
+use crate::signal::{Interval, student_t_quantile};
+use crate::simulate::Simulation;
+
+/// Fewest samples that a roller's time over the defect is taken for.
+const FEWEST: f64 = 8.0;
+/// Points of the mean course to a sample.
+const FINER: usize = 4;
+
+/// Entries or exits of one defect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impacts {
+    /// Index of the defect, from 0.
+    pub defect: usize,
+    /// Onto it, or off it.
+    pub enters: bool,
+    /// Instants that count.
+    pub count: usize,
+    /// Time of the first point of the mean course, from the instant, s.
+    pub from: f64,
+    /// Time between its points, s.
+    pub step: f64,
+    /// The measured acceleration averaged over the instants, m/s^2; empty without any.
+    pub mean: Vec<f64>,
+    /// Largest |acceleration| after the instant, averaged over the instants, m/s^2.
+    pub peak: Option<f64>,
+    /// Its 95 % interval (Student's t over the instants).
+    pub interval: Option<Interval>,
+}
+
+/// Entries and exits of each defect, in this order.
+pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
+    let rate = simulation.sample_rate();
+    let (first, values) = findings.waveform.latest();
+    let mut all = Vec::new();
+    for (defect, pass) in defect_passes(simulation.model()).into_iter().enumerate() {
+        let window = if pass.is_finite() { pass } else { 0.0 }.max(FEWEST / rate);
+        for enters in [true, false] {
+            let events = findings.passes.events.iter();
+            let wanted =
+                events.filter(|e| e.defect == defect && e.enters == enters && e.t >= findings.from);
+            // Samples from the first one kept.
+            let instants = wanted.map(|e| e.t * rate - first as f64);
+            let (mean, peaks) = around(&values, instants, window * rate);
+            let count = peaks.len();
+            all.push(Impacts {
+                defect,
+                enters,
+                count,
+                from: -0.5 * window,
+                step: 1.0 / (rate * FINER as f64),
+                mean,
+                peak: (count > 0).then(|| peaks.iter().sum::<f64>() / count as f64),
+                interval: interval(&peaks),
+            });
+        }
+    }
+    all
+}
+
+/// Mean course from half a window before to one and a half after the instants, and the peak after each; all in samples. Instants whose
+/// surroundings are not all there do not count.
+fn around(
+    values: &[f64],
+    instants: impl Iterator<Item = f64>,
+    window: f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let points = (2.0 * window * FINER as f64).ceil() as usize + 1;
+    let (mut mean, mut peaks) = (vec![0.0; points], Vec::new());
+    for instant in instants {
+        let from = instant - 0.5 * window;
+        let end = from + (points - 1) as f64 / FINER as f64 + 1.0;
+        if from < 0.0 || end >= values.len() as f64 {
+            continue;
+        }
+        peaks.push(peak(values, instant, window));
+        for (k, mean) in mean.iter_mut().enumerate() {
+            let place = from + k as f64 / FINER as f64;
+            let (i, part) = (place as usize, place.fract());
+            *mean += values[i] * (1.0 - part) + values[i + 1] * part;
+        }
+    }
+    if peaks.is_empty() {
+        mean.clear();
+    }
+    let count = peaks.len() as f64;
+    mean.iter_mut().for_each(|mean| *mean /= count);
+    (mean, peaks)
+}
+
+fn peak(values: &[f64], from: f64, samples: f64) -> f64 {
+    let first = (from.ceil() as usize).min(values.len());
+    let last = ((from + samples).floor() as usize + 1).clamp(first, values.len());
+    values[first..last]
+        .iter()
+        .fold(0.0, |peak, x| x.abs().max(peak))
+}
+
+/// Of the mean over instants; each is a block of its own.
+fn interval(peaks: &[f64]) -> Option<Interval> {
+    let n = peaks.len();
+    if n < 3 {
+        return None;
+    }
+    let center = peaks.iter().sum::<f64>() / n as f64;
+    let squares: f64 = peaks.iter().map(|p| (p - center).powi(2)).sum();
+    let error = (squares / (n - 1) as f64 / n as f64).sqrt();
+    let half = student_t_quantile(0.975, (n - 1) as u32) * error;
+    Some(Interval {
+        center,
+        low: center - half,
+        high: center + half,
+        blocks: n,
+        periods_per_block: 1,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_pulses_of_known_height_at_known_instants() {
+        // Triangles, 4 samples up and 4 down, at whole samples: linear interpolation is exact on them.
+        let heights = [3.0, 5.0, 4.0, 8.0];
+        let instants = [100.0, 223.0, 351.0, 480.0];
+        let mut values = vec![0.0; 600];
+        for (height, instant) in heights.iter().zip(instants) {
+            for k in 0..=8 {
+                let share = 1.0 - (k as f64 - 4.0).abs() / 4.0;
+                values[instant as usize + k] -= height * share;
+            }
+        }
+        let (mean, peaks) = around(&values, instants.into_iter(), 20.0);
+        assert_eq!(peaks, heights);
+        assert_eq!(mean.len(), 161);
+        for (k, mean) in mean.iter().enumerate() {
+            let t = k as f64 / FINER as f64 - 10.0;
+            let expected = -5.0 * (1.0 - (t - 4.0).abs() / 4.0).max(0.0);
+            assert!(
+                (mean - expected).abs() < 1e-12,
+                "{t}: {mean} for {expected}"
+            );
+        }
+        // Student's t with 3 degrees of freedom on 3, 5, 4, 8: mean 5, s = sqrt(14/3).
+        let i = interval(&peaks).unwrap();
+        let half = 3.1824463052837078 * (14.0_f64 / 3.0 / 4.0).sqrt();
+        assert!((i.high - 5.0 - half).abs() < 1e-12 && (i.low - 5.0 + half).abs() < 1e-12);
+    }
+
+    #[test]
+    fn prop_instants_at_the_ends_do_not_count() {
+        let values = vec![1.0; 100];
+        let count = |instant: f64| around(&values, [instant].into_iter(), 20.0).1.len();
+        assert_eq!(
+            [9.9, 10.0, 68.9, 69.0, 200.0, -5.0].map(count),
+            [0, 1, 1, 0, 0, 0]
+        );
+        assert_eq!(around(&values, std::iter::empty(), 20.0), (vec![], vec![]));
+        assert_eq!(interval(&[1.0, 2.0]), None);
+    }
+}

@@ -1,0 +1,262 @@
+//! A run as named numbers: every indicator of every channel with its interval, defect lines, contact, slip, audits and work.
+//!
+//! Names are channel and indicator, `measured_ax.rms`; SI units. A channel's values are instantaneous; what passed the anti-alias
+//! filter, and does not say so in its name as `measured_*` does, is `outer_ax.anti_aliased.rms`. A scenario fixes the list of
+//! names; what a run does not have (slip in the reference model, a defect's frequency in a short run) is there without a value.
+//! No wall time is among them: the same scenario gives the same numbers.
+
+use super::impacts::{Impacts, impacts};
+use crate::observe::{Findings, Kind};
+use crate::scenario::{Scenario, Speed};
+use crate::signal::spectrum::peak_near;
+use crate::signal::{Indicator, LineSearch};
+use crate::simulate::{Outcome, Simulation};
+
+/// One number of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// What it is: `measured_ax.rms`.
+    pub name: String,
+    /// SI unit; 1 where it has none.
+    pub unit: String,
+    /// The value over the whole analysed run; `None` where there is none, and never infinite or not a number.
+    pub value: Option<f64>,
+    /// What is known of its scatter.
+    pub spread: Spread,
+}
+
+/// Whether a number comes with an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spread {
+    /// It never does: a count, an extreme.
+    Without,
+    /// It does, but not in this run: too few blocks.
+    Unknown,
+    /// Low and high end, 95 %. Of indicators an interval of the mean over blocks ([`crate::signal::Blocks`]), so that of a peak lies below
+    /// the whole run's.
+    Interval(f64, f64),
+}
+
+impl Quantity {
+    fn new(name: impl Into<String>, unit: &str, value: Option<f64>) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            value: value.filter(|x| x.is_finite()),
+            spread: Spread::Without,
+        }
+    }
+
+    fn within(mut self, interval: Option<(f64, f64)>) -> Self {
+        let known = interval.filter(|(low, high)| low.is_finite() && high.is_finite());
+        self.spread = known.map_or(Spread::Unknown, |(low, high)| Spread::Interval(low, high));
+        self
+    }
+
+    /// The interval, where there is one.
+    pub fn interval(&self) -> Option<(f64, f64)> {
+        match self.spread {
+            Spread::Interval(low, high) => Some((low, high)),
+            Spread::Without | Spread::Unknown => None,
+        }
+    }
+}
+
+/// Harmonics of a defect frequency whose level is told.
+const HARMONICS: usize = 3;
+
+/// Everything that is told of a run, in a fixed order.
+pub fn quantities(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    outcome: &Outcome,
+    findings: &Findings,
+) -> Vec<Quantity> {
+    let mut all = Vec::new();
+    indicators(findings, &mut all);
+    lines(scenario, simulation, findings, &mut all);
+    defects(simulation, findings, &mut all);
+    rows(findings, &mut all);
+    audits(outcome, &mut all);
+    all.push(Quantity::new("analysed_from", "s", Some(findings.from)));
+    all
+}
+
+/// Channel, kind and indicator as one name.
+pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
+    let filtered = match kind {
+        Kind::AntiAliased if !channel.starts_with("measured_") => ".anti_aliased",
+        _ => "",
+    };
+    format!("{channel}{filtered}.{}", indicator.name())
+}
+
+fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
+    for channel in &findings.channels {
+        for indicator in Indicator::ALL {
+            let estimate = channel.blocks.estimate(indicator);
+            let unit = if indicator.has_unit() {
+                channel.unit
+            } else {
+                "1"
+            };
+            let name = indicator_name(&channel.name, channel.kind, indicator);
+            let interval = estimate.and_then(|e| e.interval).map(|i| (i.low, i.high));
+            all.push(Quantity::new(name, unit, estimate.map(|e| e.value)).within(interval));
+        }
+    }
+    let (blocks, periods) = findings.channels.first().map_or((0, 0), |c| {
+        (c.blocks.whole_blocks().0.len(), c.blocks.whole_blocks().1)
+    });
+    all.push(Quantity::new("blocks", "1", Some(blocks as f64)));
+    all.push(Quantity::new("turns_per_block", "1", Some(periods as f64)));
+}
+
+/// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`] looks in.
+fn lines(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    findings: &Findings,
+    all: &mut Vec<Quantity>,
+) {
+    let model = simulation.model();
+    let constant = matches!(scenario.operation.speed_rpm, Speed::Constant(_));
+    let k = model.kinematics(model.rotation.at(0.0).0);
+    let of = |name: &str, frequency: f64, all: &mut Vec<Quantity>| {
+        for n in 1..=HARMONICS {
+            let at = frequency * n as f64;
+            let envelope = findings.envelope.as_ref().filter(|_| constant && at > 0.0);
+            let level = envelope.and_then(|(e, band)| {
+                let tolerance = LineSearch::new(frequency, *band).tolerance;
+                peak_near(&e.spectrum, at, tolerance * at)
+            });
+            let name = match n {
+                1 => format!("envelope.{name}"),
+                n => format!("envelope.{name}_x{n}"),
+            };
+            all.push(Quantity::new(name, "m/s^2", level.map(|p| p.amplitude)));
+        }
+    };
+    of("bpfo", k.bpfo, all);
+    of("bpfi", k.bpfi, all);
+    of("2bsf", 2.0 * k.bsf, all);
+}
+
+/// `defect1.entry_peak` or `defect1.exit_peak`.
+pub(super) fn impact_name(impacts: &Impacts) -> String {
+    let what = if impacts.enters { "entry" } else { "exit" };
+    format!("defect{}.{what}_peak", impacts.defect + 1)
+}
+
+fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
+    let passes = findings.passes.best();
+    for index in 0..simulation.model().defects.len() {
+        let line = findings.lines.iter().find(|l| l.defect == index);
+        let found = line.and_then(|l| l.found);
+        let interval = found.map(|f| (f.frequency - f.uncertainty, f.frequency + f.uncertainty));
+        let named = |name: &str| format!("defect{}.{name}", index + 1);
+        let hz = found.map(|f| f.frequency);
+        all.push(Quantity::new(named("frequency"), "Hz", hz).within(interval));
+        let nominal = line.map(|l| l.nominal);
+        all.push(Quantity::new(
+            named("pure_rolling_frequency"),
+            "Hz",
+            nominal,
+        ));
+        let pass = passes.iter().find(|p| p.defect == index);
+        let least = |of: fn(&crate::observe::passes::PassPoint) -> f64| {
+            pass.and_then(|p| p.points.iter().map(of).min_by(f64::total_cmp))
+        };
+        all.push(Quantity::new(
+            named("least_contact_length"),
+            "m",
+            least(|p| p.length),
+        ));
+        let unit = "N/m^n";
+        all.push(Quantity::new(
+            named("least_stiffness"),
+            unit,
+            least(|p| p.stiffness),
+        ));
+        all.push(Quantity::new(
+            named("peak_force"),
+            "N",
+            pass.map(|p| p.peak),
+        ));
+    }
+    for one in impacts(simulation, findings) {
+        let interval = one.interval.map(|i| (i.low, i.high));
+        all.push(Quantity::new(impact_name(&one), "m/s^2", one.peak).within(interval));
+    }
+}
+
+fn rows(findings: &Findings, all: &mut Vec<Quantity>) {
+    for (row, slip) in findings.slip.rows.iter().enumerate() {
+        for (name, value) in [
+            ("cage_slip", slip.cage()),
+            ("loaded_orbit_slip", slip.loaded_orbit()),
+            ("loaded_surface_slip", slip.loaded_surface()),
+            ("unloaded_orbit_slip", slip.unloaded_orbit()),
+        ] {
+            all.push(Quantity::new(format!("row{}.{name}", row + 1), "1", value));
+        }
+    }
+    for (row, load) in findings.load_zone.rows.iter().enumerate() {
+        let largest = load.max.iter().copied().max_by(f64::total_cmp);
+        let name = format!("row{}.largest_outer_force", row + 1);
+        all.push(Quantity::new(name, "N", largest));
+    }
+}
+
+fn audits(outcome: &Outcome, all: &mut Vec<Quantity>) {
+    let energy = &outcome.energy;
+    let turnover = energy.turnover();
+    let relative = (turnover > 0.0).then(|| energy.residual() / turnover);
+    all.push(Quantity::new(
+        "audit.energy_residual",
+        "J",
+        Some(energy.residual()),
+    ));
+    all.push(Quantity::new(
+        "audit.energy_residual_over_turnover",
+        "1",
+        relative,
+    ));
+    all.push(Quantity::new(
+        "audit.momentum_imbalance",
+        "1",
+        outcome.momentum_imbalance,
+    ));
+    let work = &outcome.work;
+    for (name, count) in [
+        ("steps", work.solver.steps),
+        ("rejections", work.solver.rejections),
+        ("right_hand_sides", work.solver.evaluations),
+        ("right_hand_sides_for_samples", work.sample_evaluations),
+        ("contact_switches", work.contact_switches),
+        ("pocket_switches", work.pocket_switches),
+        ("damage_switches", work.damage_switches),
+        ("samples", outcome.rows),
+    ] {
+        all.push(Quantity::new(
+            format!("work.{name}"),
+            "1",
+            Some(count as f64),
+        ));
+    }
+}
+
+/// The names that runs of a scenario have, before any runs: what a plot may ask for.
+pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
+    let findings = crate::observe::Watch::new(scenario, simulation).finish(simulation);
+    let outcome = Outcome {
+        end: crate::simulate::End::Stopped,
+        rows: 0,
+        t: 0.0,
+        work: crate::simulate::SolverWork::default(),
+        energy: crate::simulate::EnergyAudit::default(),
+        momentum_imbalance: None,
+    };
+    let all = quantities(scenario, simulation, &outcome, &findings);
+    all.into_iter().map(|q| q.name).collect()
+}
