@@ -21,6 +21,8 @@ pub enum BandChoice {
     Kurtogram,
     /// Everything above three times the highest defect frequency.
     Broad,
+    /// The same, whitened: every line of the spectrum brought to one level, so that no tone outweighs impacts.
+    Whitened,
     /// One octave of a tiling.
     Octave,
 }
@@ -32,6 +34,9 @@ impl BandChoice {
             BandChoice::Given => "given",
             BandChoice::Kurtogram => "most impulsive by the fast kurtogram",
             BandChoice::Broad => "everything above three times the highest defect frequency",
+            BandChoice::Whitened => {
+                "everything above three times the highest defect frequency, whitened"
+            }
             BandChoice::Octave => "an octave",
         }
     }
@@ -81,10 +86,12 @@ pub(super) fn choose(
         });
     }
     let low = BROAD * highest;
-    bands.push(ChosenBand {
-        band: Band::between(low, top),
-        choice: BandChoice::Broad,
-    });
+    for choice in [BandChoice::Broad, BandChoice::Whitened] {
+        bands.push(ChosenBand {
+            band: Band::between(low, top),
+            choice,
+        });
+    }
     let mut edge = low;
     while top - edge >= 2.0 * narrowest {
         let mut next = (2.0 * edge).max(edge + narrowest);

@@ -83,6 +83,9 @@ impl Options {
     }
 }
 
+/// How well the shaft's own lines tell its speed, relative.
+const SHAFT_KNOWN: f64 = 0.002;
+
 /// Everything that was found.
 #[derive(Debug, Clone)]
 pub struct Analysis {
@@ -151,8 +154,17 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let spectrum = psd(&x, fs, &Segments::of(spectrum_length(x.len(), fs)))?;
     let (bands, kurtogram) = bands::choose(&x, fs, options)?;
     let (shaft, shaft_found) = known_lines::shaft(&x, fs, options)?;
-    let views = view::all(&x, fs, shaft, &bands, options)?;
-    let (findings, best) = verdict::find(&views, shaft, options);
+    // Half a bin of the finest spectrum, or as far as the speed may be off.
+    let known = view::Shaft {
+        hz: shaft,
+        tolerance: if shaft_found {
+            (0.5 * fs / x.len() as f64).max(SHAFT_KNOWN * shaft)
+        } else {
+            options.tolerance * shaft
+        },
+    };
+    let views = view::all(&x, fs, known, &bands, options)?;
+    let (findings, best) = verdict::find(&views, shaft, options)?;
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,

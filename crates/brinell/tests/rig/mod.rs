@@ -9,16 +9,16 @@
 use std::f64::consts::TAU;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut random = Random(seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(11));
         random.uniform();
         random
     }
 
-    pub fn uniform(&mut self) -> f64 {
+    pub(crate) fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -27,11 +27,11 @@ impl Random {
         ((z >> 11) as f64 + 0.5) / (1u64 << 53) as f64
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    pub fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
     }
 
@@ -41,7 +41,7 @@ impl Random {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Damage {
+pub(crate) enum Damage {
     None,
     Outer,
     Inner,
@@ -50,7 +50,7 @@ pub enum Damage {
 
 /// What besides the bearing is loud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Background {
+pub(crate) enum Background {
     Quiet,
     /// Unbalance and misalignment: strong harmonics of the shaft, and noise that breathes with it.
     Unbalance,
@@ -64,7 +64,7 @@ pub enum Background {
     Clicks,
 }
 
-pub const BACKGROUNDS: [Background; 6] = [
+pub(crate) const BACKGROUNDS: [Background; 6] = [
     Background::Quiet,
     Background::Unbalance,
     Background::Knock,
@@ -74,18 +74,18 @@ pub const BACKGROUNDS: [Background; 6] = [
 ];
 
 /// One signal and its truth.
-pub struct Signal {
-    pub x: Vec<f64>,
-    pub fs: f64,
-    pub seconds: f64,
+pub(crate) struct Signal {
+    pub(crate) x: Vec<f64>,
+    pub(crate) fs: f64,
+    pub(crate) seconds: f64,
     /// Name of the bearing, as the analyst gives it.
-    pub bearing: &'static str,
+    pub(crate) bearing: &'static str,
     /// Shaft speed that the analyst believes, Hz.
-    pub told: f64,
-    pub damage: Damage,
-    pub background: Background,
+    pub(crate) told: f64,
+    pub(crate) damage: Damage,
+    pub(crate) background: Background,
     /// RMS of the impacts over that of the noise, dB.
-    pub snr_db: f64,
+    pub(crate) snr_db: f64,
 }
 
 /// Name, elements, d / D cos a, of public data sets.
@@ -98,7 +98,7 @@ const BEARINGS: [(&str, f64, f64); 5] = [
 ];
 
 /// The signal number `index` of a campaign; the same for the same index.
-pub fn signal(index: u64, damage: Damage) -> Signal {
+pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
     let mut r = Random::new(4 * index + damage as u64);
     let fs = r.pick(&[12_000.0, 25_600.0, 48_000.0, 97_656.0]);
     let longest: f64 = if fs > 60_000.0 { 4.0 } else { 10.0 };
