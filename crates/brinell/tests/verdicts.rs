@@ -10,7 +10,7 @@
 mod rig;
 
 use brinell::analysis::{Component, NamedBearing, Options, analyze};
-use rig::{BACKGROUNDS, Damage, Signal, signal};
+use rig::{BACKGROUNDS, Damage, Signal, plan, signal};
 
 struct Outcome {
     truth: Damage,
@@ -136,4 +136,31 @@ fn prop_campaign() {
         100.0 * miss,
         100.0 * more
     );
+}
+
+/// A small part of it: damage that is plain to see, and rigs without any.
+#[test]
+fn prop_plain_damage_is_named_and_healthy_rigs_are_not() {
+    let plain = |i: &u64| {
+        let s = plan(*i, Damage::Outer);
+        s.snr_db > -3.0 && s.seconds < 3.0 && s.fs < 30_000.0
+    };
+    let list: Vec<u64> = (0..400).filter(plain).take(8).collect();
+    let named = (list.iter())
+        .filter(|i| {
+            look(&signal(**i, Damage::Outer), false, **i).first == Some(Component::OuterRace)
+        })
+        .count();
+    assert!(list.len() == 8 && named >= 7, "{named} of 8");
+    let short = |i: &u64| {
+        let s = plan(*i, Damage::None);
+        s.seconds < 3.0 && s.fs < 30_000.0
+    };
+    let alarms = (0..400)
+        .filter(short)
+        .take(24)
+        .filter(|i| look(&signal(*i, Damage::None), false, *i).first.is_some())
+        .count();
+    // At 2 % of alarms, more than two of 24 come with a chance of 1 %.
+    assert!(alarms <= 2, "{alarms} of 24");
 }

@@ -1,7 +1,7 @@
 //! Which bands are demodulated.
 
 use super::{AnalysisError, Options};
-use crate::signal::{Band, KurtogramBand, kurtogram};
+use crate::signal::{Band, Kurtogram, KurtogramBand, kurtogram};
 
 /// Multiple of the highest defect frequency above which a carrier is sought.
 pub(super) const BROAD: f64 = 3.0;
@@ -51,12 +51,15 @@ pub struct ChosenBand {
     pub choice: BandChoice,
 }
 
-/// The bands, and the kurtogram's.
-pub(super) fn choose(
-    x: &[f64],
-    fs: f64,
-    options: &Options,
-) -> Result<(Vec<ChosenBand>, Option<KurtogramBand>), AnalysisError> {
+/// What is demodulated, and what that was chosen from.
+pub(super) struct Choice {
+    pub(super) bands: Vec<ChosenBand>,
+    pub(super) best: Option<KurtogramBand>,
+    pub(super) map: Option<Kurtogram>,
+}
+
+/// The bands, and the kurtogram.
+pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, AnalysisError> {
     let top = 0.5 * fs;
     if let Some(band) = options.band {
         let fits = band.low >= 0.0 && band.low < band.high && band.low < top;
@@ -70,7 +73,11 @@ pub(super) fn choose(
         }
         let band = Band::between(band.low, band.high.min(top));
         let choice = BandChoice::Given;
-        return Ok((vec![ChosenBand { band, choice }], None));
+        return Ok(Choice {
+            bands: vec![ChosenBand { band, choice }],
+            best: None,
+            map: None,
+        });
     }
     let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft;
     let narrowest = NARROWEST * highest;
@@ -106,5 +113,9 @@ pub(super) fn choose(
         }
         edge = next;
     }
-    Ok((bands, best))
+    Ok(Choice {
+        bands,
+        best,
+        map: Some(map),
+    })
 }

@@ -28,8 +28,8 @@ impl Mains {
 
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
-/// Bins to either side of a known line that are filled with the noise about it: most of Hann's main lobe.
-const FILL: f64 = 1.6;
+/// Bins to either side of a known line that are filled with the noise about it: Hann's main lobe.
+const FILL: f64 = 2.0;
 /// A comb with fewer bins from line to line is left alone: filled, it would leave little of the spectrum.
 const CLOSEST: f64 = 10.0;
 /// Bins beyond the filled ones, to either side, whose median is that noise.
@@ -38,6 +38,8 @@ const AROUND: usize = 12;
 const FAMILY: usize = 10;
 /// Chance under noise at which a comb counts as standing.
 const FAMILY_LEVEL: f64 = 1e-3;
+/// A comb whose frequency is known to within this share of it may show any of its lines.
+const KNOWN: f64 = 0.0025;
 /// How far the mains wander from their nominal frequency, relative, with the logger's clock.
 const MAINS_WANDERS: f64 = 0.002;
 
@@ -122,7 +124,8 @@ pub(super) fn remove(spectrum: &mut Spectrum, combs: &[f64], top: f64) -> Vec<f6
     removed
 }
 
-/// Chance and frequency of a comb that stands with its first or second line, and not merely as every third of another's.
+/// Chance and frequency of a comb that stands; where its frequency is not well known, with its first or second line, and not
+/// merely as every third of another's.
 fn family(
     spectrum: &Spectrum,
     fundamental: f64,
@@ -145,7 +148,8 @@ fn family(
         .map(|l| l.order)
         .collect();
     let common = orders.iter().fold(0, |a, b| divisor(a, *b));
-    let own = orders.first().is_some_and(|o| *o <= 2) && common <= 2;
+    let own =
+        tolerance <= KNOWN * fundamental || orders.first().is_some_and(|o| *o <= 2) && common <= 2;
     Ok((evidence.stands && own).then_some((evidence.false_alarm, evidence.frequency)))
 }
 

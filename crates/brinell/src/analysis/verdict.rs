@@ -12,6 +12,8 @@ pub(super) const LINE_LEVEL: f64 = 1e-3;
 /// Modulation below which lines may stand and still be no damage: the load on a healthy race changes with every element,
 /// and a long record shows that, however weak it is. An assumption of this program, stated with the verdict.
 pub(super) const FAINT: f64 = 0.015;
+/// Power over the median from which a bin belongs to a line: noise goes beyond in one of 500 (two degrees of freedom).
+const STANDS: f64 = 9.0;
 /// A cage's lines lie close to the shaft's and to zero: fewer than this many are not called the cage's.
 const FEWEST_OF_CAGE: usize = 3;
 /// A further cause modulates the envelope by at least this share of the strongest one's.
@@ -87,11 +89,13 @@ struct Standing {
     view: usize,
     views: usize,
     evidence: Evidence,
+    /// Share of the power of all lines of a view that its own have, summed over the views in which it stands.
+    share: f64,
 }
 
 /// Findings, the strongest first, and the view that shows most.
 ///
-/// What stands by the smallest chance comes first. Its lines are then taken out of every envelope spectrum, and what still
+/// What accounts for the others comes first ([`leading`]). Its lines are then taken out of every envelope spectrum, and what still
 /// stands comes next; what does not was the first one's. A cage's lines come last: what turns with the cage modulates all else.
 pub(super) fn find(
     views: &[View],
@@ -102,13 +106,25 @@ pub(super) fn find(
     let mut spectra: Vec<Spectrum> = views.iter().map(|v| v.searched.clone()).collect();
     let mut evidence: Vec<Vec<Evidence>> =
         (views.iter().map(|v| v.diagnosis.evidence.clone())).collect();
-    let first = standing(&candidates, &evidence, &[]);
+    let first = standing(&candidates, &spectra, &evidence, &[]);
     let mut left = first.len();
     let mut named: Vec<Component> = Vec::new();
     let mut findings: Vec<Finding> = Vec::new();
     while left > 0 {
-        let all = standing(&candidates, &evidence, &named);
-        let Some(next) = all.into_iter().next() else {
+        let all = standing(&candidates, &spectra, &evidence, &named);
+        let lead = match findings.is_empty() {
+            true => leading(
+                views,
+                &all,
+                &spectra,
+                &evidence,
+                &candidates,
+                shaft,
+                options,
+            )?,
+            false => 0,
+        };
+        let Some(next) = all.into_iter().nth(lead) else {
             break;
         };
         left -= 1;
@@ -153,12 +169,71 @@ pub(super) fn find(
     Ok((findings, best))
 }
 
+/// Which of those that stand comes first: the one without whose lines most others no longer stand, and that does not fall with
+/// theirs; of equals the first. Aliases go that way: a sideband of one frequency may pass for another's line.
+fn leading(
+    views: &[View],
+    all: &[Standing],
+    spectra: &[Spectrum],
+    evidence: &[Vec<Evidence>],
+    candidates: &[(Component, &'static str, Candidate)],
+    shaft: f64,
+    options: &Options,
+) -> Result<usize, AnalysisError> {
+    let rivals = (all.iter())
+        .filter(|s| candidates[s.candidate].0 != Component::Cage)
+        .count();
+    if rivals < 2 {
+        return Ok(0);
+    }
+    let sought: Vec<Candidate> = candidates.iter().map(|c| c.2.clone()).collect();
+    let options = looking(options, views.len() as f64);
+    let mut score = vec![0i32; rivals];
+    for i in 0..rivals {
+        let (component, _, candidate) = &candidates[all[i].candidate];
+        let spacing = match component {
+            Component::Element => candidate.sideband_spacing,
+            _ => Some(shaft),
+        };
+        let mut left = Vec::new();
+        for (spectrum, evidence) in spectra.iter().zip(evidence) {
+            let mine = &evidence[all[i].candidate];
+            let mine = if mine.stands { mine } else { &all[i].evidence };
+            let rest = without(spectrum, mine.frequency, spacing.as_slice())?;
+            left.push(diagnose(&rest, &sought, &options)?.evidence);
+        }
+        for j in (0..rivals).filter(|j| *j != i) {
+            let other = candidates[all[j].candidate].0;
+            let survives = (candidates.iter().enumerate())
+                .filter(|(_, c)| c.0 == other)
+                .any(|(k, _)| left.iter().any(|e| e[k].stands));
+            if !survives {
+                score[i] += 1;
+                score[j] -= 1;
+            }
+        }
+    }
+    let most = score.iter().max().copied().unwrap_or(0);
+    Ok(score.iter().position(|s| *s == most).unwrap_or(0))
+}
+
+/// Power of everything in a spectrum that stands above its median.
+fn line_power(spectrum: &Spectrum) -> f64 {
+    let mut powers: Vec<f64> = spectrum.amplitude.iter().map(|a| 0.5 * a * a).collect();
+    let middle = powers.len() / 2;
+    let median = *powers.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let above = powers.iter().filter(|p| **p > STANDS * median);
+    above.sum()
+}
+
 /// What stands in any view, the smallest chance first, the cage's last; one for each component not yet `named`.
 fn standing(
     candidates: &[(Component, &'static str, Candidate)],
+    spectra: &[Spectrum],
     evidence: &[Vec<Evidence>],
     named: &[Component],
 ) -> Vec<Standing> {
+    let totals: Vec<f64> = spectra.iter().map(line_power).collect();
     let mut all: Vec<Standing> = Vec::new();
     for (index, (component, ..)) in candidates.iter().enumerate() {
         let fewest = match component {
@@ -182,14 +257,15 @@ fn standing(
                 view,
                 views: standing().count(),
                 evidence: e[index].clone(),
+                share: standing()
+                    .map(|(v, e)| e[index].power() / totals[v].max(f64::MIN_POSITIVE))
+                    .sum(),
             });
         }
     }
     all.sort_by(|a, b| {
         let cage = |s: &Standing| candidates[s.candidate].0 == Component::Cage;
-        (cage(a).cmp(&cage(b)))
-            .then(a.evidence.false_alarm.total_cmp(&b.evidence.false_alarm))
-            .then(weight(&b.evidence).total_cmp(&weight(&a.evidence)))
+        (cage(a).cmp(&cage(b))).then(b.share.total_cmp(&a.share))
     });
     // BSF and 2 BSF are one element's.
     let mut seen = Vec::new();

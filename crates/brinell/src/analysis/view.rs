@@ -5,7 +5,8 @@ use super::frequencies::Component;
 use super::known_lines;
 use super::{AnalysisError, Options, fast_length};
 use crate::signal::{
-    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, diagnose, envelope, psd, whitened,
+    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, diagnose, envelope, psd, resample,
+    whitened,
 };
 
 /// Bins from one line of the cage to the next, at the coarse and at the fine resolution.
@@ -104,7 +105,7 @@ pub(super) fn all(
         .map(|r| fast_length(((r * rate / cage) as usize).clamp(64, longest.max(64))))
         .collect();
     lengths.dedup();
-    let one = |band: &ChosenBand| spectra(x, fs, *band, factor, &lengths, top(shaft.hz, options));
+    let one = |band: &ChosenBand| spectra(x, fs, *band, factor, &lengths, shaft.hz, options);
     let parts = halves(bands, &one)?;
     let plain: Vec<(ChosenBand, f64, Spectrum)> = parts.into_iter().flatten().collect();
     let only: Vec<Spectrum> = plain.iter().map(|p| p.2.clone()).collect();
@@ -136,7 +137,8 @@ fn spectra(
     band: ChosenBand,
     factor: usize,
     lengths: &[usize],
-    top: f64,
+    shaft: f64,
+    options: &Options,
 ) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
     let white;
     let x = match band.choice {
@@ -152,7 +154,14 @@ fn spectra(
     let coarse: Vec<f64> = (full.chunks_exact(factor))
         .map(|part| part.iter().sum::<f64>() / factor as f64 - mean)
         .collect();
-    let rate = fs / factor as f64;
+    let mut rate = fs / factor as f64;
+    let mut coarse = coarse;
+    if let Some(rotation) = &options.rotation {
+        let per_turn = (rate / shaft).round().max(4.0) as usize;
+        coarse = resample(&coarse, rate, rotation, per_turn)?.values;
+        rate = per_turn as f64 * shaft;
+    }
+    let top = top(shaft, options);
     let of = |length: &usize| {
         let mut spectrum = psd(&coarse, rate, &Segments::of(*length))?;
         let bins = (top / spectrum.frequency_step) as usize + 64;

@@ -146,11 +146,21 @@ pub struct Evidence {
 impl Evidence {
     /// Sum of ln(power over noise) over its standing lines, sidebands included: number and strength in one.
     fn weight(&self) -> f64 {
-        let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
-        (self.harmonics.lines.iter().chain(sidebands))
-            .filter(|l| l.false_alarm <= LINE_LEVEL)
+        (self.lines().filter(|l| l.false_alarm <= LINE_LEVEL))
             .map(|l| l.snr_db * 0.1 * std::f64::consts::LN_10)
             .sum()
+    }
+
+    /// Power of its standing lines, sidebands included: the sum of half their squared amplitudes.
+    pub fn power(&self) -> f64 {
+        (self.lines().filter(|l| l.false_alarm <= LINE_LEVEL))
+            .map(|l| 0.5 * l.amplitude * l.amplitude)
+            .sum()
+    }
+
+    fn lines(&self) -> impl Iterator<Item = &Line> {
+        let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
+        self.harmonics.lines.iter().chain(sidebands)
     }
 }
 
@@ -316,16 +326,18 @@ fn examine(
     let many = candidates.len() as f64;
     // What any other frequency shows, in place of noise alone: less what this one accounts for.
     let crowding = match best.chance * many <= options.level {
-        true => {
+        true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
             let left = without(floor.spectrum(), frequency, spacing.as_slice())?;
+            let left = comb::beside(left, frequency);
             comb::crowding(&Floor::within(&left, RANGE)?, &sought, candidates)
         }
-        false => 1.0,
+        _ => 1.0,
     };
     let chance = (best.chance.ln() / crowding).exp();
     let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
     let false_alarm = (chance * many).min(1.0);
     let beside = sidebands.as_ref().map_or(0, |s| s.standing);
+    let low = (found.standing(LINE_LEVEL)).any(|l| l.order <= 2);
     Ok(Evidence {
         candidate: index,
         frequency,
@@ -333,7 +345,7 @@ fn examine(
         false_alarm,
         crowding,
         stands: false_alarm <= options.level
-            && (standing >= 2 || standing == 1 && beside >= FEWEST_SIDEBANDS),
+            && (standing >= 2 || low && beside >= FEWEST_SIDEBANDS),
         harmonics: found,
         sidebands,
         alternatives: Vec::new(),

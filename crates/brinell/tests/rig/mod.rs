@@ -97,17 +97,58 @@ const BEARINGS: [(&str, f64, f64); 5] = [
     ("UER204", 8.0, 7.92 / 34.55),
 ];
 
-/// The signal number `index` of a campaign; the same for the same index.
-pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
-    let mut r = Random::new(4 * index + damage as u64);
+/// What a signal will be, before it is made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plan {
+    pub(crate) fs: f64,
+    pub(crate) seconds: f64,
+    pub(crate) snr_db: f64,
+    bearing: (&'static str, f64, f64),
+    shaft: f64,
+    told: f64,
+    background: Background,
+}
+
+fn draw(r: &mut Random) -> Plan {
     let fs = r.pick(&[12_000.0, 25_600.0, 48_000.0, 97_656.0]);
     let longest: f64 = if fs > 60_000.0 { 4.0 } else { 10.0 };
     let seconds = longest.powf(r.uniform());
-    let (bearing, z, ratio) = r.pick(&BEARINGS);
+    let bearing = r.pick(&BEARINGS);
     let shaft = r.between(15.0, 50.0);
     let told = shaft * (1.0 + 0.004 * r.normal().clamp(-2.5, 2.5));
     let background = r.pick(&BACKGROUNDS);
-    let snr_db = r.between(-22.0, 6.0);
+    Plan {
+        fs,
+        seconds,
+        snr_db: r.between(-22.0, 6.0),
+        bearing,
+        shaft,
+        told,
+        background,
+    }
+}
+
+fn random(index: u64, damage: Damage) -> Random {
+    Random::new(4 * index + damage as u64)
+}
+
+/// The plan of signal number `index` of a campaign.
+pub(crate) fn plan(index: u64, damage: Damage) -> Plan {
+    draw(&mut random(index, damage))
+}
+
+/// The signal number `index` of a campaign; the same for the same index.
+pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
+    let mut r = random(index, damage);
+    let Plan {
+        fs,
+        seconds,
+        snr_db,
+        bearing: (bearing, z, ratio),
+        shaft,
+        told,
+        background,
+    } = draw(&mut r);
     // Contact angle and load move d / D cos a; sliding slows the cage.
     let g = ratio * (1.0 + 0.008 * r.normal().clamp(-2.0, 2.0));
     let cage = 0.5 * (1.0 - g) * (1.0 - 0.008 * r.uniform());

@@ -2,6 +2,7 @@
 
 use super::super::distribution::chi_square_tail;
 use super::super::lines::Floor;
+use super::super::spectrum::Spectrum;
 use super::{CAP, CLOSEST_SIDEBAND, Candidate};
 
 /// Combs at other frequencies are tried from this share of the candidate's frequency to its inverse: an octave and a bit.
@@ -12,6 +13,13 @@ const MOST: usize = 40;
 const FEWEST: usize = 8;
 /// Quantile of what they show.
 const QUANTILE: f64 = 0.75;
+
+/// Power over noise from which a line counts among those that stand.
+const STANDS: f64 = 9.0;
+/// A comb dwarfs another with so many times its power.
+const DWARFED: f64 = 2.0;
+/// Share of the distance between harmonics within which lines surround one.
+const CLOSE: f64 = 0.2;
 
 /// A comb: harmonics, and the nearest sidebands of each.
 #[derive(Clone, Copy)]
@@ -28,6 +36,8 @@ pub(super) struct Best {
     pub(super) frequency: f64,
     /// Chance that noise shows as much at any of the places tried.
     pub(super) chance: f64,
+    /// Power of its lines that stand above the noise, sidebands included.
+    pub(super) power: f64,
 }
 
 /// A line of the comb and the bins in which it may lie.
@@ -40,6 +50,8 @@ struct Row {
     scores: Vec<f64>,
     /// Power over noise of each bin.
     ratios: Vec<f64>,
+    /// Power of the noise.
+    noise: f64,
 }
 
 impl Row {
@@ -61,6 +73,7 @@ impl Row {
                 .map(|p| -2.0 * floor.chance(p, level).max(CAP).ln())
                 .collect(),
             ratios: powers.map(|p| p / level.power).collect(),
+            noise: level.power,
         })
     }
 
@@ -81,6 +94,7 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
     let nothing = Best {
         frequency: sought.frequency,
         chance: 1.0,
+        power: 0.0,
     };
     let Some(highest) = rows.last().map(|r| r.order) else {
         return nothing;
@@ -124,6 +138,7 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
         Some(Best {
             frequency: finest.map_or(top.1, |f| f.1),
             chance,
+            power: 0.0,
         })
     };
     let alone = of(harmonics);
@@ -140,8 +155,38 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
         Best {
             frequency: b.frequency,
             chance: any.clamp(f64::MIN_POSITIVE, 1.0),
+            power: (rows.iter())
+                .map(|r| (r.ratios[r.place(b.frequency, step)], r.noise))
+                .filter(|(ratio, _)| *ratio >= STANDS)
+                .map(|(ratio, noise)| ratio * noise)
+                .sum(),
         }
     })
+}
+
+/// A spectrum without what lies close to the harmonics of a frequency (Hz): whatever modulates damage surrounds its lines, and
+/// not all that does is known. Brought down to the median of the rest.
+pub(super) fn beside(mut spectrum: Spectrum, frequency: f64) -> Spectrum {
+    let step = spectrum.frequency_step;
+    let close = |bin: usize| {
+        let order = bin as f64 * step / frequency;
+        order > 0.5 && (order - order.round()).abs() <= CLOSE
+    };
+    let mut rest: Vec<f64> = (spectrum.amplitude.iter().enumerate())
+        .filter(|(bin, _)| !close(*bin))
+        .map(|(_, a)| *a)
+        .collect();
+    if rest.is_empty() {
+        return spectrum;
+    }
+    let middle = rest.len() / 2;
+    let median = *rest.select_nth_unstable_by(middle, f64::total_cmp).1;
+    for (bin, a) in spectrum.amplitude.iter_mut().enumerate() {
+        if close(bin) {
+            *a = a.min(median);
+        }
+    }
+    spectrum
 }
 
 /// By how much combs of the same kind at frequencies that nobody asked for stand higher than in noise: the upper quartile
@@ -150,25 +195,8 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
 /// Other machines' lines, skirts and noise that is not smooth raise every comb. As in genomic control (B. Devlin, K. Roeder,
 /// Biometrics 55 (1999) 997-1004), a candidate's evidence is deflated by what arbitrary ones show.
 pub(super) fn crowding(floor: &Floor, sought: &Sought, candidates: &[Candidate]) -> f64 {
-    let relative = sought.tolerance / sought.frequency;
-    let span = -2.0 * FARTHEST.ln();
-    let apart = (span / MOST as f64).max(2.0 * relative);
-    let count = (span / apart) as i32;
-    let mut shown: Vec<f64> = (0..=count)
-        .map(|i| sought.frequency * FARTHEST * (apart * f64::from(i)).exp())
-        .filter(|f| {
-            candidates
-                .iter()
-                .all(|c| (c.frequency - f).abs() > c.tolerance + relative * f)
-        })
-        .map(|frequency| {
-            let other = Sought {
-                frequency,
-                tolerance: relative * frequency,
-                ..*sought
-            };
-            -best(floor, &other).chance.ln()
-        })
+    let mut shown: Vec<f64> = (others(sought, candidates).iter())
+        .map(|other| -best(floor, other).chance.ln())
         .collect();
     if shown.len() < FEWEST {
         return 1.0;
@@ -176,4 +204,35 @@ pub(super) fn crowding(floor: &Floor, sought: &Sought, candidates: &[Candidate])
     let at = (QUANTILE * (shown.len() - 1) as f64).round() as usize;
     let upper = *shown.select_nth_unstable_by(at, f64::total_cmp).1;
     (upper / -(1.0 - QUANTILE).ln()).max(1.0)
+}
+
+/// Whether lines of such power dwarf those of any comb of the same kind at a frequency that nobody asked for.
+pub(super) fn dwarfs(floor: &Floor, sought: &Sought, candidates: &[Candidate], power: f64) -> bool {
+    let around = 1.5 * sought.spacing.unwrap_or(0.0);
+    let shown: Vec<f64> = (others(sought, candidates).iter())
+        .filter(|o| (o.frequency - sought.frequency).abs() > around)
+        .map(|o| best(floor, o).power)
+        .collect();
+    shown.len() >= FEWEST && shown.iter().all(|other| DWARFED * other <= power)
+}
+
+/// The same comb at other frequencies, apart from each other and from every candidate.
+fn others(sought: &Sought, candidates: &[Candidate]) -> Vec<Sought> {
+    let relative = sought.tolerance / sought.frequency;
+    let span = -2.0 * FARTHEST.ln();
+    let apart = (span / MOST as f64).max(2.0 * relative);
+    let count = (span / apart) as i32;
+    (0..=count)
+        .map(|i| sought.frequency * FARTHEST * (apart * f64::from(i)).exp())
+        .filter(|f| {
+            candidates
+                .iter()
+                .all(|c| (c.frequency - f).abs() > c.tolerance + relative * f)
+        })
+        .map(|frequency| Sought {
+            frequency,
+            tolerance: relative * frequency,
+            ..*sought
+        })
+        .collect()
 }
