@@ -132,7 +132,8 @@ fn waveform(report: &AnalysisReport, layout: Layout, close: bool) -> Picture {
     let (unit, scale) = time_unit(to - from);
     let shown = |s: &Series| -> Vec<f64> {
         let bin = |t: f64| ((t / s.dt_s).max(0.0) as usize).min(s.values.len());
-        s.values[bin(from)..bin(to)].to_vec()
+        let end = bin(to);
+        s.values[bin(from).min(end)..end].to_vec()
     };
     let extremes = report.waveforms.iter().flat_map(shown);
     let spec = Spec {

@@ -67,7 +67,7 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         y_unit: String::new(),
         lanes: vec![],
         left: 0.0,
-        right: 5.6 * size.font,
+        right: 6.4 * size.font,
         x_axis: true,
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();

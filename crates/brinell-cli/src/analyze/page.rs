@@ -12,7 +12,13 @@ const WAVEFORM: usize = 1 << 20;
 pub(super) fn report(result: &Result_) -> AnalysisReport {
     let (m, a) = (&result.measured, &result.analysis);
     let name = |m: &super::Measured| {
-        let file = m.path.file_name().map(|n| n.to_string_lossy().into_owned());
+        // `signals.parquet` is what every run calls it: its folder tells more.
+        let own = m.path.file_stem().is_some_and(|n| n == "signals");
+        let of = if own { m.path.parent() } else { None };
+        let file = of
+            .and_then(|f| f.file_name())
+            .or_else(|| m.path.file_name())
+            .map(|n| n.to_string_lossy().into_owned());
         format!("{} · {}", file.unwrap_or_default(), m.channel)
     };
     let quantity = m.unit.quantity.words();

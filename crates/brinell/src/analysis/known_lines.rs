@@ -38,7 +38,8 @@ const AROUND: usize = 12;
 const FAMILY: usize = 10;
 /// Chance under noise at which a comb counts as standing.
 const FAMILY_LEVEL: f64 = 1e-3;
-/// A comb whose frequency is known to within this share of it may show any of its lines.
+/// A shaft whose speed is known to within this share may show any of its lines. The mains' frequency is known as well, but a
+/// defect frequency near a multiple of 50 or 60 Hz must not pass for theirs.
 const KNOWN: f64 = 0.0025;
 /// How far the mains wander from their nominal frequency, relative, with the logger's clock.
 const MAINS_WANDERS: f64 = 0.002;
@@ -69,7 +70,13 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
     let best = (mine.iter().map(|(h, at)| at / h))
         .rev()
         .max_by_key(|f| agree(*f).count());
-    let Some(best) = best.filter(|f| agree(*f).count() >= 2) else {
+    // Every third of the shaft's may be an outer race's.
+    let own = |f: f64| {
+        let orders = || agree(f).map(|(h, _)| *h as i32);
+        let common = orders().fold(0, divisor);
+        orders().count() >= 2 && orders().any(|o| o <= 2) && common <= 2
+    };
+    let Some(best) = best.filter(|f| own(*f)) else {
         return Ok((options.shaft, false));
     };
     let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
@@ -83,17 +90,17 @@ pub(super) fn combs(
     shaft: f64,
     tolerance: f64,
 ) -> Result<Vec<f64>, AnalysisError> {
-    let sought = (Mains::ALL.map(|m| (m.frequency(), MAINS_WANDERS * m.frequency())))
+    let sought = (Mains::ALL.map(|m| (m.frequency(), MAINS_WANDERS * m.frequency(), false)))
         .into_iter()
-        .chain([(shaft, tolerance)]);
+        .chain([(shaft, tolerance, tolerance <= KNOWN * shaft)]);
     let mut combs = Vec::new();
-    for (fundamental, tolerance) in sought {
+    for (fundamental, tolerance, known) in sought {
         let mut best: Option<(f64, f64)> = None;
         for spectrum in spectra {
             if fundamental < CLOSEST * spectrum.frequency_step {
                 continue;
             }
-            if let Some((chance, at)) = family(spectrum, fundamental, tolerance)?
+            if let Some((chance, at)) = family(spectrum, fundamental, tolerance, known)?
                 && best.is_none_or(|b| chance < b.0)
             {
                 best = Some((chance, at));
@@ -124,12 +131,13 @@ pub(super) fn remove(spectrum: &mut Spectrum, combs: &[f64], top: f64) -> Vec<f6
     removed
 }
 
-/// Chance and frequency of a comb that stands; where its frequency is not well known, with its first or second line, and not
+/// Chance and frequency of a comb that stands; where its frequency is not `known`, with its first or second line, and not
 /// merely as every third of another's.
 fn family(
     spectrum: &Spectrum,
     fundamental: f64,
     tolerance: f64,
+    known: bool,
 ) -> Result<Option<(f64, f64)>, AnalysisError> {
     let candidate = Candidate {
         name: String::new(),
@@ -148,8 +156,7 @@ fn family(
         .map(|l| l.order)
         .collect();
     let common = orders.iter().fold(0, |a, b| divisor(a, *b));
-    let own =
-        tolerance <= KNOWN * fundamental || orders.first().is_some_and(|o| *o <= 2) && common <= 2;
+    let own = known || orders.first().is_some_and(|o| *o <= 2) && common <= 2;
     Ok((evidence.stands && own).then_some((evidence.false_alarm, evidence.frequency)))
 }
 
