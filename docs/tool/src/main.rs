@@ -24,6 +24,7 @@ fn main() -> Result<()> {
     for name in ["peers.csv", "pictures"] {
         copy(&docs.join(name), &out.join(name))?;
     }
+    let out = out.canonicalize()?;
     let pages = links::check(&out)?;
     println!("{pages} pages, no broken link: {}", out.join("index.html").display());
     match std::env::var_os("BRINELL") {
