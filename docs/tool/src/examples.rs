@@ -27,7 +27,12 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
     path.push(":");
     path.push(std::env::var_os("PATH").unwrap_or_default());
     let run = |line: &str| {
-        Command::new("sh").arg("-c").arg(format!("exec 2>&1; {line}")).current_dir(folder).env("PATH", &path).output()
+        Command::new("sh")
+            .arg("-c")
+            .arg(format!("exec 2>&1; {line}"))
+            .current_dir(folder)
+            .env("PATH", &path)
+            .output()
     };
 
     let (mut scenarios, mut commands) = (0, 0);
@@ -35,17 +40,27 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
     let mut sources = Vec::new();
     gather(&docs.join("src"), &mut sources)?;
     for source in sources {
-        let name = source.strip_prefix(docs).unwrap_or(&source).display().to_string();
+        let name = source
+            .strip_prefix(docs)
+            .unwrap_or(&source)
+            .display()
+            .to_string();
         for (kind, block) in blocks(&fs::read_to_string(&source)?) {
             match kind.as_str() {
                 "toml" if block.contains("{{#include") => {}
                 "toml" => {
                     scenarios += 1;
-                    let text: Vec<&str> = block.lines().map(|l| l.strip_prefix('~').unwrap_or(l)).collect();
+                    let text: Vec<&str> = block
+                        .lines()
+                        .map(|l| l.strip_prefix('~').unwrap_or(l))
+                        .collect();
                     fs::write(folder.join("examples/from-the-book.toml"), text.join("\n"))?;
                     let output = run("brinell check examples/from-the-book.toml")?;
                     if !output.status.success() {
-                        problems.push(format!("{name}:\n{block}\n{}", String::from_utf8_lossy(&output.stdout)));
+                        problems.push(format!(
+                            "{name}:\n{block}\n{}",
+                            String::from_utf8_lossy(&output.stdout)
+                        ));
                     }
                 }
                 "console" => {
@@ -55,7 +70,10 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
                         let printed = String::from_utf8_lossy(&output.stdout);
                         let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
                         if !output.status.success() || !matches(&shown, &lines) {
-                            problems.push(format!("{name}: $ {command}\n{}\n--- prints\n{printed}", shown.join("\n")));
+                            problems.push(format!(
+                                "{name}: $ {command}\n{}\n--- prints\n{printed}",
+                                shown.join("\n")
+                            ));
                         }
                     }
                 }
@@ -68,7 +86,9 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
 }
 
 fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)?.map(|e| e.map(|e| e.path())).collect::<std::io::Result<_>>()?;
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)?
+        .map(|e| e.map(|e| e.path()))
+        .collect::<std::io::Result<_>>()?;
     entries.sort();
     for path in entries {
         if path.is_dir() {
@@ -123,8 +143,10 @@ fn matches(shown: &[&str], printed: &[&str]) -> bool {
 fn alike(shown: &str, printed: &str) -> bool {
     match shown.split_once("[..]") {
         None => shown == printed,
-        Some((before, after)) => printed
-            .strip_prefix(before)
-            .is_some_and(|rest| (0..=rest.len()).filter(|&k| rest.is_char_boundary(k)).any(|k| alike(after, &rest[k..]))),
+        Some((before, after)) => printed.strip_prefix(before).is_some_and(|rest| {
+            (0..=rest.len())
+                .filter(|&k| rest.is_char_boundary(k))
+                .any(|k| alike(after, &rest[k..]))
+        }),
     }
 }

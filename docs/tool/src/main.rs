@@ -16,7 +16,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<()> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .canonicalize()?;
     let mut book = MDBook::load(&docs)?;
     let out = book.build_dir_for("html");
     book.with_preprocessor(math::Equations);
@@ -26,12 +28,18 @@ fn main() -> Result<()> {
     }
     let out = out.canonicalize()?;
     let pages = links::check(&out)?;
-    println!("{pages} pages, no broken link: {}", out.join("index.html").display());
+    println!(
+        "{pages} pages, no broken link: {}",
+        out.join("index.html").display()
+    );
     match std::env::var_os("BRINELL") {
         Some(command) => {
             let command = PathBuf::from(command).canonicalize()?;
             let counts = examples::check(&docs, &command)?;
-            println!("{} scenarios sound, {} console examples as shown", counts.0, counts.1);
+            println!(
+                "{} scenarios sound, {} console examples as shown",
+                counts.0, counts.1
+            );
         }
         None => println!("examples not checked: BRINELL names no command"),
     }
