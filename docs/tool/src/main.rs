@@ -23,8 +23,11 @@ fn main() -> Result<()> {
     let out = book.build_dir_for("html");
     book.with_preprocessor(math::Equations);
     book.build()?;
-    for name in ["peers.csv", "pictures"] {
-        copy(&docs.join(name), &out.join(name))?;
+    // What included files point at.
+    for name in ["peers.csv", "pictures", "reproduction"] {
+        if docs.join(name).exists() {
+            copy(&docs.join(name), &out.join(name))?;
+        }
     }
     let out = out.canonicalize()?;
     let pages = links::check(&out)?;
