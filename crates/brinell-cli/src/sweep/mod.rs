@@ -15,10 +15,11 @@ pub(crate) use args::SweepArgs;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
-pub(crate) use page::words;
 use page::{plural, usual};
+pub(crate) use page::{told, words};
 use points::{FromSource, Points};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
