@@ -7,10 +7,10 @@ use brinell_io::{Cells, Column, Table};
 use serde_json::{Map, Value, json};
 
 /// The table's own columns.
-pub(super) const OWN: [&str; 2] = ["quantity", "unit"];
+pub(super) static OWN: [&str; 2] = ["quantity", "unit"];
 /// Endings of the columns of each run, and of each but the first.
-pub(super) const VALUE: [&str; 3] = ["", ".low", ".high"];
-pub(super) const RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
+pub(super) static VALUE: [&str; 3] = ["", ".low", ".high"];
+pub(super) static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
 
 pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
     let mut table = Table::default();

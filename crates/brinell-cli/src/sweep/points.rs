@@ -159,7 +159,8 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
 /// Adds a warning to those of other points: one about the same key with the same value is told once, as the first point has it.
 fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
     let same = |w: &Problem| {
-        let numberless = |text: &str| text.replace(|c: char| c.is_ascii_digit() || c == '.', "");
+        let numberless =
+            |text: &str| text.replace(|c: char| c.is_ascii_digit() || ".e+-".contains(c), "");
         w.key == warning.key
             && w.value == warning.value
             && numberless(&w.message) == numberless(&warning.message)
