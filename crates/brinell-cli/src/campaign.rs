@@ -5,8 +5,7 @@
 
 use crate::failure::Failure;
 use crate::progress::Joint;
-use brinell::campaign::{Finished, Row, finish};
-use brinell::channel::Frame;
+use brinell::campaign::{Finished, Row, fingerprint, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
 use brinell_io::{IoError, Journal, Outcome, SignalWriter};
@@ -179,6 +178,11 @@ fn one(
         result,
     };
     let scenario = work.scenario(task)?;
+    if fingerprint(&scenario) != task.fingerprint {
+        return Err(Failure::Usage(
+            "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now".into(),
+        ));
+    }
     let simulation = match Simulation::new(&scenario) {
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
@@ -225,8 +229,6 @@ struct Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn step(&mut self, _: &Frame) {}
-
     fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
         let Some(writer) = &mut self.writer else {
             return ControlFlow::Continue(());
