@@ -5,7 +5,7 @@
 
 use crate::failure::Failure;
 use crate::progress::Joint;
-use brinell::campaign::{Finished, Quantity, Row, finish};
+use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
 use brinell::channel::Frame;
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
@@ -184,6 +184,11 @@ fn one(
         result,
     };
     let scenario = work.scenario(task)?;
+    if fingerprint(&scenario) != task.fingerprint {
+        return Err(Failure::Usage(
+            "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now".into(),
+        ));
+    }
     let simulation = match Simulation::new(&scenario) {
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
@@ -229,8 +234,6 @@ struct Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn step(&mut self, _: &Frame) {}
-
     fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
         let Some(writer) = &mut self.writer else {
             return ControlFlow::Continue(());

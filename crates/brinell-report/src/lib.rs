@@ -18,6 +18,7 @@ mod damage;
 mod data;
 mod embedded;
 mod font;
+mod kurtogram;
 mod load;
 mod motion;
 mod number;
@@ -43,6 +44,7 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+pub use kurtogram::{Kurtogram, KurtogramLevel};
 pub use load::{bin_centres, load_distribution};
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
 pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
