@@ -6,7 +6,9 @@
 
 mod common;
 
-use brinell::lanes::{Lanes, Portable, WIDTH};
+#[cfg(target_arch = "x86_64")]
+use brinell::lanes::{Avx2, Avx512};
+use brinell::lanes::{Lanes, Portable};
 use brinell::model::{Kernel, Model, Workspace};
 use common::{Moment, moments, off_and_on_damage, rectangle};
 use criterion::Criterion;
@@ -15,7 +17,7 @@ use std::hint::black_box;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::time::Instant;
 
-/// Counted operations on groups of eight.
+/// Counted operations on groups.
 #[derive(Debug, Clone, Copy, Default)]
 struct Operations {
     sums: u64,
@@ -28,7 +30,7 @@ struct Operations {
 impl Operations {
     /// Floating-point operations on single numbers.
     fn flops(&self) -> u64 {
-        WIDTH as u64 * (self.sums + self.products + 2 * self.fused + self.quotients)
+        Portable::COUNT as u64 * (self.sums + self.products + 2 * self.fused + self.quotients)
     }
 }
 
@@ -111,14 +113,27 @@ impl Inner for u64 {
 }
 
 impl Lanes for Counting {
+    const COUNT: usize = Portable::COUNT;
+    type Group = <Portable as Lanes>::Group;
+
+    fn groups(list: &[f64]) -> &[Self::Group] {
+        Portable::groups(list)
+    }
+    fn groups_mut(list: &mut [f64]) -> &mut [Self::Group] {
+        Portable::groups_mut(list)
+    }
     fn splat(x: f64) -> Self {
         Self(Portable::splat(x))
     }
-    fn new(x: [f64; WIDTH]) -> Self {
+    fn new(x: Self::Group) -> Self {
         Self(Portable::new(x))
     }
-    fn array(self) -> [f64; WIDTH] {
+    fn array(self) -> Self::Group {
         self.0.array()
+    }
+    fn sum(self) -> f64 {
+        count(|c| c.sums += Portable::COUNT.ilog2() as u64);
+        self.0.sum()
     }
     fn times_plus(self, b: Self, c: Self) -> Self {
         count(|n| n.fused += 1);
@@ -180,13 +195,13 @@ fn chains<L: Lanes, const N: usize>(rounds: u64, a: f64, b: f64) -> f64 {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn chains_avx512(rounds: u64, a: f64, b: f64) -> f64 {
-    chains::<brinell::lanes::Avx512, 12>(rounds, a, b)
+    chains::<Avx512, 12>(rounds, a, b)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn chains_avx2(rounds: u64, a: f64, b: f64) -> f64 {
-    chains::<brinell::lanes::Avx2, 6>(rounds, a, b)
+    chains::<Avx2, 12>(rounds, a, b)
 }
 
 /// Best of several, s: what a machine does when nobody else is at it.
@@ -204,12 +219,14 @@ fn shortest(mut what: impl FnMut()) -> f64 {
 fn peak(kernel: Kernel) -> f64 {
     const ROUNDS: u64 = 1_000_000;
     let (a, b) = (black_box(0.999_999), black_box(1e-6));
-    let of = |chains: u64, seconds: f64| (2 * WIDTH as u64 * chains * ROUNDS) as f64 / seconds;
+    /// Chains of single numbers.
+    const CHAINS: usize = 24;
+    let of = |chains: usize, seconds: f64| (2 * chains) as f64 * ROUNDS as f64 / seconds;
     match kernel {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: asked for only where the processor has these instructions.
         Kernel::Avx512 => of(
-            12,
+            12 * Avx512::COUNT,
             shortest(|| {
                 black_box(unsafe { chains_avx512(ROUNDS, a, b) });
             }),
@@ -217,16 +234,16 @@ fn peak(kernel: Kernel) -> f64 {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => of(
-            6,
+            12 * Avx2::COUNT,
             shortest(|| {
                 black_box(unsafe { chains_avx2(ROUNDS, a, b) });
             }),
         ),
-        // Three groups' worth; as `Portable` they would go through memory.
+        // As `Portable` they would go through memory.
         _ => of(
-            3,
+            CHAINS,
             shortest(|| {
-                let mut x: [f64; 3 * WIDTH] = std::array::from_fn(|k| k as f64);
+                let mut x: [f64; CHAINS] = std::array::from_fn(|k| k as f64);
                 for _ in 0..ROUNDS {
                     for x in &mut x {
                         *x = *x * a + b;

@@ -21,7 +21,7 @@ use crate::signals::{check_columns, check_row};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 /// Memory for the rows of one row group.
-const GROUP_BYTES: usize = 16 << 20;
+const GROUP_BYTES: usize = 4 << 20;
 /// A page of more rows than this compresses no better and keeps a reader from skipping.
 const MAX_GROUP_ROWS: usize = 128 << 10;
 /// Zstandard's fastest ordinary level: the low mantissa bytes of a vibration signal are noise at any level.

@@ -52,8 +52,9 @@ dispatched! {
 
 #[inline(always)]
 fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; N]) -> [f64; N] {
-    let (head, tail) = list.as_chunks::<WIDTH>();
-    let columns = groups(&lists, head.len());
+    let head = L::groups(list);
+    let whole = head.len() * L::COUNT;
+    let columns = groups::<L, N>(&lists, head.len());
     // Two sums a list: one product need not wait for the last.
     let mut sums = [[L::zero(); 2]; N];
     for (group, list) in head.iter().enumerate() {
@@ -65,7 +66,7 @@ fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; 
     let mut out = [0.0; N];
     for k in 0..N {
         out[k] = (sums[k][0] + sums[k][1]).sum();
-        for (a, b) in tail.iter().zip(&lists[k][WIDTH * head.len()..]) {
+        for (a, b) in list[whole..].iter().zip(&lists[k][whole..]) {
             out[k] += a * b;
         }
     }
@@ -81,18 +82,24 @@ dispatched! {
 #[inline(always)]
 fn positive_lanes<L: Lanes, const N: usize>(lists: [&[f64]; N], bits: [&mut [u8]; N]) {
     for (list, bits) in lists.into_iter().zip(bits) {
-        for (group, bits) in list.as_chunks::<WIDTH>().0.iter().zip(bits) {
-            *bits = L::new(*group).above(L::zero());
+        for (list, bits) in list.as_chunks::<WIDTH>().0.iter().zip(bits) {
+            *bits = 0;
+            for (k, group) in L::groups(list).iter().enumerate() {
+                *bits |= L::new(*group).above(L::zero()) << (k * L::COUNT);
+            }
         }
     }
 }
 
 /// The lists as groups, `count` of each.
 #[inline(always)]
-fn groups<'a, const N: usize>(lists: &[&'a [f64]; N], count: usize) -> [&'a [[f64; WIDTH]]; N] {
-    let mut out: [&[[f64; WIDTH]]; N] = [&[]; N];
+fn groups<'a, L: Lanes, const N: usize>(lists: &[&'a [f64]; N], count: usize) -> [&'a [L::Group]; N]
+where
+    L::Group: 'a,
+{
+    let mut out: [&[L::Group]; N] = [&[]; N];
     for k in 0..N {
-        out[k] = &lists[k].as_chunks::<WIDTH>().0[..count];
+        out[k] = &L::groups(lists[k])[..count];
     }
     out
 }
@@ -109,10 +116,10 @@ fn scalar<const N: usize>(factors: &[f64; N], lists: &[&[f64]; N], k: usize) -> 
 
 #[inline(always)]
 fn blend_lanes<L: Lanes, const N: usize>(out: &mut [f64], factors: [f64; N], lists: [&[f64]; N]) {
-    let whole = out.len() / WIDTH * WIDTH;
+    let whole = out.len() / L::COUNT * L::COUNT;
     let (head, tail) = out.split_at_mut(whole);
-    let (head, _) = head.as_chunks_mut::<WIDTH>();
-    let columns = groups(&lists, head.len());
+    let head = L::groups_mut(head);
+    let columns = groups::<L, N>(&lists, head.len());
     for (group, out) in head.iter_mut().enumerate() {
         let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
         for k in 1..N {
@@ -131,8 +138,9 @@ fn weighted_square_lanes<L: Lanes, const N: usize>(
     factors: [f64; N],
     lists: [&[f64]; N],
 ) -> f64 {
-    let (head, tail) = weight.as_chunks::<WIDTH>();
-    let columns = groups(&lists, head.len());
+    let head = L::groups(weight);
+    let whole = head.len() * L::COUNT;
+    let columns = groups::<L, N>(&lists, head.len());
     let mut total = L::zero();
     for (group, weight) in head.iter().enumerate() {
         let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
@@ -141,8 +149,8 @@ fn weighted_square_lanes<L: Lanes, const N: usize>(
         }
         total = (L::new(*weight) * sum).times_plus(sum, total);
     }
-    let rest: f64 = (tail.iter().enumerate())
-        .map(|(k, weight)| weight * scalar(&factors, &lists, WIDTH * head.len() + k).powi(2))
+    let rest: f64 = (whole..weight.len())
+        .map(|k| weight[k] * scalar(&factors, &lists, k).powi(2))
         .sum();
     total.sum() + rest
 }

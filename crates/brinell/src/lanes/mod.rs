@@ -1,8 +1,8 @@
-//! Eight numbers at a time, and the elementary functions that the right-hand side spends its time in.
+//! Several numbers at a time, and the elementary functions that the right-hand side spends its time in.
 //!
-//! [`Lanes`] is what the equations of motion are written in; `portable` holds it as an array, `x86` in the registers of AVX2
-//! and AVX-512. Functions over lanes do not branch on a lane's value. The implementations differ in round-off alone: the
-//! portable one rounds every product, the others fuse products with sums.
+//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register. `portable` holds it as an array,
+//! `x86` in a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
+//! in round-off alone: the portable one rounds every product, the others fuse products with sums.
 
 mod blend;
 mod column;
@@ -21,10 +21,10 @@ pub use x86::{Avx2, Avx512};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Numbers in a group.
+/// Numbers in the widest group. Lists of numbers are padded to a multiple of it, so that each is a whole number of any lanes' groups.
 pub const WIDTH: usize = 8;
 
-/// Eight numbers.
+/// A group of numbers.
 pub trait Lanes:
     Copy
     + Add<Output = Self>
@@ -35,12 +35,21 @@ pub trait Lanes:
     + AddAssign
     + SubAssign
 {
+    /// Numbers in a group: 2, 4 or 8.
+    const COUNT: usize;
+    /// An array of them.
+    type Group: Copy + AsRef<[f64]> + AsMut<[f64]>;
+
+    /// The groups of a list; an incomplete one at the end is left out.
+    fn groups(list: &[f64]) -> &[Self::Group];
+    /// The same to write to.
+    fn groups_mut(list: &mut [f64]) -> &mut [Self::Group];
     /// The same number in every lane.
     fn splat(x: f64) -> Self;
     /// From an array.
-    fn new(x: [f64; WIDTH]) -> Self;
+    fn new(x: Self::Group) -> Self;
     /// As an array.
-    fn array(self) -> [f64; WIDTH];
+    fn array(self) -> Self::Group;
     /// self * b + c, rounded once where the processor can.
     fn times_plus(self, b: Self, c: Self) -> Self;
     /// c - self * b, rounded once where the processor can.
@@ -96,10 +105,35 @@ pub trait Lanes:
         other.if_above(zero, self, zero.if_above(other, -self, zero))
     }
 
-    /// Sum of the lanes, in a fixed order.
+    /// Each lane through a function of single numbers.
     #[inline(always)]
-    fn sum(self) -> f64 {
-        let [a, b, c, d, e, f, g, h] = self.array();
-        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut group = self.array();
+        for x in group.as_mut() {
+            *x = f(*x);
+        }
+        Self::new(group)
     }
+
+    /// Sum of the lanes, in a fixed order.
+    fn sum(self) -> f64;
 }
+
+/// What [`Lanes`] says of groups, for arrays of `$count`.
+macro_rules! grouped {
+    ($count:expr) => {
+        const COUNT: usize = $count;
+        type Group = [f64; $count];
+
+        #[inline(always)]
+        fn groups(list: &[f64]) -> &[Self::Group] {
+            list.as_chunks().0
+        }
+
+        #[inline(always)]
+        fn groups_mut(list: &mut [f64]) -> &mut [Self::Group] {
+            list.as_chunks_mut().0
+        }
+    };
+}
+use grouped;

@@ -1,18 +1,21 @@
 //! Lanes as an array: scalar code, or whatever the compiler makes of it.
 
-use super::{Lanes, WIDTH};
+use super::{Lanes, grouped};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Eight numbers in an array. Products are rounded before they are added, but on 64-bit Arm, which always fuses.
+/// Numbers in a group: what fits the fewest registers without spilling.
+const COUNT: usize = 4;
+
+/// Numbers in an array. Products are rounded before they are added, but on 64-bit Arm, which always fuses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(64))]
-pub struct Portable(pub [f64; WIDTH]);
+#[repr(align(32))]
+pub struct Portable(pub [f64; COUNT]);
 
 impl Portable {
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut out = [0.0; WIDTH];
-        for i in 0..WIDTH {
+        let mut out = [0.0; COUNT];
+        for i in 0..COUNT {
             out[i] = f(self.0[i]);
         }
         Self(out)
@@ -20,8 +23,8 @@ impl Portable {
 
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut out = [0.0; WIDTH];
-        for i in 0..WIDTH {
+        let mut out = [0.0; COUNT];
+        for i in 0..COUNT {
             out[i] = f(self.0[i], other.0[i]);
         }
         Self(out)
@@ -88,25 +91,27 @@ impl SubAssign for Portable {
 }
 
 impl Lanes for Portable {
+    grouped!(COUNT);
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        Self([x; WIDTH])
+        Self([x; COUNT])
     }
 
     #[inline(always)]
-    fn new(x: [f64; WIDTH]) -> Self {
+    fn new(x: [f64; COUNT]) -> Self {
         Self(x)
     }
 
     #[inline(always)]
-    fn array(self) -> [f64; WIDTH] {
+    fn array(self) -> [f64; COUNT] {
         self.0
     }
 
     #[inline(always)]
     fn times_plus(self, b: Self, c: Self) -> Self {
-        let mut out = [0.0; WIDTH];
-        for i in 0..WIDTH {
+        let mut out = [0.0; COUNT];
+        for i in 0..COUNT {
             out[i] = if cfg!(target_arch = "aarch64") {
                 self.0[i].mul_add(b.0[i], c.0[i])
             } else {
@@ -148,8 +153,8 @@ impl Lanes for Portable {
 
     #[inline(always)]
     fn if_above(self, other: Self, x: Self, y: Self) -> Self {
-        let mut out = [0.0; WIDTH];
-        for i in 0..WIDTH {
+        let mut out = [0.0; COUNT];
+        for i in 0..COUNT {
             out[i] = if self.0[i] > other.0[i] {
                 x.0[i]
             } else {
@@ -206,5 +211,18 @@ impl Lanes for Portable {
     #[inline(always)]
     fn shift_down<const N: i32>(self) -> Self {
         self.bits(|x| x >> N)
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        let mut list = self.0;
+        let mut half = COUNT / 2;
+        while half > 0 {
+            for k in 0..half {
+                list[k] += list[k + half];
+            }
+            half /= 2;
+        }
+        list[0]
     }
 }

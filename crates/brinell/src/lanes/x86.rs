@@ -1,9 +1,9 @@
-//! Lanes in the registers of x86-64: one of AVX-512, or two of AVX2.
+//! Lanes in a register of x86-64: eight numbers with AVX-512, four with AVX2.
 //!
 //! Values of these types must only be used in functions compiled for their instructions; the equations of motion are
 //! entered through such functions alone, after the processor has been asked.
 
-use super::{Lanes, WIDTH};
+use super::{Lanes, grouped};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -79,19 +79,21 @@ impl Avx512 {
 
 // SAFETY of every block: see the module.
 impl Lanes for Avx512 {
+    grouped!(8);
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
         unsafe { Self(_mm512_set1_pd(x)) }
     }
 
     #[inline(always)]
-    fn new(x: [f64; WIDTH]) -> Self {
+    fn new(x: [f64; 8]) -> Self {
         unsafe { Self(_mm512_loadu_pd(x.as_ptr())) }
     }
 
     #[inline(always)]
-    fn array(self) -> [f64; WIDTH] {
-        let mut out = [0.0; WIDTH];
+    fn array(self) -> [f64; 8] {
+        let mut out = [0.0; 8];
         unsafe { _mm512_storeu_pd(out.as_mut_ptr(), self.0) };
         out
     }
@@ -194,120 +196,81 @@ impl Lanes for Avx512 {
     }
 }
 
-/// Eight numbers in two registers of AVX2.
+/// Four numbers in one register of AVX2.
 #[derive(Debug, Clone, Copy)]
-pub struct Avx2(__m256d, __m256d);
+pub struct Avx2(__m256d);
 
 operators! {
     Avx2,
-    Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0), _mm256_add_pd(a.1, b.1));
-    Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0), _mm256_sub_pd(a.1, b.1));
-    Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0), _mm256_mul_pd(a.1, b.1));
-    Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0), _mm256_div_pd(a.1, b.1));
+    Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0));
+    Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0));
+    Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0));
+    Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0));
 }
 
 impl Avx2 {
     #[inline(always)]
-    fn int(self) -> (__m256i, __m256i) {
+    fn int(self) -> __m256i {
         // SAFETY: same size, every bit pattern is valid.
-        unsafe {
-            (
-                std::mem::transmute::<__m256d, __m256i>(self.0),
-                std::mem::transmute::<__m256d, __m256i>(self.1),
-            )
-        }
+        unsafe { std::mem::transmute::<__m256d, __m256i>(self.0) }
     }
 
     #[inline(always)]
-    fn from_int(x: __m256i, y: __m256i) -> Self {
+    fn from_int(x: __m256i) -> Self {
         // SAFETY: as above.
-        unsafe {
-            Self(
-                std::mem::transmute::<__m256i, __m256d>(x),
-                std::mem::transmute::<__m256i, __m256d>(y),
-            )
-        }
+        Self(unsafe { std::mem::transmute::<__m256i, __m256d>(x) })
     }
 }
 
 // SAFETY of every block: see the module.
 impl Lanes for Avx2 {
+    grouped!(4);
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        unsafe { Self(_mm256_set1_pd(x), _mm256_set1_pd(x)) }
+        unsafe { Self(_mm256_set1_pd(x)) }
     }
 
     #[inline(always)]
-    fn new(x: [f64; WIDTH]) -> Self {
-        unsafe {
-            Self(
-                _mm256_loadu_pd(x.as_ptr()),
-                _mm256_loadu_pd(x[4..].as_ptr()),
-            )
-        }
+    fn new(x: [f64; 4]) -> Self {
+        unsafe { Self(_mm256_loadu_pd(x.as_ptr())) }
     }
 
     #[inline(always)]
-    fn array(self) -> [f64; WIDTH] {
-        let mut out = [0.0; WIDTH];
-        unsafe {
-            _mm256_storeu_pd(out.as_mut_ptr(), self.0);
-            _mm256_storeu_pd(out[4..].as_mut_ptr(), self.1);
-        }
+    fn array(self) -> [f64; 4] {
+        let mut out = [0.0; 4];
+        unsafe { _mm256_storeu_pd(out.as_mut_ptr(), self.0) };
         out
     }
 
     #[inline(always)]
     fn times_plus(self, b: Self, c: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fmadd_pd(self.0, b.0, c.0),
-                _mm256_fmadd_pd(self.1, b.1, c.1),
-            )
-        }
+        unsafe { Self(_mm256_fmadd_pd(self.0, b.0, c.0)) }
     }
 
     #[inline(always)]
     fn minus_times(self, b: Self, c: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fnmadd_pd(self.0, b.0, c.0),
-                _mm256_fnmadd_pd(self.1, b.1, c.1),
-            )
-        }
+        unsafe { Self(_mm256_fnmadd_pd(self.0, b.0, c.0)) }
     }
 
     #[inline(always)]
     fn positive_part(self) -> Self {
-        unsafe {
-            let zero = _mm256_setzero_pd();
-            Self(_mm256_max_pd(self.0, zero), _mm256_max_pd(self.1, zero))
-        }
+        unsafe { Self(_mm256_max_pd(self.0, _mm256_setzero_pd())) }
     }
 
     #[inline(always)]
     fn at_least(self, other: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_max_pd(self.0, other.0),
-                _mm256_max_pd(self.1, other.1),
-            )
-        }
+        unsafe { Self(_mm256_max_pd(self.0, other.0)) }
     }
 
     #[inline(always)]
     fn at_most(self, other: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_min_pd(self.0, other.0),
-                _mm256_min_pd(self.1, other.1),
-            )
-        }
+        unsafe { Self(_mm256_min_pd(self.0, other.0)) }
     }
 
     #[inline(always)]
     fn sum(self) -> f64 {
-        unsafe { sum_of_four(_mm256_add_pd(self.0, self.1)) }
+        unsafe { sum_of_four(self.0) }
     }
 
     #[inline(always)]
@@ -323,22 +286,14 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn if_above(self, other: Self, x: Self, y: Self) -> Self {
         unsafe {
-            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
-            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, other.1);
-            Self(
-                _mm256_blendv_pd(y.0, x.0, first),
-                _mm256_blendv_pd(y.1, x.1, second),
-            )
+            let above = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
+            Self(_mm256_blendv_pd(y.0, x.0, above))
         }
     }
 
     #[inline(always)]
     fn above(self, other: Self) -> u8 {
-        unsafe {
-            let first = _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0);
-            let second = _mm256_cmp_pd::<_CMP_GT_OQ>(self.1, other.1);
-            (_mm256_movemask_pd(first) | (_mm256_movemask_pd(second) << 4)) as u8
-        }
+        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0)) as u8 }
     }
 
     #[inline(always)]
@@ -348,57 +303,41 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn or_bits(self, bits: u64) -> Self {
-        let other = Self::splat(f64::from_bits(bits));
-        unsafe { Self(_mm256_or_pd(self.0, other.0), _mm256_or_pd(self.1, other.1)) }
+        unsafe { Self(_mm256_or_pd(self.0, Self::splat(f64::from_bits(bits)).0)) }
     }
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_and_pd(self.0, other.0),
-                _mm256_and_pd(self.1, other.1),
-            )
-        }
+        unsafe { Self(_mm256_and_pd(self.0, other.0)) }
     }
 
     #[inline(always)]
     fn xor(self, other: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_xor_pd(self.0, other.0),
-                _mm256_xor_pd(self.1, other.1),
-            )
-        }
+        unsafe { Self(_mm256_xor_pd(self.0, other.0)) }
     }
 
     #[inline(always)]
     fn add_bits(self, bits: u64) -> Self {
-        let (x, y) = self.int();
         unsafe {
-            let b = _mm256_set1_epi64x(bits as i64);
-            Self::from_int(_mm256_add_epi64(x, b), _mm256_add_epi64(y, b))
+            Self::from_int(_mm256_add_epi64(
+                self.int(),
+                _mm256_set1_epi64x(bits as i64),
+            ))
         }
     }
 
     #[inline(always)]
     fn minus_bits(self) -> Self {
-        let (x, y) = self.int();
-        unsafe {
-            let zero = _mm256_setzero_si256();
-            Self::from_int(_mm256_sub_epi64(zero, x), _mm256_sub_epi64(zero, y))
-        }
+        unsafe { Self::from_int(_mm256_sub_epi64(_mm256_setzero_si256(), self.int())) }
     }
 
     #[inline(always)]
     fn shift_up<const N: i32>(self) -> Self {
-        let (x, y) = self.int();
-        unsafe { Self::from_int(_mm256_slli_epi64::<N>(x), _mm256_slli_epi64::<N>(y)) }
+        unsafe { Self::from_int(_mm256_slli_epi64::<N>(self.int())) }
     }
 
     #[inline(always)]
     fn shift_down<const N: i32>(self) -> Self {
-        let (x, y) = self.int();
-        unsafe { Self::from_int(_mm256_srli_epi64::<N>(x), _mm256_srli_epi64::<N>(y)) }
+        unsafe { Self::from_int(_mm256_srli_epi64::<N>(self.int())) }
     }
 }

@@ -1,8 +1,8 @@
-//! Which contacts may stand on damage, found for eight rollers at a time before any of it is looked up.
+//! Which contacts may stand on damage, found for a group of rollers at a time before any of it is looked up.
 
 use super::Layout;
 use crate::defect::{Defect, Side};
-use crate::lanes::{Lanes, WIDTH};
+use crate::lanes::{Column, Lanes};
 use crate::scenario::Surface;
 
 /// A raceway's defect as seen from the bearing's centre.
@@ -10,12 +10,11 @@ use crate::scenario::Surface;
 struct Window {
     /// Its middle, rad; on the inner ring at W_i = 0.
     middle: f64,
-    /// Cosine of half the angle that it takes up. Rollers whose direction has a smaller component along the middle's are off it.
-    cos_half: f64,
     /// Whether it turns with the inner ring.
     turns: bool,
-    /// The lanes of its row, a bit each, by group.
-    lanes: Vec<u8>,
+    /// For each slot the cosine of half the angle that it takes up: a roller whose direction has a smaller component along the middle's is
+    /// off it. More than any cosine for the slots of other rows.
+    least: Column,
 }
 
 /// What of a model's damage can meet the contacts of one side.
@@ -24,25 +23,23 @@ pub struct Exposure {
     /// Slots whose contact some defect can meet.
     pub slots: Vec<usize>,
     windows: Vec<Window>,
-    /// Lanes of the rollers that are damaged themselves, by group; their angles are looked at one by one.
-    rollers: Vec<u8>,
+    /// 1 for the slots of rollers that are damaged themselves, whose angles are looked at one by one; empty where none is.
+    rollers: Column,
 }
 
+/// Above any cosine.
+const NEVER: f64 = 2.0;
 /// Round-off of a cosine near 1, with room.
 const SLACK: f64 = 1e-14;
 
 impl Exposure {
     /// For the defects of one model.
     pub(super) fn new(layout: &Layout, defects: &[Defect], side: Side) -> Self {
-        let groups = layout.slots / WIDTH;
-        let met_by = |defect: &Defect| {
-            let mut lanes = vec![0_u8; groups];
-            for slot in 0..layout.rollers() {
-                if defect.meets(layout.row(slot), layout.roller(slot), side) {
-                    lanes[slot / WIDTH] |= 1 << (slot % WIDTH);
-                }
-            }
-            lanes
+        let met_by = |defect: &Defect| -> Vec<bool> {
+            let (row, roller) = (|slot| layout.row(slot), |slot| layout.roller(slot));
+            (0..layout.slots)
+                .map(|slot| slot < layout.rollers() && defect.meets(row(slot), roller(slot), side))
+                .collect()
         };
         let mut all = Self {
             slots: (0..layout.rollers())
@@ -52,26 +49,30 @@ impl Exposure {
                 })
                 .collect(),
             windows: Vec::new(),
-            rollers: vec![0; groups],
+            rollers: Column::default(),
         };
         for defect in defects {
-            let lanes = met_by(defect);
-            if lanes.iter().all(|l| *l == 0) {
+            let met = met_by(defect);
+            if !met.contains(&true) {
                 continue;
             }
             if let Surface::Roller(_) = defect.surface {
-                for (sum, l) in all.rollers.iter_mut().zip(lanes) {
-                    *sum |= l;
+                if all.rollers.is_empty() {
+                    all.rollers = Column::new(layout.slots, 0.0);
+                }
+                for (roller, _) in all.rollers.iter_mut().zip(&met).filter(|(_, met)| **met) {
+                    *roller = 1.0;
                 }
                 continue;
             }
             let (first, last) = defect.window(side);
             let half = (0.5 * (last - first)).min(std::f64::consts::PI);
+            let cos_half = half.cos() - SLACK;
+            let least = |met: &bool| if *met { cos_half } else { NEVER };
             all.windows.push(Window {
                 middle: defect.center + 0.5 * (first + last),
-                cos_half: half.cos() - SLACK,
                 turns: defect.surface == Surface::InnerRaceway,
-                lanes,
+                least: met.iter().map(least).collect(),
             });
         }
         all
@@ -96,27 +97,32 @@ impl Exposure {
         }
     }
 
-    /// Lanes of a group that may stand on damage, a bit each: never too few.
+    /// Lanes of each group that may stand on damage, a bit each: never too few.
     #[inline(always)]
     pub(super) fn lanes<L: Lanes>(
         &self,
-        group: usize,
-        (sin, cos): (L, L),
+        (sin, cos): (&[L::Group], &[L::Group]),
         directions: &[[f64; 2]],
-    ) -> u8 {
-        let mut exposed = self.rollers[group];
-        for (window, [x, y]) in self.windows.iter().zip(directions) {
-            let along = cos.times_plus(L::splat(*x), sin * L::splat(*y));
-            exposed |= along.above(L::splat(window.cos_half)) & window.lanes[group];
+        exposed: &mut [u8],
+    ) {
+        exposed.fill(0);
+        for (exposed, rollers) in exposed.iter_mut().zip(L::groups(&self.rollers)) {
+            *exposed = L::new(*rollers).above(L::zero());
         }
-        exposed
+        for (window, [x, y]) in self.windows.iter().zip(directions) {
+            let (x, y, least) = (L::splat(*x), L::splat(*y), L::groups(&window.least));
+            for (((exposed, sin), cos), least) in exposed.iter_mut().zip(sin).zip(cos).zip(least) {
+                let along = L::new(*cos).times_plus(x, L::new(*sin) * y);
+                *exposed |= along.above(L::new(*least));
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{Portable, sin_cos};
+    use crate::lanes::Portable;
     use crate::model::Model;
 
     #[test]
@@ -156,15 +162,20 @@ mod tests {
                 let exposure = &model.exposure[side as usize];
                 let mut directions = exposure.directions();
                 exposure.turn(ring, &mut directions);
-                for group in 0..l.slots / WIDTH {
-                    let theta: [f64; WIDTH] =
-                        std::array::from_fn(|lane| model.pocket_angle[group * WIDTH + lane] + turn);
-                    let (sin, cos) = sin_cos(Portable::new(theta));
-                    let lanes = exposure.lanes(group, (sin, cos), &directions);
-                    for (lane, orbit) in theta.into_iter().enumerate() {
-                        let slot = group * WIDTH + lane;
+                let theta = |slot: usize| model.pocket_angle[slot] + turn;
+                let (sin, cos): (Vec<f64>, Vec<f64>) =
+                    (0..l.slots).map(|slot| theta(slot).sin_cos()).unzip();
+                let mut exposed = vec![0; l.slots / Portable::COUNT];
+                exposure.lanes::<Portable>(
+                    (Portable::groups(&sin), Portable::groups(&cos)),
+                    &directions,
+                    &mut exposed,
+                );
+                for (group, lanes) in exposed.into_iter().enumerate() {
+                    for lane in 0..Portable::COUNT {
+                        let slot = group * Portable::COUNT + lane;
                         let angles = crate::defect::Angles {
-                            orbit,
+                            orbit: theta(slot),
                             spin: 0.0,
                             ring,
                         };
@@ -173,7 +184,7 @@ mod tests {
                                 .defects_of(slot, side)
                                 .any(|d| d.floor(d.local_angle(&angles, side), side).is_some());
                         let bit = lanes & (1 << lane) != 0;
-                        assert!(bit || !stands, "slot {slot} at {orbit} on {side:?}");
+                        assert!(bit || !stands, "slot {slot} at {turn} on {side:?}");
                         met[0] += u32::from(stands);
                         met[1] += u32::from(bit);
                     }

@@ -136,8 +136,8 @@ pub struct Model {
     pub defects: Vec<Defect>,
     /// Where damage can meet the contacts of each side, indexed by `Side as usize`.
     pub exposure: [Exposure; 2],
-    /// For each group of one period of rows, the lanes of every row: 1 in its own, else 0.
-    pub(crate) row_lanes: Vec<Vec<[f64; LANES]>>,
+    /// For each row, over one period of the rows' pattern: 1 for its own slots, else 0.
+    pub(crate) row_lanes: Vec<Column>,
     /// How damage acts.
     pub rules: Rules,
     /// Start.
@@ -205,12 +205,9 @@ impl Model {
             })?);
         }
         let exposure = SIDES.map(|side| Exposure::new(&layout, &defects, side));
-        let lanes_of = |group: usize, row: usize| {
-            let own = |lane| layout.row(group * LANES + lane) == row;
-            std::array::from_fn(|lane| f64::from(u8::from(own(lane))))
-        };
-        let row_lanes = (0..layout.row_period() / LANES)
-            .map(|group| (0..layout.rows).map(|row| lanes_of(group, row)).collect())
+        let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
+        let row_lanes = (0..layout.rows)
+            .map(|row| (0..layout.row_period()).map(own(row)).collect())
             .collect();
         let by_slot = |roller: f64, padding: f64| {
             let mut column = Column::new(layout.slots, padding);

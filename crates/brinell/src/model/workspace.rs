@@ -109,7 +109,7 @@ pub struct Workspace {
     pub pocket_friction: Column,
     /// (cos, sin) of the middle of each raceway defect that meets the contacts of each side.
     pub(super) directions: [Vec<[f64; 2]>; 2],
-    /// Lanes of each group whose contact may stand on damage, a bit each.
+    /// Lanes of each group whose contact may stand on damage, a bit each; as many groups as the kernel's lanes make of the slots.
     pub(super) exposed: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
     pub(super) near: [Vec<bool>; 2],
@@ -141,8 +141,8 @@ impl Workspace {
             edge_force: zeros(),
             pocket_force: zeros(),
             pocket_friction: zeros(),
-            exposed: [vec![0; slots / WIDTH], vec![0; slots / WIDTH]],
-            near: [vec![false; slots / WIDTH], vec![false; slots / WIDTH]],
+            exposed: [vec![0; slots], vec![0; slots]],
+            near: [vec![false; slots], vec![false; slots]],
             directions: [0, 1].map(|side| model.exposure[side].directions()),
             kernel: if kernel.is_there() {
                 kernel

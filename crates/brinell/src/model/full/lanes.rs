@@ -1,10 +1,10 @@
-//! The rollers, eight at a time, in three passes: how each contact moves and what may stand on damage; the elementary functions; and
-//! forces, damage, pockets and what the bodies feel. Padded slots never close a contact and never move.
+//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may stand on damage; the elementary functions;
+//! damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
 
 use super::{Sums, Turn};
 use crate::defect::{Angles, SIDES, Side, acting_given};
 use crate::elementary::Exponent;
-use crate::lanes::{self, Lanes, WIDTH};
+use crate::lanes::{self, Lanes};
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Power, Workspace};
 
@@ -20,53 +20,38 @@ pub(super) fn rollers<L: Lanes>(
     for (exposure, directions) in model.exposure.iter().zip(&mut ws.directions) {
         exposure.turn(turn.angle, directions);
     }
-    // Passes of their own, because these functions are long chains of operations that wait for one another: with little in between,
-    // the processor works on several groups at once.
+    // A pass for each function that is a long chain of operations which wait for one another: with little in between, the processor
+    // works on several groups at once.
+    directions::<L>(model, q, ws);
     motion::<L>(model, q, v, turn.speed, ws);
+    exposed::<L>(model, ws);
     functions::<L>(model, ws);
-    forces::<L>(model, q, v, a, (turn.speed, turn.angle), ws)
+    damage::<L>(model, q, turn.angle, ws);
+    forces::<L>(model, q, v, a, turn.speed, ws)
 }
 
-type Group = [f64; WIDTH];
-
-/// Column `k` of a structure of arrays, of `groups` groups each.
+/// Column `k` of a structure of arrays, as `count` groups.
 #[inline(always)]
-fn column(from: &[f64], k: usize, groups: usize) -> &[Group] {
-    &from.as_chunks::<WIDTH>().0[k * groups..(k + 1) * groups]
+fn column<L: Lanes>(from: &[f64], k: usize, count: usize) -> &[L::Group] {
+    &L::groups(from)[k * count..][..count]
 }
 
 /// r, theta and phi.
 #[inline(always)]
-fn columns(from: &[f64], groups: usize) -> [&[Group]; 3] {
+fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
     [
-        column(from, 0, groups),
-        column(from, 1, groups),
-        column(from, 2, groups),
+        column::<L>(from, 0, count),
+        column::<L>(from, 1, count),
+        column::<L>(from, 2, count),
     ]
 }
 
 /// Three columns to write to.
 #[inline(always)]
-fn columns_mut(from: &mut [f64], groups: usize) -> [&mut [Group]; 3] {
-    let (all, _) = from[..3 * groups * WIDTH].as_chunks_mut::<WIDTH>();
-    let (first, rest) = all.split_at_mut(groups);
-    let (second, third) = rest.split_at_mut(groups);
-    [first, second, third]
-}
-
-#[inline(always)]
-fn groups(from: &[f64]) -> &[Group] {
-    from.as_chunks::<WIDTH>().0
-}
-
-#[inline(always)]
-fn groups_mut(from: &mut [f64]) -> &mut [Group] {
-    from.as_chunks_mut::<WIDTH>().0
-}
-
-#[inline(always)]
-fn put<L: Lanes>(x: L, to: &mut [f64], group: usize) {
-    to.as_chunks_mut::<WIDTH>().0[group] = x.array();
+fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> [&mut [L::Group]; 3] {
+    let (first, rest) = L::groups_mut(from).split_at_mut(count);
+    let (second, third) = rest.split_at_mut(count);
+    [first, second, &mut third[..count]]
 }
 
 /// A vector in the plane, the same in every lane.
@@ -86,11 +71,6 @@ fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
     )
 }
 
-#[inline(always)]
-fn at<L: Lanes>(from: &[f64], group: usize) -> L {
-    L::new(from.as_chunks::<WIDTH>().0[group])
-}
-
 /// u along e_t.
 #[inline(always)]
 fn along_t<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> L {
@@ -103,61 +83,7 @@ fn power<L: Lanes>(exponent: Exponent, delta: L) -> L {
     match exponent {
         Exponent::TenNinths => lanes::ten_ninths(delta),
         Exponent::One => delta.positive_part(),
-        Exponent::Other(_) => L::new(delta.array().map(|x| exponent.of(x))),
-    }
-}
-
-/// Elastic forces of a group's contacts that stand on damage, section 3, in place of those of healthy raceways.
-#[inline(always)]
-fn damaged_contacts<L: Lanes>(
-    model: &Model,
-    (side, group, exposed): (Side, usize, u8),
-    (q, ring_angle): (&[f64], f64),
-    elastic: L,
-    contacts: &mut Contacts,
-) -> L {
-    let mut forces = elastic.array();
-    on_damage(
-        model,
-        (side, group, exposed),
-        (q, ring_angle),
-        &mut forces,
-        contacts,
-    );
-    L::new(forces)
-}
-
-#[inline(never)]
-fn on_damage(
-    model: &Model,
-    (side, group, mut exposed): (Side, usize, u8),
-    (q, ring_angle): (&[f64], f64),
-    forces: &mut Group,
-    contacts: &mut Contacts,
-) {
-    let l = &model.layout;
-    while exposed != 0 {
-        let lane = exposed.trailing_zeros() as usize;
-        exposed &= exposed - 1;
-        let slot = group * WIDTH + lane;
-        let angles = Angles {
-            orbit: q[l.theta() + slot],
-            spin: q[l.phi() + slot],
-            ring: ring_angle,
-        };
-        let acting = acting_given(
-            model.defects_of(slot, side),
-            model.contact(side),
-            &angles,
-            side,
-            contacts.approach[slot],
-            contacts.power[slot],
-        );
-        if let Some(acting) = acting {
-            forces[lane] = acting.elastic;
-            contacts.on_damage[slot] = true;
-            contacts.damaged_length[slot] = acting.floor.damaged_length;
-        }
+        Exponent::Other(_) => delta.each(|x| exponent.of(x)),
     }
 }
 
@@ -171,13 +97,13 @@ struct Cages<L> {
 }
 
 impl<L: Lanes> Cages<L> {
-    /// `rows` has a group for each row: 1 in the lanes of its rollers, else 0.
+    /// For the groups that stand as `phase` does in the pattern of rows.
     #[inline(always)]
-    fn spread(model: &Model, q: &[f64], v: &[f64], rows: &[Group]) -> Self {
+    fn spread(model: &Model, q: &[f64], v: &[f64], phase: usize) -> Self {
         let l = &model.layout;
         let mut all = [L::zero(); 6];
-        for (row, lanes) in rows.iter().enumerate() {
-            let lanes = L::new(*lanes);
+        for (row, lanes) in model.row_lanes.iter().enumerate() {
+            let lanes = L::new(L::groups(lanes)[phase]);
             let at = l.cage(row);
             for k in 0..3 {
                 all[k] = lanes.times_plus(L::splat(q[at + k]), all[k]);
@@ -206,126 +132,279 @@ struct Flows<L> {
     lever: L,
 }
 
-/// How each contact moves: approach, its rate and slip. Finds what may stand on damage.
+/// Sine and cosine of every orbit angle.
+#[inline(always)]
+fn directions<L: Lanes>(model: &Model, q: &[f64], ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
+    let theta = column::<L>(q, 1, count);
+    let sin = &mut L::groups_mut(&mut ws.sin)[..count];
+    let cos = &mut L::groups_mut(&mut ws.cos)[..count];
+    for group in 0..count {
+        let (s, c) = lanes::sin_cos(L::new(theta[group]));
+        sin[group] = s.array();
+        cos[group] = c.array();
+    }
+}
+
+/// Finds what may stand on damage.
+#[inline(always)]
+fn exposed<L: Lanes>(model: &Model, ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
+    let sin = column::<L>(&ws.sin, 0, count);
+    let cos = column::<L>(&ws.cos, 0, count);
+    for (k, exposure) in model.exposure.iter().enumerate() {
+        if exposure.slots.is_empty() {
+            continue;
+        }
+        exposure.lanes::<L>((sin, cos), &ws.directions[k], &mut ws.exposed[k][..count]);
+    }
+}
+
+/// How each contact moves: approach, its rate and slip.
 #[inline(always)]
 fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
     let l = &model.layout;
     let g = &model.geometry;
-    let groups = l.slots / WIDTH;
-    let [q_r, q_theta, _] = columns(q, groups);
-    let [v_r, v_theta, v_phi] = columns(v, groups);
+    let count = l.slots / L::COUNT;
+    let q_r = column::<L>(q, 0, count);
+    let [v_r, v_theta, v_phi] = columns::<L>(v, count);
     let (xi, vi) = (pair(&q[l.inner()..]), pair(&v[l.inner()..]));
     let (xo, vo) = (pair(&q[l.outer()..]), pair(&v[l.outer()..]));
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let surface = L::splat(w * g.inner_radius);
-    let gaps = [
-        column(&model.gaps[0], 0, groups),
-        column(&model.gaps[1], 0, groups),
-    ];
-    for group in 0..groups {
+    let gap_in = column::<L>(&model.gaps[0], 0, count);
+    let gap_out = column::<L>(&model.gaps[1], 0, count);
+    let Workspace {
+        sin,
+        cos,
+        contacts: [inner, outer],
+        ..
+    } = ws;
+    let sin = column::<L>(sin, 0, count);
+    let cos = column::<L>(cos, 0, count);
+    let [delta_in, rate_in, slip_in] = motion_of::<L>(inner, count);
+    let [delta_out, rate_out, slip_out] = motion_of::<L>(outer, count);
+    for group in 0..count {
         let r = L::new(q_r[group]);
         let dr = L::new(v_r[group]);
         let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
-        let axes = lanes::sin_cos(L::new(q_theta[group]));
+        let axes = (L::new(sin[group]), L::new(cos[group]));
         let (xi_r, xi_t) = polar(axes, &xi);
         let (vi_r, vi_t) = polar(axes, &vi);
         let (xo_r, xo_t) = polar(axes, &xo);
         let (vo_r, vo_t) = polar(axes, &vo);
-        let delta = [
-            xi_r - r - L::new(gaps[0][group]),
-            r - xo_r - L::new(gaps[1][group]),
-        ];
-        let rate = [
-            dtheta.times_plus(xi_t, vi_r) - dr,
-            dtheta.minus_times(xo_t, dr - vo_r),
-        ];
-        let slip = [
-            radius.times_plus(dphi, pitch.minus_times(dtheta, surface + vi_t)),
-            radius.minus_times(dphi, pitch.minus_times(dtheta, vo_t)),
-        ];
-        put(axes.0, &mut ws.sin, group);
-        put(axes.1, &mut ws.cos, group);
-        for side in SIDES {
-            let k = side as usize;
-            let contacts = &mut ws.contacts[k];
-            put(delta[k], &mut contacts.approach, group);
-            put(rate[k], &mut contacts.approach_rate, group);
-            put(slip[k], &mut contacts.slip, group);
-            ws.exposed[k][group] = model.exposure[k].lanes(group, axes, &ws.directions[k]);
-        }
+        delta_in[group] = (xi_r - r - L::new(gap_in[group])).array();
+        delta_out[group] = (r - xo_r - L::new(gap_out[group])).array();
+        rate_in[group] = (dtheta.times_plus(xi_t, vi_r) - dr).array();
+        rate_out[group] = dtheta.minus_times(xo_t, dr - vo_r).array();
+        let orbit_in = pitch.minus_times(dtheta, surface + vi_t);
+        let orbit_out = pitch.minus_times(dtheta, vo_t);
+        slip_in[group] = radius.times_plus(dphi, orbit_in).array();
+        slip_out[group] = radius.minus_times(dphi, orbit_out).array();
     }
 }
 
-/// What each contact asks of elementary functions: `[delta]_+^n`, and tanh of the slip in place of the friction.
+/// Approach, its rate and slip, to write to.
+#[inline(always)]
+fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 3] {
+    [
+        &mut L::groups_mut(&mut contacts.approach)[..count],
+        &mut L::groups_mut(&mut contacts.approach_rate)[..count],
+        &mut L::groups_mut(&mut contacts.slip)[..count],
+    ]
+}
+
+/// What each contact asks of elementary functions: the elastic force of a healthy raceway (section 2), and tanh of the slip in place of the
+/// friction.
 #[inline(always)]
 fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
     let per_slip = L::splat(1.0 / model.friction.slip_velocity);
     for side in SIDES {
-        let exponent = model.contact(side).exponent;
+        let law = model.contact(side);
+        let stiffness = L::splat(law.stiffness);
         let contacts = &mut ws.contacts[side as usize];
-        let approach = groups(&contacts.approach);
-        let slip = &groups(&contacts.slip)[..approach.len()];
-        let power = &mut groups_mut(&mut contacts.power)[..approach.len()];
-        let tanh = &mut groups_mut(&mut contacts.friction)[..approach.len()];
-        let exposed = &ws.exposed[side as usize][..approach.len()];
-        let near = &mut ws.near[side as usize][..approach.len()];
-        for group in 0..approach.len() {
+        let approach = column::<L>(&contacts.approach, 0, count);
+        let slip = column::<L>(&contacts.slip, 0, count);
+        let exposed = &ws.exposed[side as usize][..count];
+        let power = &mut L::groups_mut(&mut contacts.power)[..count];
+        let elastic = &mut L::groups_mut(&mut contacts.elastic)[..count];
+        let tanh = &mut L::groups_mut(&mut contacts.friction)[..count];
+        let near = &mut ws.near[side as usize][..count];
+        for group in 0..count {
             let delta = L::new(approach[group]);
             // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
             near[group] = exposed[group] != 0 || delta.any_positive();
+            let mut x = L::zero();
             if near[group] {
-                power[group] = self::power(exponent, delta).array();
+                x = self::power(law.exponent, delta);
+            }
+            power[group] = x.array();
+            elastic[group] = (stiffness * x).array();
+        }
+        for group in 0..count {
+            if near[group] {
                 tanh[group] = lanes::tanh(L::new(slip[group]) * per_slip).array();
-            } else {
-                power[group] = [0.0; WIDTH];
             }
         }
     }
 }
 
-/// Normal forces (section 2) and damage (section 3), friction (section 4), pockets (section 5), drag (section 7) and the rollers' own
-/// motion (Eq. 51).
+/// Elastic forces of the contacts that stand on damage, section 3, in place of those of healthy raceways.
+#[inline(always)]
+fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+    for side in SIDES {
+        let k = side as usize;
+        if model.exposure[k].slots.is_empty() {
+            continue;
+        }
+        let contacts = &mut ws.contacts[k];
+        contacts.on_damage.fill(false);
+        contacts.damaged_length.fill(0.0);
+        let count = model.layout.slots / L::COUNT;
+        for (group, exposed) in ws.exposed[k][..count].iter().enumerate() {
+            if *exposed != 0 {
+                let first = group * L::COUNT;
+                on_damage(model, (side, first, *exposed), (q, ring_angle), contacts);
+            }
+        }
+    }
+}
+
+/// `exposed` has a bit for each slot from `first`.
+#[inline(never)]
+fn on_damage(
+    model: &Model,
+    (side, first, mut exposed): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    contacts: &mut Contacts,
+) {
+    let l = &model.layout;
+    while exposed != 0 {
+        let slot = first + exposed.trailing_zeros() as usize;
+        exposed &= exposed - 1;
+        let angles = Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: ring_angle,
+        };
+        let acting = acting_given(
+            model.defects_of(slot, side),
+            model.contact(side),
+            &angles,
+            side,
+            contacts.approach[slot],
+            contacts.power[slot],
+        );
+        if let Some(acting) = acting {
+            contacts.elastic[slot] = acting.elastic;
+            contacts.on_damage[slot] = true;
+            contacts.damaged_length[slot] = acting.floor.damaged_length;
+        }
+    }
+}
+
+/// One side's contacts as the forces read and write them.
+struct Closed<'a, L: Lanes> {
+    near: &'a [bool],
+    rate: &'a [L::Group],
+    slip: &'a [L::Group],
+    elastic: &'a [L::Group],
+    /// tanh of the slip, and then the friction.
+    friction: &'a mut [L::Group],
+    force: &'a mut [L::Group],
+    damping: L,
+    heaviest: L,
+}
+
+impl<'a, L: Lanes> Closed<'a, L> {
+    #[inline(always)]
+    fn new(contacts: &'a mut Contacts, near: &'a [bool], damping: f64, count: usize) -> Self {
+        Self {
+            near: &near[..count],
+            rate: column::<L>(&contacts.approach_rate, 0, count),
+            slip: column::<L>(&contacts.slip, 0, count),
+            elastic: column::<L>(&contacts.elastic, 0, count),
+            friction: &mut L::groups_mut(&mut contacts.friction)[..count],
+            force: &mut L::groups_mut(&mut contacts.force)[..count],
+            damping: L::splat(damping),
+            heaviest: L::zero(),
+        }
+    }
+
+    /// Normal force (section 2) and friction (section 4).
+    #[inline(always)]
+    fn act(&mut self, group: usize, mu: L, flows: &mut Flows<L>) -> (L, L) {
+        let (mut normal, mut friction) = (L::zero(), L::zero());
+        if self.near[group] {
+            let elastic = L::new(self.elastic[group]);
+            let rate = L::new(self.rate[group]);
+            let pressed = rate.times_plus(self.damping, elastic).positive_part();
+            normal = elastic.if_above(L::zero(), pressed, L::zero());
+            // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
+            friction = mu * normal * L::new(self.friction[group]);
+            flows.contact = (normal - elastic).times_plus(rate, flows.contact);
+            flows.friction = friction.times_plus(L::new(self.slip[group]), flows.friction);
+            self.heaviest = self.heaviest.at_least(elastic);
+        }
+        self.force[group] = normal.array();
+        self.friction[group] = friction.array();
+        (normal, friction)
+    }
+}
+
+/// Normal forces and friction, pockets (section 5), drag (section 7) and the rollers' own motion (Eq. 51).
 #[inline(always)]
 fn forces<L: Lanes>(
     model: &Model,
     q: &[f64],
     v: &[f64],
     a: &mut [f64],
-    (w, ring_angle): (f64, f64),
+    w: f64,
     ws: &mut Workspace,
 ) -> Sums {
     let l = &model.layout;
     let g = &model.geometry;
     let m = &model.inertia;
-    let groups = l.slots / WIDTH;
-    let [q_r, q_theta, _] = columns(q, groups);
-    let [v_r, v_theta, v_phi] = columns(v, groups);
-    let live = column(&model.live, 0, groups);
-    let pocket_angle = column(&model.pocket_angle, 0, groups);
-    let pocket_gap = column(&model.pocket_gap, 0, groups);
+    let count = l.slots / L::COUNT;
+    let [q_r, q_theta, _] = columns::<L>(q, count);
+    let [v_r, v_theta, v_phi] = columns::<L>(v, count);
+    let live = column::<L>(&model.live, 0, count);
+    let pocket_angle = column::<L>(&model.pocket_angle, 0, count);
+    let pocket_gap = column::<L>(&model.pocket_gap, 0, count);
     let heavy = model.gravity != [0.0; 2];
     let (xi, xo) = (pair(&q[l.inner()..]), pair(&q[l.outer()..]));
     let cage_at = l.cage(0);
     a[cage_at..cage_at + 3 * l.rows].fill(0.0);
     let (a_rollers, a_bodies) = a.split_at_mut(cage_at);
-    let [out_r, out_theta, out_phi] = columns_mut(a_rollers, groups);
+    let [out_r, out_theta, out_phi] = columns_mut::<L>(a_rollers, count);
+    let Workspace {
+        sin,
+        cos,
+        contacts: [inner, outer],
+        near: [near_in, near_out],
+        pocket_force,
+        pocket_friction,
+        ..
+    } = ws;
+    let sin = column::<L>(sin, 0, count);
+    let cos = column::<L>(cos, 0, count);
+    let pocket_force = &mut L::groups_mut(pocket_force)[..count];
+    let pocket_friction = &mut L::groups_mut(pocket_friction)[..count];
+    let mut inner = Closed::<L>::new(inner, near_in, model.inner_contact.damping, count);
+    let mut outer = Closed::<L>::new(outer, near_out, model.outer_contact.damping, count);
 
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let surface = L::splat(w * g.inner_radius);
     let gravity = pair(&model.gravity);
-    let damping = [
-        L::splat(model.inner_contact.damping),
-        L::splat(model.outer_contact.damping),
-    ];
     let mu = L::splat(model.friction.coefficient);
     let per_mass = L::splat(1.0 / m.roller);
     let per_spin = L::splat(1.0 / m.roller_spin);
     let drag_factor = L::splat(model.drag);
     let one = L::splat(1.0);
 
-    let mut heaviest = [L::zero(); 2];
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
     let mut flows = Flows {
@@ -337,57 +416,20 @@ fn forces<L: Lanes>(
         drag: L::zero(),
         lever: L::zero(),
     };
-    let period = model.row_lanes.len();
-    for (phase, rows) in model.row_lanes.iter().enumerate() {
-        let cage = Cages::<L>::spread(model, q, v, rows);
+    let period = l.row_period() / L::COUNT;
+    for phase in 0..period {
+        let cage = Cages::<L>::spread(model, q, v, phase);
         let [mut to_x, mut to_y, mut to_spin] = [L::zero(); 3];
-        for group in (phase..groups).step_by(period) {
+        let mut group = phase;
+        while group < count {
             let (r, theta) = (L::new(q_r[group]), L::new(q_theta[group]));
             let dr = L::new(v_r[group]);
             let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
-            let (sin, cos) = (at(&ws.sin, group), at(&ws.cos, group));
+            let (sin, cos) = (L::new(sin[group]), L::new(cos[group]));
             let axes = (sin, cos);
             let orbit_speed = pitch * dtheta;
-
-            // Normal forces and raceway friction.
-            let mut normal = [L::zero(); 2];
-            let mut friction = [L::zero(); 2];
-            for side in SIDES {
-                let k = side as usize;
-                let law = model.contact(side);
-                let contacts = &mut ws.contacts[k];
-                if !model.exposure[k].slots.is_empty() {
-                    contacts.on_damage[group * WIDTH..][..WIDTH].fill(false);
-                    contacts.damaged_length[group * WIDTH..][..WIDTH].fill(0.0);
-                }
-                let mut elastic = L::zero();
-                if ws.near[k][group] {
-                    elastic = L::splat(law.stiffness) * at(&contacts.power, group);
-                    if ws.exposed[k][group] != 0 {
-                        elastic = damaged_contacts(
-                            model,
-                            (side, group, ws.exposed[k][group]),
-                            (q, ring_angle),
-                            elastic,
-                            contacts,
-                        );
-                    }
-                    let rate: L = at(&contacts.approach_rate, group);
-                    let pressed = rate.times_plus(damping[k], elastic).positive_part();
-                    normal[k] = elastic.if_above(L::zero(), pressed, L::zero());
-                    // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
-                    friction[k] = mu * normal[k] * at(&contacts.friction, group);
-                    flows.contact = (normal[k] - elastic).times_plus(rate, flows.contact);
-                    flows.friction =
-                        friction[k].times_plus(at(&contacts.slip, group), flows.friction);
-                }
-                heaviest[k] = heaviest[k].at_least(elastic);
-                put(elastic, &mut contacts.elastic, group);
-                put(normal[k], &mut contacts.force, group);
-                put(friction[k], &mut contacts.friction, group);
-            }
-            let [q_in, q_out] = normal;
-            let [f_in, f_out] = friction;
+            let (q_in, f_in) = inner.act(group, mu, &mut flows);
+            let (q_out, f_out) = outer.act(group, mu, &mut flows);
             flows.drive = f_in.times_plus(surface, flows.drive);
 
             // Pocket.
@@ -418,6 +460,8 @@ fn forces<L: Lanes>(
                 to_y -= push * cos + rub * sin;
                 to_spin += rub_moment - push * pitch;
             }
+            pocket_force[group] = push.array();
+            pocket_friction[group] = rub.array();
 
             // Roller.
             let drag = drag_factor * orbit_speed * orbit_speed.abs();
@@ -448,20 +492,21 @@ fn forces<L: Lanes>(
             let levers = r.times_plus(tangential, q_in * xi_t);
             let levers = push.minus_times(xc_r, q_out.minus_times(xo_t, levers));
             flows.lever = dtheta.times_plus(levers, flows.lever);
-            put(push, &mut ws.pocket_force, group);
-            put(rub, &mut ws.pocket_friction, group);
+            group += period;
         }
-        for (row, lanes) in rows.iter().enumerate() {
-            let lanes = L::new(*lanes);
+        for (row, lanes) in model.row_lanes.iter().enumerate() {
+            let lanes = L::new(L::groups(lanes)[phase]);
             for (k, sum) in [to_x, to_y, to_spin].into_iter().enumerate() {
                 a_bodies[3 * row + k] += (sum * lanes).sum();
             }
         }
     }
-    ws.heaviest = [heaviest[0].array(), heaviest[1].array()];
+    for (to, from) in ws.heaviest.iter_mut().zip([inner.heaviest, outer.heaviest]) {
+        L::groups_mut(to)[0] = from.array();
+    }
     Sums {
-        on_inner: [on_inner[0].sum(), on_inner[1].sum()],
-        on_outer: [on_outer[0].sum(), on_outer[1].sum()],
+        on_inner: on_inner.map(L::sum),
+        on_outer: on_outer.map(L::sum),
         power: Power {
             contact: flows.contact.sum(),
             friction: flows.friction.sum(),

@@ -1,0 +1,122 @@
+//! A defect's numbers, and what to say of them.
+
+use crate::say::short;
+use brinell::defect::{Defect, Shape};
+use brinell_report::{Fact, Value};
+
+/// One defect's numbers; lengths in mm, depths in um.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Measures {
+    pub(crate) length_mm: f64,
+    pub(crate) arc_deg: f64,
+    pub(crate) widest_mm: f64,
+    pub(crate) area_mm2: f64,
+    pub(crate) mean_depth_um: f64,
+    pub(crate) deepest_um: f64,
+    pub(crate) raised_um: f64,
+    pub(crate) pass_ms: f64,
+    pub(crate) speed_rpm: f64,
+    pub(crate) load_zone_share: Option<f64>,
+    pub(crate) approach_um: f64,
+    pub(crate) force_n: Option<f64>,
+}
+
+/// s over the arc at equal distances, a hair inside its ends.
+fn along(shape: &Shape, points: usize) -> impl Iterator<Item = f64> + use<> {
+    let (first, last) = shape.arc();
+    let inset = 1e-9 * (last - first);
+    (0..points).map(move |k| {
+        let share = k as f64 / (points - 1) as f64;
+        first + inset + (last - first - 2.0 * inset) * share
+    })
+}
+
+pub(super) fn widest(defect: &Defect) -> f64 {
+    along(&defect.shape, 20_001)
+        .map(|s| defect.damaged_length(s))
+        .fold(0.0, f64::max)
+}
+
+/// Deepest point and height of the highest raised edge, m.
+pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
+    let own = match &defect.shape {
+        Shape::DepthMap(grid) => grid.extremes().0,
+        shape => along(shape, 20_001)
+            .map(|s| shape.own_depth(s).unwrap_or(defect.depth))
+            .fold(0.0, f64::max),
+    };
+    (own, defect.shape.raised())
+}
+
+pub(super) fn facts(m: &Measures, defect: &Defect) -> Vec<Fact> {
+    let fact = |label: &str, value: f64, digits: usize, unit: &str, note: String| {
+        Fact::new(label, Value::Text(short(value, digits)), unit, note)
+    };
+    let none = String::new;
+    let floor = if m.deepest_um > m.approach_um {
+        format!(
+            "deeper than the approach of {} μm: a roller's line does not reach its floor",
+            short(m.approach_um, 3)
+        )
+    } else {
+        format!(
+            "less than the approach of {} μm: the floor carries too",
+            short(m.approach_um, 3)
+        )
+    };
+    let mut facts = vec![
+        fact(
+            "Length",
+            m.length_mm,
+            4,
+            "mm",
+            "along the rolling direction".into(),
+        ),
+        fact("Arc", m.arc_deg, 4, "°", "of the damaged surface".into()),
+        fact(
+            "Widest",
+            m.widest_mm,
+            4,
+            "mm",
+            format!(
+                "largest L_s; the roller is {} mm long",
+                short(1e3 * defect.roller_length, 4)
+            ),
+        ),
+        fact("Area", m.area_mm2, 4, "mm^2", none()),
+        fact(
+            "Mean depth",
+            m.mean_depth_um,
+            4,
+            "μm",
+            "volume over area".into(),
+        ),
+        fact("Deepest", m.deepest_um, 4, "μm", floor),
+        fact(
+            "Time to pass",
+            m.pass_ms,
+            4,
+            "ms",
+            format!("of the line of contact, at {} r/min", short(m.speed_rpm, 4)),
+        ),
+    ];
+    if m.raised_um > 0.0 {
+        facts.push(fact(
+            "Raised edge",
+            m.raised_um,
+            4,
+            "μm",
+            "felt by the law \"sliced\"".into(),
+        ));
+    }
+    if let Some(share) = m.load_zone_share {
+        facts.push(fact(
+            "Share of the load zone",
+            100.0 * share,
+            3,
+            "%",
+            "arc over the static load zone of the healthy bearing".into(),
+        ));
+    }
+    facts
+}
