@@ -4,9 +4,11 @@
 //! decimals that read back to the same 64 bits. Parquet holds optional columns of doubles and of UTF-8; units and metadata go to its footer
 //! under the same keys as those of signals. The same table gives the same bytes.
 
+#[cfg(feature = "parquet")]
+use crate::Metadata;
 use crate::atomic::PartialFile;
 use crate::signals::check_columns;
-use crate::{Column, IoError, Metadata};
+use crate::{Column, IoError};
 use std::path::{Path, PathBuf};
 
 /// A column's cells, one a row.

@@ -277,11 +277,12 @@ fn bound(model: &Model, moments: &[Moment; 2]) {
     for (place, moment) in ["off damage", "on damage"].into_iter().zip(moments) {
         let n = counted(model, moment);
         println!(
-            "{place}: {} flops a right-hand side, {} rollers in {} slots; groups of eight: {} fused, {} products, {} sums, {} quotients, \
+            "{place}: {} flops a right-hand side, {} rollers in {} slots; groups of {}: {} fused, {} products, {} sums, {} quotients, \
              {} comparisons and moves of bits",
             n.flops(),
             model.layout.rollers(),
             model.layout.slots,
+            Portable::COUNT,
             n.fused,
             n.products,
             n.sums,
