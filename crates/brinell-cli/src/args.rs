@@ -51,6 +51,8 @@ pub(crate) enum Command {
     Sweep(crate::sweep::SweepArgs),
     /// Lay scenarios side by side: signals, spectra, contact over the defect, impacts, ratios with intervals
     Compare(crate::compare::CompareArgs),
+    /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
+    Calibrate(Box<crate::calibrate::CalibrateArgs>),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

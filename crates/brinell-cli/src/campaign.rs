@@ -5,7 +5,7 @@
 
 use crate::failure::Failure;
 use crate::progress::Joint;
-use brinell::campaign::{Finished, Row, finish};
+use brinell::campaign::{Finished, Quantity, Row, finish};
 use brinell::channel::Frame;
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
@@ -71,6 +71,11 @@ impl Ledger {
         self.rows.get(fingerprint)
     }
 
+    /// Scenarios that are finished.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Whether a scenario is finished, but by another version of this program.
     pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
         self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
@@ -106,6 +111,16 @@ pub(crate) trait Work: Sync {
         scenario: &Scenario,
         simulation: &Simulation,
     ) -> Result<Option<Box<dyn SignalWriter>>, Failure>;
+
+    /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
+    fn hears(&self) -> Option<usize> {
+        None
+    }
+
+    /// Numbers for the row beside the run's own, from what was heard after the run had settled.
+    fn besides(&self, _heard: &[f64]) -> Vec<Quantity> {
+        Vec::new()
+    }
 }
 
 /// How the tasks went.
@@ -126,6 +141,18 @@ pub(crate) fn run(
 ) -> Result<Went, Failure> {
     let total = tasks.iter().map(|task| task.duration_s).sum();
     let mut joint = Joint::new(tasks.len(), total, quiet);
+    run_within(tasks, work, ledger, threads, &mut joint, stop)
+}
+
+/// [`run()`] as a part of the work that `joint` shows.
+pub(crate) fn run_within(
+    tasks: &[Task],
+    work: &impl Work,
+    ledger: &mut Ledger,
+    threads: NonZeroUsize,
+    joint: &mut Joint,
+    stop: &AtomicBool,
+) -> Result<Went, Failure> {
     let bar = joint.bar();
     let (mut interrupted, mut failure) = (false, None);
     brinell::many::each(
@@ -155,7 +182,6 @@ pub(crate) fn run(
             joint.ended(&[], Path::new(""));
         },
     );
-    drop(joint);
     match failure {
         Some(failure) => Err(failure),
         None => Ok(Went { interrupted }),
@@ -188,6 +214,8 @@ fn one(
         sample_rate: simulation.sample_rate(),
         writer: work.signals(task, &scenario, &simulation)?,
         failed: None,
+        hears: work.hears(),
+        heard: Vec::new(),
         progress,
         stop,
     };
@@ -204,10 +232,16 @@ fn one(
     if let Some(writer) = recorder.writer {
         writer.finish(outcome)?;
     }
-    Ok(Some(row(numbers(&finished).map_err(|e| e.to_string()))))
+    let mut numbers = numbers(&finished).map_err(|e| e.to_string());
+    if let Ok(numbers) = &mut numbers {
+        let settled = (finished.findings.from * recorder.sample_rate).ceil() as usize;
+        let heard = recorder.heard.get(settled..).unwrap_or(&[]);
+        numbers.extend(work.besides(heard));
+    }
+    Ok(Some(row(numbers)))
 }
 
-fn numbers(finished: &Finished) -> Result<Vec<brinell::campaign::Quantity>, RunError> {
+fn numbers(finished: &Finished) -> Result<Vec<Quantity>, RunError> {
     match &finished.outcome.end {
         End::Failed(error) => Err(error.clone()),
         _ => Ok(finished.quantities()),
@@ -220,6 +254,8 @@ struct Recorder<'a> {
     sample_rate: f64,
     writer: Option<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
+    hears: Option<usize>,
+    heard: Vec<f64>,
     progress: crate::progress::Progress,
     stop: &'a AtomicBool,
 }
@@ -227,7 +263,10 @@ struct Recorder<'a> {
 impl Observer for Recorder<'_> {
     fn step(&mut self, _: &Frame) {}
 
-    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
+            self.heard.push(*x);
+        }
         let Some(writer) = &mut self.writer else {
             return ControlFlow::Continue(());
         };

@@ -1,7 +1,7 @@
 //! `brinell sweep`: keys over lists and ranges, many runs, one table and its plots.
 
 mod args;
-mod cost;
+pub(crate) mod cost;
 mod page;
 mod points;
 mod table;
@@ -16,7 +16,9 @@ use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
 pub(crate) use page::words;
-use page::{plural, usual};
+pub(crate) use page::plural;
+use page::usual;
+pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
@@ -185,7 +187,7 @@ fn tell_plan(
 }
 
 /// Wall time to one or two digits: no trial knows more.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "a second".into(),
         s if s < 100.0 => format!("{} s", s.ceil()),

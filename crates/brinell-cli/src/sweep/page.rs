@@ -81,7 +81,7 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
     }
 }
 
-pub(super) fn plural(n: usize, word: &str) -> String {
+pub(crate) fn plural(n: usize, word: &str) -> String {
     format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
 

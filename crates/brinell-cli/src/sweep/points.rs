@@ -147,7 +147,7 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
 }
 
 /// A failure on one line.
-fn reason(failure: &Failure) -> String {
+pub(crate) fn reason(failure: &Failure) -> String {
     let text = match failure {
         Failure::Scenario { problems, .. } => {
             let errors = problems

@@ -1,12 +1,16 @@
 //! One fit from its first point to the Jacobian at its best: who asks for how many runs, and what they weigh.
 //!
-//! A third of the runs is spread over the whole cube, a third flies with the swarm, and the rest goes downhill from the best places;
+//! A quarter of the runs is spread over the whole cube, a fifth flies with the swarm, and the rest goes downhill from the best places;
 //! so many are kept back that each key can be moved to both sides of the best point.
 
 use super::identify::{Identified, column_noise, identify};
 use super::search::{Ask, Halt, STEP, around, chi_square, latin_hypercube, local, slopes, swarm};
 use super::target::{Answer, Target, residuals};
 use std::cell::RefCell;
+
+/// Runs a batch of points of the unit cube: answers in the order of the points, `None` for a run that failed; it may refuse with
+/// [`Unfit::Interrupted`].
+pub type Run<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> + 'a;
 
 /// How a search is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,7 +106,7 @@ pub fn least_budget(keys: usize) -> usize {
 
 /// Runs of the start: those of [`latin_hypercube`] with the seed.
 pub fn start_size(keys: usize, budget: usize) -> usize {
-    (2 * keys + 2).max(3 * budget / 10)
+    (2 * keys + 2).max(budget / 4)
 }
 
 /// A drop of the sum of squares that counts.
@@ -118,7 +122,7 @@ const APART: f64 = 0.15;
 /// What has been asked.
 struct Book<'a> {
     targets: &'a [Target],
-    ask: &'a mut dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit>,
+    ask: &'a mut Run<'a>,
     evaluations: Vec<Evaluation>,
     sigma: Vec<f64>,
     stage: Stage,
@@ -208,19 +212,18 @@ impl Book<'_> {
     }
 }
 
-/// Fits `keys` keys to targets. `ask` runs a batch of points of the unit cube; its answers come in the order of the points, `None` for a run
-/// that failed, and it may refuse with [`Unfit::Interrupted`]. The same answers make the same fit.
+/// Fits `keys` keys to targets. The same answers make the same fit.
 ///
 /// # Errors
 /// Where it was interrupted, or no run says anything of some target.
 ///
 /// # Panics
 /// Where the budget is below [`least_budget`], or there is no target.
-pub fn fit(
+pub fn fit<'a>(
     keys: usize,
-    targets: &[Target],
+    targets: &'a [Target],
     settings: Settings,
-    ask: &mut dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit>,
+    ask: &'a mut Run<'a>,
 ) -> Result<Fit, Unfit> {
     assert!(keys > 0 && settings.budget >= least_budget(keys) && !targets.is_empty());
     let start = start_size(keys, settings.budget);
@@ -250,7 +253,8 @@ pub fn fit(
     let own = book.weigh();
 
     let particles = (2 * keys + 2).min(start);
-    let rounds = (settings.budget.saturating_sub(start + reserve) / 2) / particles;
+    let rounds =
+        (settings.budget.saturating_sub(start + reserve)).min(settings.budget / 5) / particles;
     let population: Vec<(Vec<f64>, f64)> = (book.ranked().into_iter().take(particles))
         .map(|k| &book.evaluations[k])
         .map(|e| (e.place.clone(), e.chi_square))

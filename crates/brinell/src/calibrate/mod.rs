@@ -14,6 +14,6 @@ pub mod signature;
 mod target;
 
 pub use error::CalibrateError;
-pub use fit::{Evaluation, Fit, Settings, Stage, Unfit, fit, least_budget, start_size};
+pub use fit::{Evaluation, Fit, Run, Settings, Stage, Unfit, fit, least_budget, start_size};
 pub use key::{Key, check as check_keys};
 pub use target::{Answer, MISSING, Target, check as check_targets, residuals};
