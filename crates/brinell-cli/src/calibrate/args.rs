@@ -13,8 +13,8 @@ use std::path::PathBuf;
     defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they stand out. --model-uncertainty is \
     what a model may differ by from a machine, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\
     The search: a quarter of the runs is spread over the bounds (Latin hypercube), a fifth follows a particle swarm, the rest goes downhill \
-    from the best places (Levenberg and Marquardt); two runs a key are kept for the Jacobian at the best point. Differences are taken over a \
-    tenth of a key's range, and up to four tenths where that does not stand out of the runs' own uncertainty: impacts amplify round-off, so that an \
+    from the best places (Levenberg and Marquardt); two to four runs a key are kept for the Jacobian at the best point. Differences are taken over a \
+    tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect does not stand out of that: impacts amplify round-off, so that an \
     RMS is uncertain by a per cent, which finer differences would take for a slope. Residuals weigh with the target's uncertainty and the runs' own together.\n\n\
     Files in the folder:\n  \
     best.toml        the scenario with the best values; `brinell run` takes it\n  \

@@ -132,7 +132,7 @@ impl Outcome<'_> {
             columns: ["Target", "Unit", "#Wanted", "#Best run", "#Residual"].map(String::from).to_vec(),
             rows: self.compared.iter().map(row).collect(),
             note: "Uncertainties are standard ones (one sigma). A residual is the difference over the target's uncertainty and the runs' own together, \
-                   the latter being the median over the better half of the start, so that no run is preferred for being uncertain."
+                   the latter being the median over the best few runs, the same for all, so that no run is preferred for being uncertain."
                 .into(),
         }
     }

@@ -27,7 +27,7 @@ impl Outcome<'_> {
         });
         let freedom = match identified.freedom {
             1.. => plural(identified.freedom as usize, "degree") + " of freedom",
-            _ => "no degree of freedom: any misfit could be met by as many keys".into(),
+            _ => "no degree of freedom left".into(),
         };
         let base = format!(
             "chi-square {} over {}, {freedom}{chance}",
@@ -86,6 +86,7 @@ impl Outcome<'_> {
     /// Keys and combinations that the data leave open.
     pub(super) fn undetermined(&self) -> Vec<String> {
         let mut all = Vec::new();
+        let noise = self.fit.identified.directions.iter().any(|d| d.noise > 0.0);
         for found in self.found.iter().filter(|f| !f.is_determined()) {
             let width = 2.0 * found.half_width;
             all.push(if width.is_finite() {
@@ -94,11 +95,13 @@ impl Outcome<'_> {
                     found.name,
                     short(width, 2)
                 )
-            } else {
+            } else if noise {
                 format!(
-                    "{}: not determined; the data say nothing of it.",
+                    "{}: not determined; what it changes does not stand out of the runs' own uncertainty.",
                     found.name
                 )
+            } else {
+                format!("{}: not determined; the data say nothing of it.", found.name)
             });
         }
         for direction in &self.fit.identified.directions {
@@ -171,8 +174,9 @@ impl Found {
         match self.interval {
             Some((low, high)) => format!("95 %: {} to {}", short(low, 4), short(high, 4)),
             None => format!(
-                "not determined between {:?} and {:?}",
-                self.bounds.0, self.bounds.1
+                "not determined between {} and {}",
+                short(self.bounds.0, 4),
+                short(self.bounds.1, 4)
             ),
         }
     }

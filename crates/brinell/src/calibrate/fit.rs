@@ -1,7 +1,7 @@
 //! One fit from its first point to the Jacobian at its best: who asks for how many runs, and what they weigh.
 //!
 //! A quarter of the runs is spread over the whole cube, a fifth flies with the swarm, and the rest goes downhill from the best places;
-//! so many are kept back that each key can be moved to both sides of the best point.
+//! so many are kept back that each key can be moved to both sides of the best point, twice where the budget allows it.
 
 use super::identify::{Identified, column_noise, identify};
 use super::search::{Ask, Halt, STEP, around, chi_square, latin_hypercube, local, slopes, swarm};
@@ -111,6 +111,8 @@ pub fn start_size(keys: usize, budget: usize) -> usize {
 
 /// A drop of the sum of squares that counts.
 const BETTER: f64 = 1.0;
+/// A run's share of a target's uncertainty from which on runs count as noisy.
+const NOISY: f64 = 0.1;
 /// A difference should stand so many times above its noise.
 const ABOVE_NOISE: f64 = 3.0;
 /// Half the distance of a difference at most, in ranges.
@@ -184,19 +186,16 @@ impl Book<'_> {
         order
     }
 
-    /// The weights, from what the better half of the start says of its own uncertainty: fixed from here on, so that no point is
+    /// The weights, from what the `count` best runs say of their own uncertainty. They are the same for all runs, so that none is
     /// preferred for being uncertain.
-    fn weigh(&mut self) -> Vec<f64> {
-        let half = self
-            .ranked()
-            .into_iter()
-            .take(self.evaluations.len().div_ceil(2));
-        let half: Vec<&Vec<Answer>> = half
+    fn weigh(&mut self, count: usize) -> Vec<f64> {
+        let best = self.ranked().into_iter().take(count);
+        let best: Vec<&Vec<Answer>> = best
             .filter_map(|k| self.evaluations[k].answers.as_ref())
             .collect();
         let own: Vec<f64> = (0..self.targets.len())
             .map(|t| {
-                let with = half.iter().filter(|a| a[t].value.is_some());
+                let with = best.iter().filter(|a| a[t].value.is_some());
                 let mut known: Vec<f64> = with.map(|a| a[t].uncertainty).collect();
                 known.sort_by(f64::total_cmp);
                 known.get(known.len() / 2).copied().unwrap_or(0.0)
@@ -227,7 +226,7 @@ pub fn fit<'a>(
 ) -> Result<Fit, Unfit> {
     assert!(keys > 0 && settings.budget >= least_budget(keys) && !targets.is_empty());
     let start = start_size(keys, settings.budget);
-    let reserve = 2 * keys;
+    let reserve = (4 * keys).min(settings.budget / 5).max(2 * keys);
     let mut book = Book {
         targets,
         ask,
@@ -250,7 +249,14 @@ pub fn fit<'a>(
             runs: start,
         });
     }
-    let own = book.weigh();
+    let own = book.weigh(start.div_ceil(2));
+    let noise: Vec<f64> = own
+        .iter()
+        .zip(&book.sigma)
+        .map(|(own, s)| own / s)
+        .collect();
+    let noisy = noise.iter().any(|n| *n > NOISY);
+    let step = if noisy { 2.0 * STEP } else { STEP };
 
     let particles = (2 * keys + 2).min(start);
     let rounds =
@@ -279,11 +285,18 @@ pub fn fit<'a>(
         }
     }
     for beginning in &beginnings {
-        stage(&mut book, |ask| local(ask, beginning, targets.len()))?;
+        stage(&mut book, |ask| local(ask, beginning, targets.len(), step))?;
     }
+    // Runs near the best are what the outcome rests on.
+    let own = book.weigh(particles);
+    let noise: Vec<f64> = own
+        .iter()
+        .zip(&book.sigma)
+        .map(|(own, s)| own / s)
+        .collect();
     book.stage = Stage::Around;
     book.limit = settings.budget;
-    let (centre, steps, identified) = look_around(&mut book, &own, keys)?;
+    let (centre, steps, identified) = look_around(&mut book, &noise, vec![step; keys])?;
     let best = book.best();
     Ok(Fit {
         residuals: book.residuals(best).unwrap_or_default(),
@@ -316,16 +329,11 @@ fn stage(
 /// than thrice the noise is moved further.
 fn look_around(
     book: &mut Book,
-    own: &[f64],
-    keys: usize,
+    noise: &[f64],
+    mut steps: Vec<f64>,
 ) -> Result<(usize, Vec<f64>, Identified), Unfit> {
-    let noise: Vec<f64> = own
-        .iter()
-        .zip(&book.sigma)
-        .map(|(own, s)| own / s)
-        .collect();
+    let keys = steps.len();
     let mut centre = book.best();
-    let mut steps = vec![STEP; keys];
     let mut last = None;
     loop {
         let place = book.evaluations[centre].place.clone();
@@ -340,7 +348,7 @@ fn look_around(
         let jacobian = slopes(&place, &middle, &points, &answers);
         let distance = |k: usize| points[2 * k + 1][k] - points[2 * k][k];
         let floor: Vec<f64> = (0..keys)
-            .map(|k| column_noise(&noise, distance(k)))
+            .map(|k| column_noise(noise, distance(k)))
             .collect();
         let identified = identify(&middle, &jacobian, &floor);
         last = Some((centre, steps.clone(), identified));

@@ -23,7 +23,8 @@ pub enum Halt {
 /// Answers a batch of points with their residuals; `None` for one that failed.
 pub type Ask<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Halt> + 'a;
 
-/// Half the distance of a difference, in the unit cube: a chaotic run is uncertain by per cents, which closer points would take for a slope.
+/// Half the distance of a difference at least, in the unit cube; twice that where runs state an uncertainty of their own: a chaotic run is
+/// uncertain by per cents, which closer points would take for a slope.
 pub const STEP: f64 = 0.05;
 /// Residual of a failed point for the local search, which then shortens its step.
 const FAILED: f64 = 1e4;
@@ -127,6 +128,7 @@ struct Local<'a, 'b> {
     place: Vec<f64>,
     residuals: Option<Vec<f64>>,
     count: usize,
+    step: f64,
 }
 
 impl Local<'_, '_> {
@@ -169,7 +171,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Local<'_, '_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let steps = vec![STEP; self.place.len()];
+        let steps = vec![self.step; self.place.len()];
         let inside = self.inside();
         let points = around(&inside, &steps);
         let answers = self.answer(&points)?;
@@ -231,7 +233,7 @@ pub fn slopes(
     slopes
 }
 
-/// Downhill from a point to where the sum of squares falls no more.
+/// Downhill from a point to where the sum of squares falls no more, by differences over `step` to either side.
 ///
 /// # Errors
 /// Where it was not answered.
@@ -239,6 +241,7 @@ pub fn local<'b>(
     ask: &RefCell<&'b mut Ask<'b>>,
     start: &[f64],
     residuals: usize,
+    step: f64,
 ) -> Result<(), Halt> {
     let mut problem = Local {
         ask,
@@ -246,6 +249,7 @@ pub fn local<'b>(
         place: start.to_vec(),
         residuals: None,
         count: residuals,
+        step,
     };
     problem.set_params(&DVector::from_column_slice(start));
     // Finer than a thousandth of the sum of squares, or of the range, is finer than the noise of a run.
