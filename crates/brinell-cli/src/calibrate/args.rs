@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[command(
     after_help = "A key is fitted within its bounds: KEY=LOW:HIGH, or KEY=LOW:HIGH:log where it is searched in its logarithm.\n\n\
     A target is a number of a run with its standard uncertainty (one sigma), in its unit or in per cent: NAME=VALUE~UNCERTAINTY. Names are those of \
-    the columns of `brinell sweep`: measured_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units.\n\n\
+    the columns of `brinell sweep`: measured_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
+    Extremes, such as row1.largest_outer_force, scatter too, though a run cannot say by how much: give them an uncertainty that covers it.\n\n\
     A measured signal (--measured) becomes targets itself: its octave levels and its envelope spectrum's at the first five harmonics of each \
     defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they stand out. --model-uncertainty is \
     what a model may differ by from a machine, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\

@@ -148,7 +148,6 @@ impl Plan {
                 .collect()
         };
         let centre = vec![0.5; keys.len()];
-        let middle = source.load(&settings(&centre), false)?;
         for k in 0..keys.len() {
             for end in [0.0, 1.0] {
                 let mut places = centre.clone();
@@ -156,6 +155,7 @@ impl Plan {
                 source.load(&settings(&places), true)?;
             }
         }
+        let middle = source.load(&settings(&centre), false)?;
         let units = keys.iter().map(|key| {
             let entry = middle.provenance.iter().find(|p| p.key == key.name);
             entry.map_or("", |p| p.unit)

@@ -6,6 +6,7 @@
 use super::identify::{Identified, column_noise, identify};
 use super::search::{Ask, Halt, STEP, around, chi_square, latin_hypercube, local, slopes, swarm};
 use super::target::{Answer, Target, residuals};
+use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 
 /// Runs a batch of points of the unit cube: answers in the order of the points, `None` for a run that failed; it may refuse with
@@ -117,6 +118,8 @@ const NOISY: f64 = 0.1;
 const ABOVE_NOISE: f64 = 3.0;
 /// Half the distance of a difference at most, in ranges.
 const WIDEST: f64 = 0.2;
+/// Longest step along an axis.
+const FARTHEST: f64 = 0.3;
 /// Places that the local search begins at, at most, and how far apart they lie at least.
 const BEGINNINGS: usize = 4;
 const APART: f64 = 0.15;
@@ -226,7 +229,7 @@ pub fn fit<'a>(
 ) -> Result<Fit, Unfit> {
     assert!(keys > 0 && settings.budget >= least_budget(keys) && !targets.is_empty());
     let start = start_size(keys, settings.budget);
-    let reserve = (4 * keys).min(settings.budget / 5).max(2 * keys);
+    let reserve = (4 * keys + 1).min(settings.budget / 5).max(2 * keys);
     let mut book = Book {
         targets,
         ask,
@@ -352,6 +355,11 @@ fn look_around(
             .collect();
         let identified = identify(&middle, &jacobian, &floor);
         last = Some((centre, steps.clone(), identified));
+        // Over wide differences the step of least squares sees past the roughness that stops a search downhill.
+        match book.indices(&[least_squares(&place, &middle, jacobian.clone())]) {
+            Err(Halt::Interrupted) => return Err(Unfit::Interrupted),
+            Ok(_) | Err(Halt::Budget) => {}
+        }
         let best = book.best();
         if book.evaluations[best].chi_square + BETTER < book.evaluations[centre].chi_square {
             centre = best;
@@ -374,4 +382,25 @@ fn look_around(
         // The reserve holds the first round.
         None => Err(Unfit::Interrupted),
     }
+}
+
+/// Where linear least squares expects the least misfit, no further than [`FARTHEST`] along any axis and within the cube. Directions with a
+/// thousandth of the largest singular value stay as they are.
+fn least_squares(place: &[f64], residuals: &[f64], jacobian: DMatrix<f64>) -> Vec<f64> {
+    let svd = jacobian.svd(true, true);
+    let least = 1e-3 * svd.singular_values.max();
+    let wanted = -DVector::from_column_slice(residuals);
+    let Ok(step) = svd.solve(&wanted, least) else {
+        return place.to_vec();
+    };
+    let longest = step.amax();
+    let scale = if longest > FARTHEST {
+        FARTHEST / longest
+    } else {
+        1.0
+    };
+    let moved = place.iter().zip(step.iter());
+    moved
+        .map(|(x, d)| (x + scale * d).clamp(0.0, 1.0))
+        .collect()
 }
