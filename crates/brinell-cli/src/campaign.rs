@@ -5,8 +5,7 @@
 
 use crate::failure::Failure;
 use crate::progress::Joint;
-use brinell::campaign::{Finished, Quantity, Row, finish};
-use brinell::channel::Frame;
+use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, RunError, Simulation, SolverWork};
 use brinell_io::{IoError, Journal, Outcome, SignalWriter};
@@ -205,6 +204,11 @@ fn one(
         result,
     };
     let scenario = work.scenario(task)?;
+    if fingerprint(&scenario) != task.fingerprint {
+        return Err(Failure::Usage(
+            "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now".into(),
+        ));
+    }
     let simulation = match Simulation::new(&scenario) {
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
@@ -261,8 +265,6 @@ struct Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn step(&mut self, _: &Frame) {}
-
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
             self.heard.push(*x);

@@ -44,6 +44,14 @@ pub(crate) fn short(x: f64, digits: usize) -> String {
     }
 }
 
+/// A value with its interval after it: `1.35 [1.30, 1.40]`.
+pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
+    match interval {
+        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
+        None => value,
+    }
+}
+
 /// [`short`], with 0 for what is round-off beside `scale`.
 pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
     const ROUND_OFF: f64 = 1e-12;

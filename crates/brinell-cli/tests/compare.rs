@@ -133,6 +133,14 @@ fn regress_what_cannot_be_compared() {
     call(&["--variant", "5:name=x"]).complains(&["`5` cannot name a run"]);
     call(&["actual.toml"]).complains(&["two runs would be called actual"]);
     call(&["--variant", "x:operation.speed_rpm=\"fast\""]).complains(&["operation.speed_rpm"]);
+    // Found before anything runs, not when the table is written.
+    for name in ["unit", "actual.low"] {
+        let variant = format!("{name}:operation.speed_rpm=1000");
+        call(&["--variant", &variant]).complains(&[&format!(
+            "two columns of compare.csv would be called {name}: rename a file or a variant"
+        )]);
+    }
+    call(&["--variant", "x:name=a; name=b"]).complains(&["name is set twice"]);
     call(&["none.toml"]).complains(&["cannot read none.toml"]);
     assert!(!folder.path().join("out").exists());
 }

@@ -227,6 +227,17 @@ fn regress_what_no_point_can_run_with_is_bad_input() {
         "--vary: operation.speed_rpm = 1000:500:100: the range's step leads away from its end; a step of -100 would reach it",
     ]);
     call(&["--vary", "a.b=1", "--vary", "a.b=2"]).complains(&["the sweep: a.b varies twice"]);
+    let depths = ["--vary", "defects.0.depth_um=10,20", "--set"];
+    call(&[&depths[..], &["defects.0.depth_um=5"]].concat()).complains(&[
+        "--set defects.0.depth_um=5: every point gives defects.0.depth_um another value",
+    ]);
+    call(&[
+        "--vary",
+        "operation={speed_rpm=900},{speed_rpm=950}",
+        "--set",
+        "operation.speed_rpm=1000",
+    ])
+    .complains(&["--set operation.speed_rpm=1000: every point gives operation another value"]);
     call(&["--together", "a=1,2; b=1"]).complains(&["--together: a and b have 2 and 1 values"]);
     call(&[
         "--vary",

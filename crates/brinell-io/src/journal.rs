@@ -1,7 +1,8 @@
 //! A journal: lines of JSON that are on the disk when [`Journal::append`] returns.
 //!
-//! Lines are only ever added. A line that a killed process left unfinished is the last one; it is cut off when the journal is opened
-//! again, and everything before it counts. One process at a time has a journal open.
+//! Lines are only ever added. A line that a killed process left unfinished is the last one and has no end; it is cut off when the journal
+//! is opened again, and everything before it counts. The first line is an object: a file that begins otherwise is somebody else's, and
+//! stays as it is. One process at a time has a journal open.
 
 use crate::IoError;
 use serde_json::Value;
@@ -21,7 +22,7 @@ impl Journal {
     /// Opens the journal, or starts one, and gives the lines that are in it.
     ///
     /// # Errors
-    /// Where another process has it open, it cannot be read or written, or a line before the last is no JSON.
+    /// Where another process has it open, it cannot be read or written, or a line that has its end is no JSON.
     pub fn open(path: impl AsRef<Path>) -> Result<(Self, Vec<Value>), IoError> {
         let path = path.as_ref();
         let mut file = OpenOptions::new()
@@ -84,25 +85,27 @@ impl Journal {
     }
 }
 
-/// The lines, and the bytes that they take. A last line without its end, or that is no JSON, was being written when the process died.
+/// The lines, and the bytes that they take. A last line without its end was being written when the process died; zeros are what some
+/// file systems leave of it.
 fn whole_lines(path: &Path, bytes: &[u8]) -> Result<(Vec<Value>, usize), IoError> {
     let mut lines = Vec::new();
     let mut good = 0;
-    for (number, line) in bytes.split_inclusive(|b| *b == b'\n').enumerate() {
-        let end = good + line.len();
+    for line in bytes.split_inclusive(|b| *b == b'\n') {
+        let unfinished = !line.ends_with(b"\n");
+        if unfinished && (good > 0 || matches!(line[0], b'{' | 0)) {
+            break;
+        }
         match serde_json::from_slice(line) {
-            Ok(value) if line.ends_with(b"\n") => lines.push(value),
-            Ok(_) => break,
-            Err(_) if end == bytes.len() => break,
-            Err(error) => {
+            Ok(value) if !unfinished => lines.push(value),
+            other => {
                 return Err(IoError::Journal {
                     path: path.to_owned(),
-                    line: number + 1,
-                    why: error.to_string(),
+                    line: lines.len() + 1,
+                    why: other.map_or_else(|error| error.to_string(), |_| "it has no end".into()),
                 });
             }
         }
-        good = end;
+        good += line.len();
     }
     Ok((lines, good))
 }

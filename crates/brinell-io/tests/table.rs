@@ -105,6 +105,21 @@ fn regress_a_journal_damaged_in_its_middle_is_an_error_and_stays_as_it_is() {
 }
 
 #[test]
+fn regress_a_file_that_is_no_journal_stays_as_it_is() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("journal.jsonl");
+    for text in ["my diary\n", "my diary", "{\"k\":0}\nnot json\n", "12"] {
+        fs::write(&path, text).unwrap();
+        let error = Journal::open(&path).unwrap_err().to_string();
+        assert!(error.contains("is no line of a journal"), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    }
+    // What some file systems leave of a line after a power cut.
+    fs::write(&path, "{\"k\":0}\n\0\0\0").unwrap();
+    assert_eq!(Journal::open(&path).unwrap().1, [json!({ "k": 0 })]);
+}
+
+#[test]
 fn regress_one_process_at_a_time() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("journal.jsonl");

@@ -6,6 +6,7 @@ use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
 use crate::embedded::base64;
 use crate::font;
+use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::page::figure;
 use crate::picture::{Paint, Picture, escape, ink};
 use crate::plots::{Layout, legend, marker_lanes, time_unit};
@@ -57,6 +58,8 @@ pub struct AnalysisReport {
     pub markers: Vec<Marker>,
     /// The band demodulated, Hz: shaded in the spectrum.
     pub band_hz: Option<(f64, f64)>,
+    /// Which bands are how impulsive.
+    pub kurtogram: Option<Kurtogram>,
     /// Findings, indicators, differences.
     pub tables: Vec<Table>,
 }
@@ -129,7 +132,8 @@ fn waveform(report: &AnalysisReport, layout: Layout, close: bool) -> Picture {
     let (unit, scale) = time_unit(to - from);
     let shown = |s: &Series| -> Vec<f64> {
         let bin = |t: f64| ((t / s.dt_s).max(0.0) as usize).min(s.values.len());
-        s.values[bin(from)..bin(to)].to_vec()
+        let end = bin(to);
+        s.values[bin(from).min(end)..end].to_vec()
     };
     let extremes = report.waveforms.iter().flat_map(shown);
     let spec = Spec {
@@ -231,12 +235,14 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
 /// The page's pictures, drawn wide.
 pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
     let wide = Layout::Wide;
-    vec![
+    let mut pictures = vec![
         waveform(report, wide, false),
         waveform(report, wide, true),
         spectrum(report, wide),
-        envelope(report, wide),
-    ]
+    ];
+    pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, wide)));
+    pictures.push(envelope(report, wide));
+    pictures
 }
 
 /// The self-contained page.
@@ -303,6 +309,16 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         |layout| spectrum(report, layout),
         &note(&report.spectra),
     );
+    if let Some(map) = &report.kurtogram {
+        page.push_str("</section>\n<section id=\"kurtogram\">\n<h2>Kurtogram</h2>\n");
+        let note = escape(&map.note);
+        figure(
+            &mut page,
+            "kurtogram",
+            |layout| kurtogram(map, layout),
+            &note,
+        );
+    }
     page.push_str("</section>\n<section id=\"envelope\">\n<h2>Envelope spectrum</h2>\n");
     figure(
         &mut page,

@@ -19,6 +19,7 @@ mod damage;
 mod data;
 mod embedded;
 mod font;
+mod kurtogram;
 mod load;
 mod motion;
 mod number;
@@ -37,7 +38,8 @@ mod thin;
 
 pub use analysis::{AnalysisReport, Table, analysis_html, analysis_pictures};
 pub use calibrate::{
-    CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot, key_plot,
+    CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot,
+    key_plot,
 };
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
@@ -46,6 +48,7 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+pub use kurtogram::{Kurtogram, KurtogramLevel};
 pub use load::{bin_centres, load_distribution};
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
 pub use orbit::{CageOrbit, CageOrbits, cage_orbit};

@@ -36,7 +36,7 @@ pub(crate) struct AnalyzeArgs {
     /// Shaft speed (the inner ring turns, the outer rests)
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
-    /// Channel that holds the shaft speed in r/min; its mean counts
+    /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
     /// Bearing by name
@@ -95,7 +95,7 @@ pub(crate) struct AnalyzeArgs {
     /// Skip so much of the signal's beginning
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) start: Option<f64>,
-    /// Analyse so much from there [default: what is there, up to 4194304 samples]
+    /// Analyse so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) duration: Option<f64>,
     /// Lay it over this: another file of signals, or the folder of a run

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Speed;
+use brinell::signal::Moments;
 use brinell_io::{Channel, IoError, RateSource, SignalFile, open};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -12,6 +13,9 @@ use std::path::{Path, PathBuf};
 pub(crate) const MOST: usize = 1 << 22;
 /// Steps between times may differ by so much from their mean, relative, before a rate is refused.
 const UNEVEN: f64 = 0.02;
+
+/// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
+const VARIES: f64 = 0.005;
 
 /// What was asked of a file.
 #[derive(Debug, Default)]
@@ -39,10 +43,32 @@ pub(crate) struct Measured {
     pub(crate) notes: Vec<String>,
     /// What deserves attention.
     pub(crate) warnings: Vec<String>,
-    /// Shaft speed that the file states, r/min, and where.
-    pub(crate) speed: Option<(f64, String)>,
+    /// What lies beyond the stretch, where the signal is longer than one analysis takes.
+    pub(crate) rest: Option<Rest>,
+    /// Shaft speed that the file states, and where.
+    pub(crate) speed: Option<StatedSpeed>,
     /// The scenario of the run that made the file.
     pub(crate) scenario: Option<Box<Loaded>>,
+}
+
+/// A speed that the file states.
+pub(crate) struct StatedSpeed {
+    /// Its mean, r/min.
+    pub(crate) rpm: f64,
+    /// Where it is stated.
+    pub(crate) source: String,
+    /// Time (s, from the stretch's beginning) and speed (r/min), where it varies by more than [`VARIES`].
+    pub(crate) course: Vec<(f64, f64)>,
+}
+
+impl StatedSpeed {
+    fn steady(rpm: f64, source: String) -> Self {
+        StatedSpeed {
+            rpm,
+            source,
+            course: Vec::new(),
+        }
+    }
 }
 
 fn usage(message: String) -> Failure {
@@ -99,10 +125,13 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         (None, None) => 0.0,
     };
     let skip = (start * rate).round() as usize;
-    let most = wanted
-        .duration
-        .map_or(MOST, |d| ((d * rate).round() as usize).max(1));
-    let (x, more) = stretch(&mut file, &name, skip, most)?;
+    let (x, rest) = match wanted.duration {
+        Some(d) => {
+            let most = ((d * rate).round() as usize).max(1);
+            (stretch(&mut file, &name, skip, most)?.0, None)
+        }
+        None => whole(&mut file, &name, skip, rate)?,
+    };
     if x.is_empty() {
         return Err(usage(format!(
             "{}: `{name}` holds no samples {}",
@@ -114,13 +143,23 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
             }
         )));
     }
-    if more && wanted.duration.is_none() {
+    if let Some(rest) = &rest {
         warnings.push(format!(
-            "the signal goes on; analysed were the first {MOST} samples ({:.1} s) from {start} s on; --start and --duration choose another stretch",
-            MOST as f64 / rate
+            "a long signal, {} samples: the verdict is on the first {MOST} ({:.1} s from {start} s on), and one on the last {} follows it; \
+             --start and --duration choose another stretch",
+            rest.samples,
+            MOST as f64 / rate,
+            rest.last.len()
         ));
     }
-    let speed = speed(&mut file, wanted, scenario.as_deref(), &name)?;
+    let seconds = x.len() as f64 / rate;
+    let speed = speed(
+        &mut file,
+        wanted,
+        scenario.as_deref(),
+        &name,
+        (start, seconds, rate),
+    )?;
     Ok(Measured {
         path,
         channel: name,
@@ -128,6 +167,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         rate,
         unit,
         start,
+        rest,
         notes,
         warnings,
         speed,
@@ -449,30 +489,68 @@ fn unit(
     )))
 }
 
-/// The speed that the file states, or a channel of speeds.
+/// The speed that the file states, or a channel of speeds; `stretch_of` is where the signal's stretch begins and how long it is, s,
+/// and the signal's rate, Hz.
 fn speed(
     file: &mut SignalFile,
     wanted: &Wanted,
     run: Option<&Loaded>,
     signal: &str,
-) -> Result<Option<(f64, String)>, Failure> {
+    (start, seconds, rate): (f64, f64, f64),
+) -> Result<Option<StatedSpeed>, Failure> {
     if let Some(text) = wanted.speed_channel {
-        let (name, _) = resolve(file, text, "--speed-channel")?;
-        let (values, _) = stretch(file, &name, 0, MOST)?;
-        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-        if !mean.is_finite() {
+        let (name, channel) = resolve(file, text, "--speed-channel")?;
+        // A channel of its own rate, or sampled with the signal.
+        let own = channel.rate.as_ref().map_or(rate, |r| r.hz);
+        let skip = (start * own).round() as usize;
+        let most = ((seconds * own).round() as usize).clamp(1, MOST);
+        let (values, _) = stretch(file, &name, skip, most)?;
+        if values.is_empty() {
             return Err(usage(format!(
-                "--speed-channel {name}: holds values that are missing"
+                "--speed-channel {name}: holds no values {start} s from its beginning"
             )));
         }
-        return Ok(Some((
-            mean,
-            format!("the mean of the channel `{name}`, taken as r/min"),
-        )));
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            return Err(usage(format!(
+                "--speed-channel {name}: holds the value {bad}; expected speeds in r/min"
+            )));
+        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let covers = values.len() as f64 / own;
+        let source = format!("the channel `{name}`, taken as r/min");
+        let course = course(&values, own, mean);
+        if course.is_empty() {
+            let source = format!("the mean of {source}");
+            return Ok(Some(StatedSpeed::steady(mean, source)));
+        }
+        if covers < 0.98 * seconds {
+            return Err(usage(format!(
+                "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
+                 known all along",
+                values.len()
+            )));
+        }
+        let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
+            (l.min(p.1), h.max(p.1))
+        });
+        if low <= 0.0 && high >= 0.0 {
+            return Err(usage(format!(
+                "--speed-channel {name}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way"
+            )));
+        }
+        let source = format!(
+            "{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft"
+        );
+        return Ok(Some(StatedSpeed {
+            rpm: mean,
+            source,
+            course,
+        }));
     }
     if let Some(run) = run {
         if let Speed::Constant(rpm) = run.scenario.operation.speed_rpm {
-            return Ok(Some((rpm, "the scenario of the run in the file".into())));
+            let source = "the scenario of the run in the file".into();
+            return Ok(Some(StatedSpeed::steady(rpm, source)));
         }
         return Ok(None);
     }
@@ -494,11 +572,23 @@ fn speed(
     };
     let (values, _) = stretch(file, &name, 0, 1)?;
     Ok((values.first().filter(|v| v.is_finite())).map(|rpm| {
-        (
-            *rpm,
-            format!("the variable `{name}` in the file, taken as r/min"),
-        )
+        let source = format!("the variable `{name}` in the file, taken as r/min");
+        StatedSpeed::steady(*rpm, source)
     }))
+}
+
+/// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the mean.
+fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
+    let seconds = f64::max(0.1, 120.0 / mean.abs().max(1.0));
+    let each = ((seconds * rate).round() as usize).max(1);
+    let points: Vec<(f64, f64)> = (values.chunks(each).enumerate())
+        .map(|(i, part)| {
+            let middle = (i * each) as f64 + 0.5 * part.len() as f64;
+            (middle / rate, part.iter().sum::<f64>() / part.len() as f64)
+        })
+        .collect();
+    let varies = (points.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs());
+    if varies { points } else { Vec::new() }
 }
 
 /// Up to `most` samples after the first `skip`, and whether there are more.
@@ -524,4 +614,63 @@ fn stretch(
     })
     .map_err(bad)?;
     Ok((values, more))
+}
+
+/// What lies beyond the first [`MOST`] samples of a long signal.
+pub(crate) struct Rest {
+    /// Samples of the whole, from the first one analysed on.
+    pub(super) samples: u64,
+    /// Their moments.
+    pub(super) moments: Moments,
+    /// Those that are not finite numbers.
+    pub(super) missing: u64,
+    /// The last [`MOST`] samples that do not belong to the first, or as many as there are.
+    pub(super) last: Vec<f64>,
+    /// Where those begin, s.
+    pub(super) last_start: f64,
+}
+
+/// All samples after the first `skip`, in one pass: the first [`MOST`] of them, and what lies beyond.
+fn whole(
+    file: &mut SignalFile,
+    name: &str,
+    skip: usize,
+    rate: f64,
+) -> Result<(Vec<f64>, Option<Rest>), Failure> {
+    let (mut first, mut passed) = (Vec::new(), 0);
+    let mut rest = Rest {
+        samples: 0,
+        moments: Moments::new(),
+        missing: 0,
+        last: Vec::new(),
+        last_start: 0.0,
+    };
+    // A ring; `at` is its oldest sample once it is full.
+    let mut at = 0;
+    file.read_pieces(name, |piece| {
+        let from = skip.saturating_sub(passed).min(piece.len());
+        passed += piece.len();
+        for value in &piece[from..] {
+            rest.samples += 1;
+            if value.is_finite() {
+                rest.moments.push(*value);
+            } else {
+                rest.missing += 1;
+            }
+            if first.len() < MOST {
+                first.push(*value);
+            } else if rest.last.len() < MOST {
+                rest.last.push(*value);
+            } else {
+                rest.last[at] = *value;
+                at = (at + 1) % MOST;
+            }
+        }
+        ControlFlow::Continue(())
+    })
+    .map_err(bad)?;
+    rest.last.rotate_left(at);
+    rest.last_start = (skip as u64 + rest.samples - rest.last.len() as u64) as f64 / rate;
+    let long = !rest.last.is_empty();
+    Ok((first, long.then_some(rest)))
 }

@@ -14,12 +14,20 @@ use brinell::analysis::{
     Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
     velocity,
 };
-use brinell::signal::{Band, Indicator, VelocityBands};
+use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
 use measured::{Measured, Wanted};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// Indicators that are told in words.
+const HEADLINES: [Indicator; 4] = [
+    Indicator::Rms,
+    Indicator::Peak,
+    Indicator::CrestFactor,
+    Indicator::Kurtosis,
+];
 
 /// Everything that words, JSON and page are made of.
 struct Result_ {
@@ -29,6 +37,8 @@ struct Result_ {
     speed: String,
     /// Where the defect frequencies come from.
     bearing: String,
+    /// The end of a long signal.
+    last: Option<Analysis>,
     velocity: Option<VelocityBands>,
     against: Option<Against>,
 }
@@ -41,7 +51,7 @@ struct Against {
 }
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
-    let measured = measured::load(
+    let mut measured = measured::load(
         &args.file,
         &Wanted {
             channel: args.channel.as_deref(),
@@ -66,7 +76,20 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     }
     options.tolerance = 0.01 * args.tolerance;
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
+    if args.speed.is_none() {
+        options.rotation = rotation(&measured)?;
+    }
     let analysis = look(&measured, &options)?;
+    let last = match measured.rest.as_mut() {
+        Some(rest) => Some(look_at_last(
+            &measured.path,
+            &measured.channel,
+            rest,
+            measured.rate,
+            &options,
+        )?),
+        None => None,
+    };
     let velocity = velocities(&measured, shaft);
     let against = match &args.against {
         Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
@@ -77,6 +100,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         analysis,
         speed: format!("shaft speed {rpm} r/min, from {speed}"),
         bearing,
+        last,
         velocity,
         against,
     };
@@ -107,7 +131,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
 fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
     let (rpm, source) = match (args.speed, &measured.speed) {
         (Some(rpm), _) => (rpm, "--speed".to_owned()),
-        (None, Some((rpm, source))) => (*rpm, source.clone()),
+        (None, Some(stated)) => (stated.rpm, stated.source.clone()),
         (None, None) => {
             return Err(Failure::Usage(format!(
                 "{}: the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME",
@@ -129,6 +153,47 @@ fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
             "{}, `{}`: {error}",
             measured.path.display(),
             measured.channel
+        ))
+    })
+}
+
+/// The shaft's angle over time, where its speed varies.
+fn rotation(measured: &Measured) -> Result<Option<Rotation>, Failure> {
+    let course = match &measured.speed {
+        Some(stated) if !stated.course.is_empty() => &stated.course,
+        _ => return Ok(None),
+    };
+    let points: Vec<(f64, f64)> = course
+        .iter()
+        .map(|(t, rpm)| (*t, rpm.abs() / 60.0))
+        .collect();
+    Rotation::from_speeds(&points)
+        .map(Some)
+        .map_err(|error| Failure::Usage(format!("the course of the speed: {error}")))
+}
+
+/// The last stretch of a long signal, which is given up for it.
+fn look_at_last(
+    path: &Path,
+    channel: &str,
+    rest: &mut measured::Rest,
+    rate: f64,
+    options: &Options,
+) -> Result<Analysis, Failure> {
+    let mut options = options.clone();
+    if options.rotation.take().is_some() {
+        return Err(Failure::Usage(format!(
+            "{}: a speed that varies is followed over {} samples at most; choose a stretch with --start and --duration",
+            path.display(),
+            measured::MOST
+        )));
+    }
+    let last = std::mem::take(&mut rest.last);
+    analysis_of(&last, rate, &options).map_err(|error| {
+        Failure::Usage(format!(
+            "{}, `{channel}`, from {:.3} s on: {error}",
+            path.display(),
+            rest.last_start
         ))
     })
 }
@@ -169,9 +234,10 @@ fn lay_over(
     other.x.iter_mut().for_each(|v| *v *= factor);
     other.unit = measured.unit.clone();
     let mut options = analysis.options.clone();
-    if let Some((rpm, _)) = &other.speed {
-        options.shaft = rpm.abs() / 60.0;
+    if let Some(stated) = &other.speed {
+        options.shaft = stated.rpm.abs() / 60.0;
     }
+    options.rotation = rotation(&other)?;
     if let Some(run) = &other.scenario {
         let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
         options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);
@@ -214,6 +280,19 @@ fn as_json(result: &Result_) -> String {
         "speed": result.speed,
         "bearing": result.bearing,
     });
+    if let (Some(rest), Some(last)) = (&m.rest, &result.last) {
+        value["whole"] = json!({
+            "samples": rest.samples,
+            "missing": rest.missing,
+            "indicators": whole_indicators(rest).map(|(name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
+            "last": {
+                "start_s": rest.last_start,
+                "samples": last.samples,
+                "verdict": last.verdict(),
+                "damage": last.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
+            },
+        });
+    }
     if let Some(other) = &result.against {
         value["against"] = json!({
             "path": other.measured.path.display().to_string(),
@@ -223,6 +302,13 @@ fn as_json(result: &Result_) -> String {
         });
     }
     serde_json::to_string_pretty(&value).unwrap_or_default()
+}
+
+/// Headline indicators of a whole long signal.
+fn whole_indicators(rest: &measured::Rest) -> impl Iterator<Item = (&'static str, f64)> {
+    HEADLINES
+        .into_iter()
+        .filter_map(|i| Some((i.name(), rest.moments.get(i)?)))
 }
 
 fn write(
@@ -275,15 +361,7 @@ fn tell(result: &Result_, written: &[PathBuf]) {
     say!("  bearing: {}", result.bearing);
     say!("\n{}\n", a.verdict());
     let rows: Vec<String> = (a.indicators.iter())
-        .filter(|(i, _)| {
-            [
-                Indicator::Rms,
-                Indicator::Peak,
-                Indicator::CrestFactor,
-                Indicator::Kurtosis,
-            ]
-            .contains(i)
-        })
+        .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {
             let unit = if i.has_unit() {
                 format!(" {}", m.unit.name)
@@ -294,6 +372,18 @@ fn tell(result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
+    if let (Some(rest), Some(last)) = (&m.rest, &result.last) {
+        say!(
+            "\nThe last {} samples, from {:.1} s on: {}",
+            last.samples,
+            rest.last_start,
+            last.verdict()
+        );
+        let whole: Vec<String> = whole_indicators(rest)
+            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
+            .collect();
+        say!("\n  of all {} samples: {}", rest.samples, whole.join(", "));
+    }
     if let Some(other) = &result.against {
         say!(
             "  against {}, channel {}: {}",

@@ -4,7 +4,7 @@ use super::Result_;
 use crate::say::short;
 use brinell::analysis::{Analysis, Component};
 use brinell::signal::{Estimate, Indicator, Spectrum};
-use brinell_report::{AnalysisReport, Fact, Marker, Series, Table};
+use brinell_report::{AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Series, Table};
 
 /// Most samples of a waveform that the page is given: more are not seen.
 const WAVEFORM: usize = 1 << 20;
@@ -12,7 +12,13 @@ const WAVEFORM: usize = 1 << 20;
 pub(super) fn report(result: &Result_) -> AnalysisReport {
     let (m, a) = (&result.measured, &result.analysis);
     let name = |m: &super::Measured| {
-        let file = m.path.file_name().map(|n| n.to_string_lossy().into_owned());
+        // `signals.parquet` is what every run calls it: its folder tells more.
+        let own = m.path.file_stem().is_some_and(|n| n == "signals");
+        let of = if own { m.path.parent() } else { None };
+        let file = of
+            .and_then(|f| f.file_name())
+            .or_else(|| m.path.file_name())
+            .map(|n| n.to_string_lossy().into_owned());
         format!("{} · {}", file.unwrap_or_default(), m.channel)
     };
     let quantity = m.unit.quantity.words();
@@ -41,6 +47,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
         names: vec![name(m)],
         close_up_s: 10.0 / strike(a),
         markers: markers(a),
+        kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
         ..AnalysisReport::default()
     };
     let series = |m: &super::Measured| Series {
@@ -104,6 +111,26 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     page.tables.push(indicators(result));
     page.tables.push(bands(a));
     page
+}
+
+fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
+    let bands: Vec<String> = (map.levels.iter())
+        .map(|l| l.kurtosis.len().to_string())
+        .collect();
+    Kurtogram {
+        levels: (map.levels.iter())
+            .map(|l| KurtogramLevel {
+                bandwidth_hz: l.bandwidth,
+                kurtosis: l.kurtosis.clone(),
+            })
+            .collect(),
+        chosen_hz: a.kurtogram.map(|k| (k.band.low, k.band.high)),
+        note: format!(
+            "Kurtosis of the envelope, 0 for noise; from below, {} bands up to half the sample rate. Outlined: the largest among bands \
+             wide enough for the defect frequencies.",
+            bands.join(", ")
+        ),
+    }
 }
 
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.

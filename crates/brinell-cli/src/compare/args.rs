@@ -10,7 +10,7 @@ use std::path::PathBuf;
     after_help = "The first scenario is what the others are held against. A variant is that one with some keys changed.\n\n\
     Files in the folder:\n  \
     compare.html   signals, spectra, envelope spectra, contact length and stiffness over the defect, entries and exits, ratios; one file\n  \
-    compare.csv    a row a number: value and interval in each run, and its ratio to the first\n  \
+    compare.csv, compare.parquet   a row a number: value and interval in each run, and its ratio to the first\n  \
     compare.json   the same with the scenarios\n\n\
     The interval of a ratio follows from the scatter of both runs' blocks of whole revolutions: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), a and \
     b being means over blocks and s their standard errors, t Student's with Welch's degrees of freedom. It supposes runs that scatter \

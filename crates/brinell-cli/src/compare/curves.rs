@@ -2,6 +2,7 @@
 
 use super::sides::Side;
 use brinell::campaign::{Finished, Impacts, impacts};
+use brinell::channel::STIFFNESS_UNIT;
 use brinell::observe::passes::{PassPoint, place};
 use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
 
@@ -158,11 +159,11 @@ pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
     if passes.iter().all(Option::is_none) {
         return vec![Piece::Words("No roller passed it from end to end.".into())];
     }
-    let exponent = runs[0].scenario.contact.exponent;
-    let stiffness = if (exponent - 10.0 / 9.0).abs() < 1e-9 {
+    let usual = |run: &&Finished| (run.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9;
+    let stiffness = if runs.iter().all(usual) {
         "N/m^(10/9)"
     } else {
-        "N/m^n"
+        STIFFNESS_UNIT
     };
     let quantities: [Shown; 3] = [
         ("length", "Effective contact length", "mm", |p| {

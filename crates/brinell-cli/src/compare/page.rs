@@ -2,9 +2,10 @@
 
 use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, waveform};
 use super::sides::Side;
-use crate::say::short;
-use crate::sweep::words;
+use crate::say::{bracketed, short};
+use crate::sweep::{told, words};
 use brinell::campaign::{Compared, Finished, Quantity};
+use brinell::observe::passes::place;
 use brinell::signal::ratio::Ratio;
 use brinell_report::{Fact, Part, Piece, SideBySide, Table, Value};
 
@@ -43,7 +44,7 @@ pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) 
         }
     }
     SideBySide {
-        title: names.join(" and "),
+        title: names.join(", "),
         subtitle: format!("{} runs, each held against {}", names.len(), names[0]),
         version: brinell::VERSION.into(),
         warnings: warnings(sides, runs),
@@ -147,6 +148,40 @@ fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
     if runs.iter().any(|run| axis(run) != axis(runs[0])) {
         all.push("The loads point along different axes: curves show each run's own, the one nearer its load.".into());
     }
+    let exponent = |run: &Finished| run.scenario.contact.exponent;
+    if runs.iter().any(|run| exponent(run) != exponent(runs[0])) {
+        all.push("The contacts' exponents n differ: stiffnesses in N/m^n have different units and no ratio.".into());
+    }
+    let band = |run: &Finished| {
+        run.findings
+            .envelope
+            .as_ref()
+            .map(|(_, band)| (band.low, band.high))
+    };
+    let mut bands = runs.iter().filter_map(|run| band(run));
+    if let Some(first) = bands.next()
+        && bands.any(|other| other != first)
+    {
+        all.push(
+            "The envelopes' bands differ: levels of their lines are of different bands.".into(),
+        );
+    }
+    let most = runs
+        .iter()
+        .map(|run| run.simulation.model().defects.len())
+        .max();
+    for defect in 0..most.unwrap_or(0) {
+        let here = |run: &&Finished| run.simulation.model().defects.get(defect).map(place);
+        let mut places: Vec<String> = runs.iter().filter_map(here).collect();
+        places.dedup();
+        if places.len() > 1 {
+            all.push(format!(
+                "Defect {} is not in the same place in all runs ({}): its passes and ratios are of different contacts.",
+                defect + 1,
+                places.join("; ")
+            ));
+        }
+    }
     all
 }
 
@@ -240,18 +275,6 @@ fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
     }
 }
 
-fn told(quantity: &Quantity) -> String {
-    let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
-    match quantity.interval() {
-        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
-        None => value,
-    }
-}
-
 fn with_interval(ratio: Ratio) -> String {
-    let value = short(ratio.value, 3);
-    match ratio.interval {
-        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
-        None => value,
-    }
+    bracketed(short(ratio.value, 3), ratio.interval)
 }

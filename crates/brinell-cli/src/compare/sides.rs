@@ -1,6 +1,6 @@
 //! What is compared: scenario files, and variants of the first one.
 
-use super::CompareArgs;
+use super::{CompareArgs, table};
 use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
@@ -67,7 +67,28 @@ pub(super) fn read(args: &CompareArgs) -> Result<Vec<Side>, Failure> {
             )));
         }
     }
+    let columns: Vec<String> = columns(&sides).collect();
+    if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
+        return Err(Failure::Usage(format!(
+            "two columns of compare.csv would be called {}: rename a file or a variant",
+            columns[twice]
+        )));
+    }
     Ok(sides)
+}
+
+/// Names of the table's columns.
+fn columns(sides: &[Side]) -> impl Iterator<Item = String> {
+    let of = |(k, side): (usize, &Side)| {
+        let endings = table::VALUE
+            .iter()
+            .chain(if k > 0 { &table::RATIO[..] } else { &[] });
+        let label = side.label.clone();
+        let names: Vec<String> = endings.map(|ending| format!("{label}{ending}")).collect();
+        names
+    };
+    let own = table::OWN.iter().map(|name| (*name).to_owned());
+    own.chain(sides.iter().enumerate().flat_map(of))
 }
 
 /// The name of a scenario file without its ending; of a file that is called like a number, with it.
@@ -111,6 +132,13 @@ fn variant(text: &str) -> Result<(String, Vec<(String, String)>), Failure> {
         .collect::<Result<Vec<_>, _>>()?;
     if settings.is_empty() {
         return Err(wrong());
+    }
+    for (k, (key, _)) in settings.iter().enumerate() {
+        if settings[..k].iter().any(|(other, _)| other == key) {
+            return Err(Failure::Usage(format!(
+                "--variant {text}: {key} is set twice"
+            )));
+        }
     }
     Ok((sound(name)?, settings))
 }

@@ -6,35 +6,33 @@ use brinell::signal::ratio::Ratio;
 use brinell_io::{Cells, Column, Table};
 use serde_json::{Map, Value, json};
 
+/// The table's own columns.
+pub(super) static OWN: [&str; 2] = ["quantity", "unit"];
+/// Endings of the columns of each run, and of each but the first.
+pub(super) static VALUE: [&str; 3] = ["", ".low", ".high"];
+pub(super) static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
+
 pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
     let mut table = Table::default();
     let words = |of: fn(&Compared) -> &str| {
         Cells::Words(compared.iter().map(|c| Some(of(c).to_owned())).collect())
     };
-    table.push(Column::new("quantity", "", ""), words(|c| &c.name));
-    table.push(Column::new("unit", "", "SI"), words(|c| &c.unit));
+    table.push(Column::new(OWN[0], "", ""), words(|c| &c.name));
+    table.push(Column::new(OWN[1], "", "SI"), words(|c| &c.unit));
     let mut push = |name: String, of: &dyn Fn(&Compared) -> Option<f64>| {
         let numbers = compared.iter().map(of).collect();
         table.push(Column::new(name, "", ""), Cells::Numbers(numbers));
     };
     for (k, side) in sides.iter().enumerate() {
-        let label = &side.label;
-        let quantity = |c: &Compared| c.of[k].clone();
-        push(label.clone(), &|c| quantity(c)?.value);
-        push(format!("{label}.low"), &|c| {
-            Some(quantity(c)?.interval()?.0)
-        });
-        push(format!("{label}.high"), &|c| {
-            Some(quantity(c)?.interval()?.1)
-        });
+        let named = |ending: &str| format!("{}{ending}", side.label);
+        let interval = |c: &Compared| c.of[k].as_ref()?.interval();
+        push(named(VALUE[0]), &|c| c.of[k].as_ref()?.value);
+        push(named(VALUE[1]), &|c| Some(interval(c)?.0));
+        push(named(VALUE[2]), &|c| Some(interval(c)?.1));
         if k > 0 {
-            push(format!("{label}.ratio"), &|c| Some(c.ratios[k]?.value));
-            push(format!("{label}.ratio.low"), &|c| {
-                Some(c.ratios[k]?.interval?.0)
-            });
-            push(format!("{label}.ratio.high"), &|c| {
-                Some(c.ratios[k]?.interval?.1)
-            });
+            push(named(RATIO[0]), &|c| Some(c.ratios[k]?.value));
+            push(named(RATIO[1]), &|c| Some(c.ratios[k]?.interval?.0));
+            push(named(RATIO[2]), &|c| Some(c.ratios[k]?.interval?.1));
         }
     }
     table

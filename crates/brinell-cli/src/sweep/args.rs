@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "VALUES are a list (5,10,20), a range with both ends (1000:5000:500 is FROM:TO:STEP), or both mixed. Each value is TOML; a bare word \
+    after_help = "VALUES are a list (5,10,20), a range (1000:5000:500 is FROM:TO:STEP; TO is in it where a step reaches it), or both mixed. Each value is TOML; a bare word \
     is a string. Several --vary make a grid, the last one changing fastest.\n\n\
     Files in the folder:\n  \
     sweep.csv, sweep.parquet   a row a point: keys, status, reason, every indicator with its interval, lines, slip, audits, work; SI units\n  \

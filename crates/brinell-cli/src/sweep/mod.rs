@@ -15,12 +15,12 @@ pub(crate) use args::SweepArgs;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
-pub(crate) use page::words;
-pub(crate) use page::plural;
 use page::usual;
+pub(crate) use page::{plural, told, words};
 pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -56,13 +56,12 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         row.is_some_and(|row| row.result.is_err() || kept.is_none_or(|path| path.exists()))
     };
     let good = || points.tasks.iter().flatten();
-    let mut tasks: Vec<Task> = Vec::new();
-    for task in good().filter(|task| !finished(task)) {
-        // Settings that mean the same make one run.
-        if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
-            tasks.push(task.clone());
-        }
-    }
+    // Settings that mean the same make one run.
+    let mut seen = HashSet::new();
+    let tasks: Vec<Task> = good()
+        .filter(|task| !finished(task) && seen.insert(&task.fingerprint))
+        .cloned()
+        .collect();
     let threads = threads(tasks.len());
     if !args.quiet {
         let before = good().filter(finished).count();
@@ -159,7 +158,15 @@ fn tell_plan(
         axes.join(" x ")
     );
     for (warning, count) in &points.warnings {
-        complain!("{warning}\n  (in {} of the sweep)", plural(*count, "point"));
+        let first = if *count > 1 {
+            ", as the first of them has it"
+        } else {
+            ""
+        };
+        complain!(
+            "{warning}\n  (in {} of the sweep{first})",
+            plural(*count, "point")
+        );
     }
     let bad = points.tasks.iter().filter(|task| task.is_err()).count();
     if bad > 0 {

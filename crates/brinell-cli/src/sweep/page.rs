@@ -2,17 +2,20 @@
 
 use super::points::Points;
 use super::table::{Standing, number};
-use crate::say::short;
+use crate::say::{bracketed, short};
 use brinell::campaign::{Quantity, Row};
 use brinell::scenario::Scenario;
 use brinell_report::{
     Fact, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
 };
+use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, nobody reads them there.
 const LISTED: usize = 1000;
 /// Lines of one picture; more go to further pictures.
 const LINES: usize = 12;
+/// Pictures of one indicator; lines beyond them are in the tables alone.
+const PICTURES: usize = 4;
 
 /// RMS and peak to peak of the measured acceleration, the rings' and a cage's, along the axis nearer the load; of `names` that are there.
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
@@ -46,6 +49,12 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
     }
     if missing > 0 {
         facts.push(fact("Not run", missing, "the sweep was interrupted"));
+    }
+    let (axis, _) = x_axis(points);
+    let lines = standings.len() / points.plan.axes()[axis].settings().len();
+    if lines > LINES * PICTURES {
+        let text = Value::Text(format!("{} of {lines}", LINES * PICTURES));
+        facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
     }
     let name = |k: usize| {
         let settings = points.plan.settings(k);
@@ -108,7 +117,8 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
     let others: Vec<usize> = (0..points.plan.axes().len())
         .filter(|a| *a != axis)
         .collect();
-    let mut lines: Vec<(Vec<usize>, IndicatorLine)> = Vec::new();
+    let mut lines: Vec<IndicatorLine> = Vec::new();
+    let mut line_of: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut unit = String::new();
     for (k, standing) in standings.iter().enumerate() {
         let place = points.plan.place(k);
@@ -128,16 +138,16 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
             .as_ref()
             .map_or(place[axis] as f64, |numbers| numbers[place[axis]]);
         let point = point(x, quantity);
-        match lines.iter_mut().find(|(of, _)| *of == rest) {
-            Some((_, line)) => line.points.push(point),
-            None => {
-                let label = label(points, &others, &rest);
-                let points = vec![point];
-                lines.push((rest, IndicatorLine { label, points }));
-            }
-        }
+        let line = *line_of.entry(rest).or_insert_with_key(|rest| {
+            lines.push(IndicatorLine {
+                label: label(points, &others, rest),
+                points: Vec::new(),
+            });
+            lines.len() - 1
+        });
+        lines[line].points.push(point);
     }
-    for (_, line) in &mut lines {
+    for line in &mut lines {
         line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
     }
     let x_key = &along.keys()[key];
@@ -145,8 +155,7 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
         .iter()
         .map(|a| points.plan.axes()[*a].keys().join(" with "))
         .collect();
-    let lines: Vec<IndicatorLine> = lines.into_iter().map(|(_, line)| line).collect();
-    let parts = lines.chunks(LINES).enumerate();
+    let parts = lines.chunks(LINES).take(PICTURES).enumerate();
     parts
         .map(|(part, lines)| IndicatorPlot {
             name: match part {
@@ -267,10 +276,8 @@ fn complete<'a>(standing: &Standing<'a>) -> Option<&'a Row> {
     }
 }
 
-fn told(quantity: &Quantity) -> String {
+/// A number with its interval, as a cell of a page's table.
+pub(crate) fn told(quantity: &Quantity) -> String {
     let value = quantity.value.map_or("–".to_owned(), |x| short(x, 4));
-    match quantity.interval() {
-        Some((low, high)) => format!("{value} [{}, {}]", short(low, 3), short(high, 3)),
-        None => value,
-    }
+    bracketed(value, quantity.interval())
 }

@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
 use brinell::campaign::{Axis, Plan, digest, fingerprint};
+use brinell::document::Problem;
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
@@ -24,7 +25,7 @@ pub(super) struct Points {
     /// Unit of each varied key, as the file format states it.
     pub(super) units: BTreeMap<String, &'static str>,
     /// What the author should know, and of how many points.
-    pub(super) warnings: BTreeMap<String, usize>,
+    pub(super) warnings: Vec<(String, usize)>,
     /// The first good point.
     pub(super) example: Scenario,
 }
@@ -55,7 +56,7 @@ fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
 struct Checked {
     task: Task,
     units: Vec<(String, &'static str)>,
-    warnings: Vec<String>,
+    warnings: Vec<Problem>,
 }
 
 impl Points {
@@ -66,6 +67,17 @@ impl Points {
             scenario: args.scenario.clone(),
             set: args.set.clone(),
         })?;
+        for (key, value) in source.overrides() {
+            let hides = |varied: &&str| {
+                key.strip_prefix(varied)
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            if let Some(varied) = plan.keys().find(hides) {
+                return Err(Failure::Usage(format!(
+                    "--set {key}={value}: every point gives {varied} another value; leave out the one or the other"
+                )));
+            }
+        }
         let mut checked: Vec<Option<Result<Checked, Failure>>> = Vec::new();
         checked.resize_with(plan.points(), || None);
         brinell::many::each(
@@ -74,15 +86,16 @@ impl Points {
             |k| check(&source, plan.settings(k)),
             |k, result| checked[k] = Some(result),
         );
-        let (mut units, mut warnings) = (BTreeMap::new(), BTreeMap::new());
+        let (mut units, mut warnings) = (BTreeMap::new(), Vec::new());
         let (mut tasks, mut first) = (Vec::new(), None);
         for result in checked.into_iter().flatten() {
             tasks.push(match result {
                 Ok(checked) => {
                     units.extend(checked.units);
-                    for warning in checked.warnings {
-                        *warnings.entry(warning).or_insert(0) += 1;
-                    }
+                    checked
+                        .warnings
+                        .into_iter()
+                        .for_each(|w| count(w, &mut warnings));
                     Ok(checked.task)
                 }
                 Err(failure) => {
@@ -101,7 +114,10 @@ impl Points {
             plan,
             tasks,
             units,
-            warnings,
+            warnings: warnings
+                .into_iter()
+                .map(|(warning, points)| (warning.to_string(), points))
+                .collect(),
             example,
         })
     }
@@ -129,21 +145,33 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
         let entry = loaded.provenance.iter().find(|p| p.key == *key)?;
         Some((key.clone(), entry.unit))
     };
-    let plain = |problem: &brinell::document::Problem| {
-        let mut problem = problem.clone();
-        // What the settings give stands nowhere in the file.
-        (problem.line, problem.column) = (None, None);
-        problem.to_string()
-    };
     Ok(Checked {
         units: settings.iter().filter_map(unit).collect(),
-        warnings: loaded.warnings.iter().map(plain).collect(),
+        warnings: loaded.warnings,
         task: Task {
             fingerprint: fingerprint(&loaded.scenario),
             duration_s: loaded.scenario.simulation.duration_s,
             settings,
         },
     })
+}
+
+/// Adds a warning to those of other points: one about the same key with the same value is told once, as the first point has it.
+fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
+    let same = |w: &Problem| {
+        let numberless =
+            |text: &str| text.replace(|c: char| c.is_ascii_digit() || ".e+-".contains(c), "");
+        w.key == warning.key
+            && w.value == warning.value
+            && numberless(&w.message) == numberless(&warning.message)
+    };
+    if let Some((_, points)) = warnings.iter_mut().find(|(w, _)| same(w)) {
+        *points += 1;
+        return;
+    }
+    // What the settings give stands nowhere in the file.
+    (warning.line, warning.column) = (None, None);
+    warnings.push((warning, 1));
 }
 
 /// A failure on one line.

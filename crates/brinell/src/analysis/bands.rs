@@ -1,7 +1,7 @@
 //! Which bands are demodulated.
 
 use super::{AnalysisError, Options};
-use crate::signal::{Band, KurtogramBand, kurtogram};
+use crate::signal::{Band, Kurtogram, KurtogramBand, kurtogram};
 
 /// Multiple of the highest defect frequency above which a carrier is sought.
 pub(super) const BROAD: f64 = 3.0;
@@ -21,6 +21,8 @@ pub enum BandChoice {
     Kurtogram,
     /// Everything above three times the highest defect frequency.
     Broad,
+    /// The same, whitened: every line of the spectrum brought to one level, so that no tone outweighs impacts.
+    Whitened,
     /// One octave of a tiling.
     Octave,
 }
@@ -32,6 +34,9 @@ impl BandChoice {
             BandChoice::Given => "given",
             BandChoice::Kurtogram => "most impulsive by the fast kurtogram",
             BandChoice::Broad => "everything above three times the highest defect frequency",
+            BandChoice::Whitened => {
+                "everything above three times the highest defect frequency, whitened"
+            }
             BandChoice::Octave => "an octave",
         }
     }
@@ -46,12 +51,15 @@ pub struct ChosenBand {
     pub choice: BandChoice,
 }
 
-/// The bands, and the kurtogram's.
-pub(super) fn choose(
-    x: &[f64],
-    fs: f64,
-    options: &Options,
-) -> Result<(Vec<ChosenBand>, Option<KurtogramBand>), AnalysisError> {
+/// What is demodulated, and what that was chosen from.
+pub(super) struct Choice {
+    pub(super) bands: Vec<ChosenBand>,
+    pub(super) best: Option<KurtogramBand>,
+    pub(super) map: Option<Kurtogram>,
+}
+
+/// The bands, and the kurtogram.
+pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, AnalysisError> {
     let top = 0.5 * fs;
     if let Some(band) = options.band {
         let fits = band.low >= 0.0 && band.low < band.high && band.low < top;
@@ -65,7 +73,11 @@ pub(super) fn choose(
         }
         let band = Band::between(band.low, band.high.min(top));
         let choice = BandChoice::Given;
-        return Ok((vec![ChosenBand { band, choice }], None));
+        return Ok(Choice {
+            bands: vec![ChosenBand { band, choice }],
+            best: None,
+            map: None,
+        });
     }
     let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft;
     let narrowest = NARROWEST * highest;
@@ -81,10 +93,12 @@ pub(super) fn choose(
         });
     }
     let low = BROAD * highest;
-    bands.push(ChosenBand {
-        band: Band::between(low, top),
-        choice: BandChoice::Broad,
-    });
+    for choice in [BandChoice::Broad, BandChoice::Whitened] {
+        bands.push(ChosenBand {
+            band: Band::between(low, top),
+            choice,
+        });
+    }
     let mut edge = low;
     while top - edge >= 2.0 * narrowest {
         let mut next = (2.0 * edge).max(edge + narrowest);
@@ -99,5 +113,9 @@ pub(super) fn choose(
         }
         edge = next;
     }
-    Ok((bands, best))
+    Ok(Choice {
+        bands,
+        best,
+        map: Some(map),
+    })
 }

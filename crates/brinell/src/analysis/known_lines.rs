@@ -1,7 +1,8 @@
 //! Lines that are nobody's damage: the shaft's harmonics and the mains'.
 
+use super::verdict::LINE_LEVEL;
 use super::{AnalysisError, Options};
-use crate::signal::{Segments, Spectrum, harmonics, psd};
+use crate::signal::{Candidate, DiagnosisOptions, Segments, Spectrum, diagnose, harmonics, psd};
 
 /// A mains frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,15 +29,20 @@ impl Mains {
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
 /// Bins to either side of a known line that are filled with the noise about it: Hann's main lobe.
-const FILL: usize = 2;
+const FILL: f64 = 2.0;
 /// A comb with fewer bins from line to line is left alone: filled, it would leave little of the spectrum.
 const CLOSEST: f64 = 10.0;
 /// Bins beyond the filled ones, to either side, whose median is that noise.
 const AROUND: usize = 12;
-/// A maximum within so many bins of a known line is that line.
-const SAME: f64 = 0.6;
-/// Powers over the median from which a maximum is a line: noise goes beyond in one of 500 (two degrees of freedom).
-const STANDS: f64 = 9.0;
+/// Lines of a comb that are looked for.
+const FAMILY: usize = 10;
+/// Chance under noise at which a comb counts as standing.
+const FAMILY_LEVEL: f64 = 1e-3;
+/// A shaft whose speed is known to within this share may show any of its lines. The mains' frequency is known as well, but a
+/// defect frequency near a multiple of 50 or 60 Hz must not pass for theirs.
+const KNOWN: f64 = 0.0025;
+/// How far the mains wander from their nominal frequency, relative, with the logger's clock.
+const MAINS_WANDERS: f64 = 0.002;
 
 /// Shaft speed, Hz, by its own harmonics in the spectrum within the tolerance; as given where they do not stand.
 pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool), AnalysisError> {
@@ -64,22 +70,53 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
     let best = (mine.iter().map(|(h, at)| at / h))
         .rev()
         .max_by_key(|f| agree(*f).count());
-    let Some(best) = best.filter(|f| agree(*f).count() >= 2) else {
+    // Every third of the shaft's may be an outer race's.
+    let own = |f: f64| {
+        let orders = || agree(f).map(|(h, _)| *h as i32);
+        let common = orders().fold(0, divisor);
+        orders().count() >= 2 && orders().any(|o| o <= 2) && common <= 2
+    };
+    let Some(best) = best.filter(|f| own(*f)) else {
         return Ok((options.shaft, false));
     };
     let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
     Ok((above / below, true))
 }
 
-/// Takes the lines of shaft and mains out of a spectrum, up to `top` Hz; the places where one stood. A comb counts only where
-/// its first or second line stands: others would meet its places by coincidence.
-pub(super) fn remove(spectrum: &mut Spectrum, shaft: f64, top: f64) -> Vec<f64> {
+/// The combs of shaft and mains that stand in any of several spectra, Hz: what modulates one band modulates others, if more
+/// faintly. The shaft is sought within `tolerance` of `shaft` (Hz).
+pub(super) fn combs(
+    spectra: &[Spectrum],
+    shaft: f64,
+    tolerance: f64,
+) -> Result<Vec<f64>, AnalysisError> {
+    let sought = (Mains::ALL.map(|m| (m.frequency(), MAINS_WANDERS * m.frequency(), false)))
+        .into_iter()
+        .chain([(shaft, tolerance, tolerance <= KNOWN * shaft)]);
+    let mut combs = Vec::new();
+    for (fundamental, tolerance, known) in sought {
+        let mut best: Option<(f64, f64)> = None;
+        for spectrum in spectra {
+            if fundamental < CLOSEST * spectrum.frequency_step {
+                continue;
+            }
+            if let Some((chance, at)) = family(spectrum, fundamental, tolerance, known)?
+                && best.is_none_or(|b| chance < b.0)
+            {
+                best = Some((chance, at));
+            }
+        }
+        let enough = FAMILY_LEVEL / spectra.len() as f64;
+        combs.extend(best.filter(|b| b.0 <= enough).map(|b| b.1));
+    }
+    Ok(combs)
+}
+
+/// Takes combs out of a spectrum, up to `top` Hz; the places taken.
+pub(super) fn remove(spectrum: &mut Spectrum, combs: &[f64], top: f64) -> Vec<f64> {
     let mut removed = Vec::new();
-    let combs = Mains::ALL.map(Mains::frequency).into_iter().chain([shaft]);
     for fundamental in combs {
-        let wide = fundamental >= CLOSEST * spectrum.frequency_step;
-        let present = |k: f64| stands(spectrum, k * fundamental).is_some();
-        if !wide || !(present(1.0) || present(2.0)) {
+        if *fundamental < CLOSEST * spectrum.frequency_step {
             continue;
         }
         let mut k = 1.0;
@@ -90,46 +127,60 @@ pub(super) fn remove(spectrum: &mut Spectrum, shaft: f64, top: f64) -> Vec<f64> 
             k += 1.0;
         }
     }
+    removed.sort_by(f64::total_cmp);
     removed
 }
 
-/// Fills a line at a frequency with the noise about it; whether there was one.
-fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
-    let Some((bin, median)) = stands(spectrum, frequency) else {
-        return false;
+/// Chance and frequency of a comb that stands; where its frequency is not `known`, with its first or second line, and not
+/// merely as every third of another's.
+fn family(
+    spectrum: &Spectrum,
+    fundamental: f64,
+    tolerance: f64,
+    known: bool,
+) -> Result<Option<(f64, f64)>, AnalysisError> {
+    let candidate = Candidate {
+        name: String::new(),
+        frequency: fundamental,
+        tolerance,
+        sideband_spacing: None,
     };
-    let first = bin.saturating_sub(FILL).max(1);
-    spectrum.amplitude[first..=bin + FILL].fill(median.sqrt());
-    true
+    let options = DiagnosisOptions {
+        harmonics: FAMILY,
+        sidebands: 0,
+        level: FAMILY_LEVEL,
+    };
+    let found = diagnose(spectrum, &[candidate], &options)?;
+    let evidence = &found.evidence[0];
+    let orders: Vec<i32> = (evidence.harmonics.standing(LINE_LEVEL))
+        .map(|l| l.order)
+        .collect();
+    let common = orders.iter().fold(0, |a, b| divisor(a, *b));
+    let own = known || orders.first().is_some_and(|o| *o <= 2) && common <= 2;
+    Ok((evidence.stands && own).then_some((evidence.false_alarm, evidence.frequency)))
 }
 
-/// The bin of a line at a frequency and the noise about it (power), where there is one.
-fn stands(spectrum: &Spectrum, frequency: f64) -> Option<(usize, f64)> {
+fn divisor(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { divisor(b, a % b) }
+}
+
+/// Fills the place of a line with the noise about it; `false` beyond the spectrum.
+fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
     let a = &spectrum.amplitude;
     let at = frequency / spectrum.frequency_step;
-    let bin = at.round() as usize;
-    if bin < 2 || bin + FILL + AROUND + 1 >= a.len() {
-        return None;
+    let first = (at - FILL).ceil().max(1.0) as usize;
+    let last = (at + FILL).floor() as usize;
+    if last + AROUND + 1 >= a.len() {
+        return false;
     }
-    let peak = (bin - 1..=bin + 1).max_by(|i, j| a[*i].total_cmp(&a[*j]))?;
-    if a[peak] < a[peak - 1] || a[peak] < a[peak + 1] {
-        return None;
-    }
-    // Parabola through the logarithms, as Hann's main lobe nearly is.
-    let ln = |i: usize| a[i].max(f64::MIN_POSITIVE).ln();
-    let (l, c, r) = (ln(peak - 1), ln(peak), ln(peak + 1));
-    let bend = l - 2.0 * c + r;
-    let shift = if bend < 0.0 {
-        0.5 * (l - r) / bend
-    } else {
-        0.0
-    };
-    let mut around: Vec<f64> = (bin.saturating_sub(FILL + AROUND)..bin.saturating_sub(FILL))
-        .chain(bin + FILL + 1..=bin + FILL + AROUND)
-        .map(|i| a[i] * a[i])
+    let mut around: Vec<f64> = (first.saturating_sub(AROUND)..first)
+        .chain(last + 1..=last + AROUND)
+        .map(|i| a[i])
         .collect();
     let middle = around.len() / 2;
     let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let is_line = (peak as f64 + shift - at).abs() <= SAME && a[peak] * a[peak] >= STANDS * median;
-    is_line.then_some((bin, median))
+    for value in &mut spectrum.amplitude[first..=last] {
+        *value = value.min(median);
+    }
+    true
 }

@@ -49,7 +49,8 @@ pub use verdict::{Finding, Strength};
 pub use view::View;
 
 use crate::signal::{
-    Band, Blocks, Estimate, Indicator, KurtogramBand, Segments, Spectrum, VelocityBands, psd,
+    Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
+    VelocityBands, psd,
 };
 
 /// What is known beside the samples, and how sure to be.
@@ -67,6 +68,9 @@ pub struct Options {
     pub level: f64,
     /// Harmonics of each defect frequency that are searched; 5 unless told.
     pub harmonics: usize,
+    /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency in Hz is
+    /// its order times `shaft`, the mean speed. Time counts from the first sample.
+    pub rotation: Option<Rotation>,
 }
 
 impl Options {
@@ -79,9 +83,13 @@ impl Options {
             band: None,
             level: 0.01,
             harmonics: 5,
+            rotation: None,
         }
     }
 }
+
+/// How well the shaft's own lines tell its speed, relative.
+const SHAFT_KNOWN: f64 = 0.002;
 
 /// Everything that was found.
 #[derive(Debug, Clone)]
@@ -104,6 +112,8 @@ pub struct Analysis {
     pub spectrum: Spectrum,
     /// The most impulsive band, where there is one.
     pub kurtogram: Option<KurtogramBand>,
+    /// The kurtogram it was found in, unless the band was given.
+    pub map: Option<Kurtogram>,
     /// Every envelope spectrum that was searched.
     pub views: Vec<View>,
     /// The one that shows most, by index.
@@ -149,10 +159,23 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         .filter_map(|i| Some((i, blocks.estimate(i)?)))
         .collect();
     let spectrum = psd(&x, fs, &Segments::of(spectrum_length(x.len(), fs)))?;
-    let (bands, kurtogram) = bands::choose(&x, fs, options)?;
-    let (shaft, shaft_found) = known_lines::shaft(&x, fs, options)?;
-    let views = view::all(&x, fs, shaft, &bands, options)?;
-    let (findings, best) = verdict::find(&views, shaft, options);
+    let choice = bands::choose(&x, fs, options)?;
+    let (shaft, shaft_found) = match options.rotation {
+        // Followed, it is known.
+        Some(_) => (options.shaft, true),
+        None => known_lines::shaft(&x, fs, options)?,
+    };
+    // Half a bin of the finest spectrum, or as far as the speed may be off.
+    let known = view::Shaft {
+        hz: shaft,
+        tolerance: if shaft_found {
+            (0.5 * fs / x.len() as f64).max(SHAFT_KNOWN * shaft)
+        } else {
+            options.tolerance * shaft
+        },
+    };
+    let views = view::all(&x, fs, known, &choice.bands, options)?;
+    let (findings, best) = verdict::find(&views, shaft, options)?;
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,
@@ -162,7 +185,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         shaft_found,
         indicators,
         spectrum,
-        kurtogram,
+        kurtogram: choice.best,
+        map: choice.map,
         views,
         best,
         findings,

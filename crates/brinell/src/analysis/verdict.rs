@@ -1,19 +1,22 @@
 //! From what stands in the envelope spectra to findings, and to words.
 
 use super::Analysis;
+use super::AnalysisError;
 use super::Options;
 use super::frequencies::Component;
-use super::view::{View, candidates};
-use crate::signal::{Evidence, Line};
+use super::view::{View, candidates, looking};
+use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose, without};
 
 /// A line stands where noise would show as much less often than this.
 pub(super) const LINE_LEVEL: f64 = 1e-3;
 /// Modulation below which lines may stand and still be no damage: the load on a healthy race changes with every element,
 /// and a long record shows that, however weak it is. An assumption of this program, stated with the verdict.
 pub(super) const FAINT: f64 = 0.015;
+/// Power over the median from which a bin belongs to a line: noise goes beyond in one of 500 (two degrees of freedom).
+const STANDS: f64 = 9.0;
 /// A cage's lines lie close to the shaft's and to zero: fewer than this many are not called the cage's.
 const FEWEST_OF_CAGE: usize = 3;
-/// A further cause has at least this share of the strongest one's weight.
+/// A further cause modulates the envelope by at least this share of the strongest one's.
 const FURTHER: f64 = 0.25;
 
 /// How much a finding says.
@@ -79,90 +82,234 @@ impl Finding {
     }
 }
 
-/// Number and strength of the harmonics that stand. Sidebands do not count: in a short record those of one frequency meet
-/// another's lines.
+/// What a candidate shows at best over all views.
+struct Standing {
+    /// Index of the candidate.
+    candidate: usize,
+    view: usize,
+    views: usize,
+    evidence: Evidence,
+    /// Share of the power of all lines of a view that its own have, summed over the views in which it stands.
+    share: f64,
+}
+
+/// Findings, the strongest first, and the view that shows most.
+///
+/// What accounts for the others comes first ([`leading`]). Its lines are then taken out of every envelope spectrum, and what still
+/// stands comes next; what does not was the first one's. A cage's lines come last: what turns with the cage modulates all else.
+pub(super) fn find(
+    views: &[View],
+    shaft: f64,
+    options: &Options,
+) -> Result<(Vec<Finding>, usize), AnalysisError> {
+    let candidates = candidates(shaft, options);
+    let mut spectra: Vec<Spectrum> = views.iter().map(|v| v.searched.clone()).collect();
+    let mut evidence: Vec<Vec<Evidence>> =
+        (views.iter().map(|v| v.diagnosis.evidence.clone())).collect();
+    let first = standing(&candidates, &spectra, &evidence, &[]);
+    let mut left = first.len();
+    let mut named: Vec<Component> = Vec::new();
+    let mut findings: Vec<Finding> = Vec::new();
+    while left > 0 {
+        let all = standing(&candidates, &spectra, &evidence, &named);
+        let lead = match findings.is_empty() {
+            true => leading(
+                views,
+                &all,
+                &spectra,
+                &evidence,
+                &candidates,
+                shaft,
+                options,
+            )?,
+            false => 0,
+        };
+        let Some(next) = all.into_iter().nth(lead) else {
+            break;
+        };
+        left -= 1;
+        let (component, name, candidate) = &candidates[next.candidate];
+        named.push(*component);
+        let finding = finding(views, options, &next, *component, name, candidate.frequency);
+        let strongest = findings.first().map_or(0.0, |f| f.modulation);
+        let mut finding = Finding {
+            strength: match finding.modulation {
+                m if m < FAINT || m < FURTHER * strongest => Strength::Faint,
+                _ => Strength::Damage,
+            },
+            ..finding
+        };
+        if *component == Component::Cage && !findings.is_empty() {
+            finding.strength = Strength::Faint;
+        }
+        let spacings = [shaft, options.orders.ftf.unwrap_or(0.0) * shaft];
+        for (spectrum, evidence) in spectra.iter_mut().zip(&mut evidence) {
+            let mine = &evidence[next.candidate];
+            let mine = if mine.stands { mine } else { &next.evidence };
+            *spectrum = without(spectrum, mine.frequency, &spacings)?;
+            let only: Vec<_> = candidates.iter().map(|c| c.2.clone()).collect();
+            *evidence = diagnose(spectrum, &only, &looking(options, views.len() as f64))?.evidence;
+        }
+        findings.push(finding);
+    }
+    // What stood at first, and no longer does.
+    for gone in &first {
+        let (component, name, candidate) = &candidates[gone.candidate];
+        if named.contains(component) {
+            continue;
+        }
+        named.push(*component);
+        let mut finding = finding(views, options, gone, *component, name, candidate.frequency);
+        finding.explained_by = findings.iter().map(|f| f.name).collect();
+        findings.push(finding);
+    }
+    let best = findings
+        .first()
+        .map_or_else(|| quiet_view(views), |f| f.view);
+    Ok((findings, best))
+}
+
+/// Which of those that stand comes first: the one without whose lines most others no longer stand, and that does not fall with
+/// theirs; of equals the first. Aliases go that way: a sideband of one frequency may pass for another's line.
+fn leading(
+    views: &[View],
+    all: &[Standing],
+    spectra: &[Spectrum],
+    evidence: &[Vec<Evidence>],
+    candidates: &[(Component, &'static str, Candidate)],
+    shaft: f64,
+    options: &Options,
+) -> Result<usize, AnalysisError> {
+    let rivals = (all.iter())
+        .filter(|s| candidates[s.candidate].0 != Component::Cage)
+        .count();
+    if rivals < 2 {
+        return Ok(0);
+    }
+    let sought: Vec<Candidate> = candidates.iter().map(|c| c.2.clone()).collect();
+    let options = looking(options, views.len() as f64);
+    let mut score = vec![0i32; rivals];
+    for i in 0..rivals {
+        let (component, _, candidate) = &candidates[all[i].candidate];
+        let spacing = match component {
+            Component::Element => candidate.sideband_spacing,
+            _ => Some(shaft),
+        };
+        let mut left = Vec::new();
+        for (spectrum, evidence) in spectra.iter().zip(evidence) {
+            let mine = &evidence[all[i].candidate];
+            let mine = if mine.stands { mine } else { &all[i].evidence };
+            let rest = without(spectrum, mine.frequency, spacing.as_slice())?;
+            left.push(diagnose(&rest, &sought, &options)?.evidence);
+        }
+        for j in (0..rivals).filter(|j| *j != i) {
+            let other = candidates[all[j].candidate].0;
+            let survives = (candidates.iter().enumerate())
+                .filter(|(_, c)| c.0 == other)
+                .any(|(k, _)| left.iter().any(|e| e[k].stands));
+            if !survives {
+                score[i] += 1;
+                score[j] -= 1;
+            }
+        }
+    }
+    let most = score.iter().max().copied().unwrap_or(0);
+    Ok(score.iter().position(|s| *s == most).unwrap_or(0))
+}
+
+/// Power of everything in a spectrum that stands above its median.
+fn line_power(spectrum: &Spectrum) -> f64 {
+    let mut powers: Vec<f64> = spectrum.amplitude.iter().map(|a| 0.5 * a * a).collect();
+    let middle = powers.len() / 2;
+    let median = *powers.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let above = powers.iter().filter(|p| **p > STANDS * median);
+    above.sum()
+}
+
+/// What stands in any view, the smallest chance first, the cage's last; one for each component not yet `named`.
+fn standing(
+    candidates: &[(Component, &'static str, Candidate)],
+    spectra: &[Spectrum],
+    evidence: &[Vec<Evidence>],
+    named: &[Component],
+) -> Vec<Standing> {
+    let totals: Vec<f64> = spectra.iter().map(line_power).collect();
+    let mut all: Vec<Standing> = Vec::new();
+    for (index, (component, ..)) in candidates.iter().enumerate() {
+        let fewest = match component {
+            Component::Cage => FEWEST_OF_CAGE,
+            _ => 1,
+        };
+        let stands = |e: &Evidence| e.stands && e.standing >= fewest;
+        let standing = || {
+            evidence
+                .iter()
+                .enumerate()
+                .filter(|(_, e)| stands(&e[index]))
+        };
+        let best = standing().min_by(|a, b| {
+            (a.1[index].false_alarm.total_cmp(&b.1[index].false_alarm))
+                .then(weight(&b.1[index]).total_cmp(&weight(&a.1[index])))
+        });
+        if let Some((view, e)) = best.filter(|_| !named.contains(component)) {
+            all.push(Standing {
+                candidate: index,
+                view,
+                views: standing().count(),
+                evidence: e[index].clone(),
+                share: standing()
+                    .map(|(v, e)| e[index].power() / totals[v].max(f64::MIN_POSITIVE))
+                    .sum(),
+            });
+        }
+    }
+    all.sort_by(|a, b| {
+        let cage = |s: &Standing| candidates[s.candidate].0 == Component::Cage;
+        (cage(a).cmp(&cage(b))).then(b.share.total_cmp(&a.share))
+    });
+    // BSF and 2 BSF are one element's.
+    let mut seen = Vec::new();
+    all.retain(|s| {
+        let component = candidates[s.candidate].0;
+        let new = !seen.contains(&component);
+        seen.push(component);
+        new
+    });
+    all
+}
+
+/// Number and strength of the harmonics that stand.
 fn weight(e: &Evidence) -> f64 {
     (e.harmonics.standing(LINE_LEVEL)).map(|l| l.snr_db).sum()
 }
 
-/// Findings, the strongest first, and the view that shows most.
-pub(super) fn find(views: &[View], shaft: f64, options: &Options) -> (Vec<Finding>, usize) {
-    let candidates = candidates(shaft, options);
-    let mut found: Vec<(f64, Finding)> = Vec::new();
-    for (i, (component, name, candidate)) in candidates.iter().enumerate() {
-        let fewest = match component {
-            Component::Cage => FEWEST_OF_CAGE,
-            _ => 2,
-        };
-        let stands = |v: &View| {
-            let e = &v.diagnosis.evidence[i];
-            e.stands && e.standing >= fewest
-        };
-        let standing = || views.iter().enumerate().filter(|(_, v)| stands(v));
-        let total: f64 = standing()
-            .map(|(_, v)| weight(&v.diagnosis.evidence[i]))
-            .sum();
-        let best = standing().max_by(|a, b| {
-            let of = |v: &View| weight(&v.diagnosis.evidence[i]);
-            of(a.1).total_cmp(&of(b.1))
-        });
-        let Some((view, v)) = best else { continue };
-        let evidence = v.diagnosis.evidence[i].clone();
-        let power: f64 = (evidence.harmonics.standing(LINE_LEVEL))
-            .map(|l| l.amplitude * l.amplitude)
-            .sum();
-        let modulation = power.sqrt() / v.mean.max(f64::MIN_POSITIVE);
-        let named = |indices: Vec<usize>| indices.into_iter().map(|j| candidates[j].1).collect();
-        found.push((
-            total,
-            Finding {
-                component: *component,
-                name,
-                expected: candidate.frequency,
-                view,
-                standing_in: standing().count(),
-                false_alarm: (evidence.false_alarm * views.len() as f64).min(1.0),
-                modulation,
-                strength: if modulation >= FAINT {
-                    Strength::Damage
-                } else {
-                    Strength::Faint
-                },
-                explained_by: named(evidence.explained_by.clone()),
-                alternatives: named(evidence.alternatives.iter().map(|a| a.0).collect()),
-                evidence,
-            },
-        ));
+fn finding(
+    views: &[View],
+    options: &Options,
+    from: &Standing,
+    component: Component,
+    name: &'static str,
+    expected: f64,
+) -> Finding {
+    let evidence = from.evidence.clone();
+    let power: f64 = (evidence.harmonics.standing(LINE_LEVEL))
+        .map(|l| l.amplitude * l.amplitude)
+        .sum();
+    let modulation = power.sqrt() / views[from.view].mean.max(f64::MIN_POSITIVE);
+    let names: Vec<&str> = options.orders.strikes().map(|s| s.1).collect();
+    Finding {
+        component,
+        name,
+        expected,
+        view: from.view,
+        standing_in: from.views,
+        false_alarm: (evidence.false_alarm * views.len() as f64).min(1.0),
+        modulation,
+        strength: Strength::Faint,
+        explained_by: Vec::new(),
+        alternatives: (evidence.alternatives.iter()).map(|a| names[a.0]).collect(),
+        evidence,
     }
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    // One finding a component: BSF and 2 BSF are one element's.
-    let mut kept: Vec<(f64, Finding)> = Vec::new();
-    for (total, finding) in found {
-        if kept.iter().all(|(_, k)| k.component != finding.component) {
-            kept.push((total, finding));
-        }
-    }
-    let strongest = kept.first().map_or(0.0, |k| k.0);
-    let struck = (kept.first())
-        .filter(|k| k.1.component == Component::Element)
-        .map(|k| k.1.name);
-    let findings: Vec<Finding> = (kept.into_iter().enumerate())
-        .map(|(rank, (total, mut finding))| {
-            if rank == 0 {
-                finding.explained_by.clear();
-            } else if finding.component == Component::Cage && struck.is_some() {
-                // An element's damage passes the load zone once a turn of the cage.
-                finding.explained_by = struck.into_iter().collect();
-            } else if total < FURTHER * strongest {
-                finding.strength = Strength::Faint;
-            }
-            finding
-        })
-        .collect();
-    let best = findings
-        .first()
-        .map_or_else(|| quiet_view(views), |f| f.view);
-    (findings, best)
 }
 
 /// The view to show where nothing stands: the broad band at the fine resolution.

@@ -1,11 +1,12 @@
 //! One band, one resolution: an envelope spectrum and what stands in it.
 
-use super::bands::ChosenBand;
+use super::bands::{BandChoice, ChosenBand};
 use super::frequencies::Component;
 use super::known_lines;
 use super::{AnalysisError, Options, fast_length};
 use crate::signal::{
-    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, diagnose, envelope, psd,
+    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, diagnose, envelope, psd, resample,
+    whitened,
 };
 
 /// Bins from one line of the cage to the next, at the coarse and at the fine resolution.
@@ -24,12 +25,21 @@ pub struct View {
     pub band: ChosenBand,
     /// Envelope spectrum as it is, up to where lines were sought; peak amplitudes in the signal's unit.
     pub spectrum: Spectrum,
+    /// The same less the lines of shaft and mains: what was searched.
+    pub(super) searched: Spectrum,
     /// Mean of the envelope, in the signal's unit.
     pub mean: f64,
     /// Lines of shaft and mains that were taken out before the search, Hz.
     pub removed: Vec<f64>,
     /// What stands, among the candidates of `candidates`, in their order.
     pub diagnosis: Diagnosis,
+}
+
+/// Shaft speed and how far its lines may lie from it, both Hz.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shaft {
+    pub(super) hz: f64,
+    pub(super) tolerance: f64,
 }
 
 /// What is looked for: a candidate for each strike of the bearing.
@@ -69,82 +79,118 @@ fn top(shaft: f64, options: &Options) -> f64 {
     highest * shaft * (options.harmonics as f64 + 0.5) * (1.0 + options.tolerance)
 }
 
+/// How every spectrum is searched, if so many are.
+pub(super) fn looking(options: &Options, tests: f64) -> DiagnosisOptions {
+    DiagnosisOptions {
+        harmonics: options.harmonics,
+        sidebands: 2,
+        level: options.level / tests,
+    }
+}
+
 /// Every band at every resolution that the signal's length allows; two bands at a time.
 pub(super) fn all(
     x: &[f64],
     fs: f64,
-    shaft: f64,
+    shaft: Shaft,
     bands: &[ChosenBand],
     options: &Options,
 ) -> Result<Vec<View>, AnalysisError> {
-    let cage = options.orders.ftf.unwrap_or(USUAL_FTF) * shaft;
+    let cage = options.orders.ftf.unwrap_or(USUAL_FTF) * shaft.hz;
     let x = &x[..fast_length(x.len())];
-    let factor = ((fs / (ENVELOPE_RATE * top(shaft, options))).floor() as usize).max(1);
+    let factor = ((fs / (ENVELOPE_RATE * top(shaft.hz, options))).floor() as usize).max(1);
     let rate = fs / factor as f64;
     let longest = x.len() / factor;
     let mut lengths: Vec<usize> = (RESOLUTIONS.iter())
         .map(|r| fast_length(((r * rate / cage) as usize).clamp(64, longest.max(64))))
         .collect();
     lengths.dedup();
-    let tests = (bands.len() * lengths.len()) as f64;
-    let one = |band: &ChosenBand| view(x, fs, shaft, *band, factor, &lengths, tests, options);
-    let middle = bands.len().div_ceil(2);
-    let (first, second) = bands.split_at(middle);
+    let one = |band: &ChosenBand| spectra(x, fs, *band, factor, &lengths, shaft.hz, options);
+    let parts = halves(bands, &one)?;
+    let plain: Vec<(ChosenBand, f64, Spectrum)> = parts.into_iter().flatten().collect();
+    let only: Vec<Spectrum> = plain.iter().map(|p| p.2.clone()).collect();
+    let combs = known_lines::combs(&only, shaft.hz, shaft.tolerance)?;
+    let tests = plain.len() as f64;
+    let one = |part: &(ChosenBand, f64, Spectrum)| search(part, &combs, shaft.hz, tests, options);
+    halves(&plain, &one)
+}
+
+/// A job for each, on two threads.
+fn halves<T: Sync, R: Send>(
+    of: &[T],
+    one: &(impl Fn(&T) -> Result<R, AnalysisError> + Sync),
+) -> Result<Vec<R>, AnalysisError> {
+    let (first, second) = of.split_at(of.len().div_ceil(2));
     let (first, second) = std::thread::scope(|scope| {
         let other = scope.spawn(|| second.iter().map(one).collect::<Result<Vec<_>, _>>());
         let mine = first.iter().map(one).collect::<Result<Vec<_>, _>>();
         (mine, other.join())
     });
     let second = second.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    Ok(first?.into_iter().chain(second).flatten().collect())
+    Ok(first?.into_iter().chain(second).collect())
 }
 
-#[allow(clippy::too_many_arguments)]
-fn view(
+/// The envelope spectra of a band, with the envelope's mean.
+fn spectra(
     x: &[f64],
     fs: f64,
-    shaft: f64,
     band: ChosenBand,
     factor: usize,
     lengths: &[usize],
-    tests: f64,
+    shaft: f64,
     options: &Options,
-) -> Result<Vec<View>, AnalysisError> {
+) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
+    let white;
+    let x = match band.choice {
+        BandChoice::Whitened => {
+            white = whitened(x, fs, band.band)?;
+            &white[..]
+        }
+        _ => x,
+    };
     let full = envelope(x, fs, band.band).unwrap_or_default();
     let mean = full.iter().sum::<f64>() / full.len().max(1) as f64;
     // The mean of `factor` neighbours is filter enough: what folds back is noise, and the floor is measured with it.
     let coarse: Vec<f64> = (full.chunks_exact(factor))
         .map(|part| part.iter().sum::<f64>() / factor as f64 - mean)
         .collect();
+    let mut rate = fs / factor as f64;
+    let mut coarse = coarse;
+    if let Some(rotation) = &options.rotation {
+        let per_turn = (rate / shaft).round().max(4.0) as usize;
+        coarse = resample(&coarse, rate, rotation, per_turn)?.values;
+        rate = per_turn as f64 * shaft;
+    }
     let top = top(shaft, options);
-    let candidates: Vec<Candidate> = (candidates(shaft, options).into_iter())
-        .map(|c| c.2)
-        .collect();
-    let rate = fs / factor as f64;
-    let mut views = Vec::new();
-    for length in lengths {
+    let of = |length: &usize| {
         let mut spectrum = psd(&coarse, rate, &Segments::of(*length))?;
         let bins = (top / spectrum.frequency_step) as usize + 64;
         spectrum.amplitude.truncate(bins);
         spectrum.density.truncate(bins);
-        let mut searched = spectrum.clone();
-        let removed = known_lines::remove(&mut searched, shaft, top);
-        let diagnosis = diagnose(
-            &searched,
-            &candidates,
-            &DiagnosisOptions {
-                harmonics: options.harmonics,
-                sidebands: 2,
-                level: options.level / tests,
-            },
-        )?;
-        views.push(View {
-            band,
-            spectrum,
-            mean,
-            removed,
-            diagnosis,
-        });
-    }
-    Ok(views)
+        Ok((band, mean, spectrum))
+    };
+    lengths.iter().map(of).collect()
+}
+
+fn search(
+    (band, mean, spectrum): &(ChosenBand, f64, Spectrum),
+    combs: &[f64],
+    shaft: f64,
+    tests: f64,
+    options: &Options,
+) -> Result<View, AnalysisError> {
+    let mut searched = spectrum.clone();
+    let removed = known_lines::remove(&mut searched, combs, top(shaft, options));
+    let sought: Vec<Candidate> = (candidates(shaft, options).into_iter())
+        .map(|c| c.2)
+        .collect();
+    let diagnosis = diagnose(&searched, &sought, &looking(options, tests))?;
+    Ok(View {
+        band: *band,
+        spectrum: spectrum.clone(),
+        searched,
+        mean: *mean,
+        removed,
+        diagnosis,
+    })
 }

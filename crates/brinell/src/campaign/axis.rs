@@ -2,6 +2,7 @@
 //! `operation.speed_rpm=1000:5000:500` or `bearing.radial_clearance_um=5,10,20`.
 
 use super::plan::{MOST_POINTS, PlanError};
+use std::collections::HashSet;
 
 /// Settings that are tried one after the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,7 +13,7 @@ pub struct Axis {
 }
 
 /// What a list of values may be.
-const VALUES: &str = "a list (5,10,20), a range with both ends (1000:5000:500, FROM:TO:STEP), or both mixed; values are TOML, a bare word is a \
+const VALUES: &str = "a list (5,10,20), a range (1000:5000:500, FROM:TO:STEP; TO is in it where a step reaches it), or both mixed; values are TOML, a bare word is a \
                       string";
 
 impl Axis {
@@ -76,11 +77,12 @@ impl Axis {
         if settings.is_empty() {
             return Err(wrong(&[], "there is no value"));
         }
-        for (k, setting) in settings.iter().enumerate() {
+        let mut seen = HashSet::new();
+        for setting in &settings {
             if setting.len() != keys.len() {
                 return Err(wrong(setting, "not a value for each key"));
             }
-            if settings[..k].contains(setting) {
+            if !seen.insert(setting) {
                 return Err(wrong(setting, "comes twice"));
             }
         }

@@ -1,7 +1,7 @@
 //! Runs side by side: every number of each, and how it stands to the first run's.
 
 use super::impacts::impacts;
-use super::quantities::{Quantity, indicator_name};
+use super::quantities::{LEAST_STIFFNESS, Quantity, indicator_name};
 use super::run::Finished;
 use crate::signal::ratio::{Ratio, ratio};
 use crate::signal::{Indicator, Interval};
@@ -16,7 +16,8 @@ pub struct Compared {
     pub unit: String,
     /// Of each run, in their order; `None` where a run has no such number.
     pub of: Vec<Option<Quantity>>,
-    /// Of each run, over the first; `None` of the first itself, of what is not positive, and of frequencies of different things.
+    /// Of each run, over the first; `None` of the first itself, of what is not positive, of extremes over blocks of different
+    /// lengths, and of stiffnesses with different exponents, whose units differ.
     pub ratios: Vec<Option<Ratio>>,
 }
 
@@ -44,6 +45,10 @@ pub fn compare(runs: &[&Finished]) -> Vec<Compared> {
         for k in 1..runs.len() {
             let known = |k: usize| intervals[k].get(&compared.name);
             let value = |k: usize| compared.of[k].as_ref().and_then(|q: &Quantity| q.value);
+            let exponent = |k: usize| runs[k].scenario.contact.exponent;
+            if compared.name.ends_with(LEAST_STIFFNESS) && exponent(k) != exponent(0) {
+                continue;
+            }
             compared.ratios[k] = match (known(k), known(0)) {
                 (Some(of), Some(to)) => ratio(of, to),
                 _ => plain(value(k), value(0)),

@@ -2,7 +2,8 @@
 //! peak after them.
 //!
 //! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time that a roller takes over the
-//! defect at the top speed: half of it before the instant, one and a half after it; the peak is the largest |acceleration| within one.
+//! defect at the top speed: half of it before the instant, one and a half after it; the peak is the largest |acceleration| within the half after it, so that what
+//! leaving does to the acceleration is no part of what coming did: the anti-alias filter spreads both to either side.
 //! Other rollers, in other places, add to both.
 
 use crate::derived::defect_passes;
@@ -12,6 +13,8 @@ use crate::simulate::Simulation;
 
 /// Fewest samples that a roller's time over the defect is taken for.
 const FEWEST: f64 = 8.0;
+/// Share of the window after the instant that the peak is looked for in.
+const PEAK: f64 = 0.5;
 /// Points of the mean course to a sample.
 const FINER: usize = 4;
 
@@ -30,7 +33,7 @@ pub struct Impacts {
     pub step: f64,
     /// The measured acceleration averaged over the instants, m/s^2; empty without any.
     pub mean: Vec<f64>,
-    /// Largest |acceleration| after the instant, averaged over the instants, m/s^2.
+    /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2.
     pub peak: Option<f64>,
     /// Its 95 % interval (Student's t over the instants).
     pub interval: Option<Interval>,
@@ -81,7 +84,7 @@ fn around(
         if from < 0.0 || end >= values.len() as f64 {
             continue;
         }
-        peaks.push(peak(values, instant, window));
+        peaks.push(peak(values, instant, PEAK * window));
         for (k, mean) in mean.iter_mut().enumerate() {
             let place = from + k as f64 / FINER as f64;
             let (i, part) = (place as usize, place.fract());
@@ -154,6 +157,15 @@ mod tests {
         let i = interval(&peaks).unwrap();
         let half = 3.1824463052837078 * (14.0_f64 / 3.0 / 4.0).sqrt();
         assert!((i.high - 5.0 - half).abs() < 1e-12 && (i.low - 5.0 + half).abs() < 1e-12);
+    }
+
+    #[test]
+    fn analytic_what_leaving_does_is_no_part_of_entry() {
+        // A roller comes on at 50 and leaves at 70; a symmetric filter lets the exit begin before its instant.
+        let mut values = vec![0.0; 200];
+        (values[52], values[69], values[71]) = (3.0, -7.0, 9.0);
+        let peaks = |instant: f64| around(&values, [instant].into_iter(), 20.0).1;
+        assert_eq!((peaks(50.0), peaks(70.0)), (vec![3.0], vec![9.0]));
     }
 
     #[test]

@@ -8,17 +8,17 @@ use super::Shape;
 /// A ring's cross-section under damage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// A = 2 L h_z (1 - a), m^2, with a = v q, v = L_s/L and q = h_s/(2 h_z) (Eqs. 3, 8).
+    /// A = 2 L h_z (1 - a), m^2, with a = v q, v = L_s/L and q = h_s/(2 h_z) (Eqs. 3, 8, 12, 19).
     pub area: f64,
-    /// I = (2/3) L h_z^3 K_I, m^4: second moment about the centroid's axial line (Eqs. 5, 9).
+    /// I = (2/3) L h_z^3 K_I, m^4: second moment about the centroid's axial line (Eqs. 5, 9, 20).
     pub inertia: f64,
     /// K_I = (1 - 4 a + 6 v q^2 - 4 v q^3 + v^2 q^4)/(1 - a): I over that of the whole section (Eq. 15).
     pub inertia_ratio: f64,
-    /// h_a = 2 h_z (1 - a), m: thickness of a whole section of the same area (Eq. 16).
+    /// h_a = 2 h_z (1 - a), m: thickness of a whole section of the same area (Eqs. 6, 13).
     pub area_thickness: f64,
-    /// h_I = 2 h_z K_I^(1/3), m: thickness of a whole section of the same inertia (Eq. 17).
+    /// h_I = 2 h_z K_I^(1/3), m: thickness of a whole section of the same inertia (Eqs. 7, 14).
     pub inertia_thickness: f64,
-    /// K_r = h_I / h_a (Eqs. 19, 20).
+    /// K_r = h_I / h_a (Eqs. 16, 17).
     pub thickness_ratio: f64,
 }
 

@@ -5,14 +5,19 @@ use super::Lanes;
 /// 1.5 * 2^52: added to a number of moderate size, it leaves the nearest integer in the low bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Horner's rule, highest coefficient first.
+/// A polynomial, highest coefficient first: odd and even powers apart, each by Horner's rule in x^2, so that the two do not wait for each other.
 #[inline(always)]
 fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f64; N]) -> L {
-    let mut sum = L::splat(coefficients[0]);
-    for c in &coefficients[1..] {
-        sum = sum.times_plus(x, L::splat(*c));
-    }
-    sum
+    let square = x * x;
+    let sum = |first: usize| {
+        let mut sum = L::splat(coefficients[first]);
+        for c in coefficients[first + 2..].iter().step_by(2) {
+            sum = sum.times_plus(square, L::splat(*c));
+        }
+        sum
+    };
+    let (odd, even) = if N.is_multiple_of(2) { (0, 1) } else { (1, 0) };
+    sum(odd).times_plus(x, sum(even))
 }
 
 /// (sin x, cos x) for |x| up to 1e5 (about 16 000 turns of a cage), absolute error below 3e-16.
@@ -142,14 +147,6 @@ pub(crate) mod ninth {
     ];
 }
 
-/// A cubic, highest coefficient first, in two halves that do not wait for each other.
-#[inline(always)]
-fn cubic<L: Lanes>(x: L, [a, b, c, d]: [f64; 4]) -> L {
-    let high = x.times_plus(L::splat(a), L::splat(b));
-    let low = x.times_plus(L::splat(c), L::splat(d));
-    high.times_plus(x * x, low)
-}
-
 /// 1 - x z^9.
 #[inline(always)]
 fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
@@ -173,13 +170,11 @@ pub fn ten_ninths<L: Lanes>(x: L) -> L {
     let guess = upper
         .times_plus(L::splat(-1.0 / 9.0), L::splat(SHIFTED))
         .shift_up::<32>();
-    let z = guess * cubic(one_minus_ninth(size, guess), FIT);
+    let z = guess * polynomial(one_minus_ninth(size, guess), FIT);
     let square = z * z;
     let root = square * square * size;
     let rest = one_minus_ninth(size, z);
-    let [highest, others @ ..] = EIGHT;
-    let rest_square = rest * rest;
-    let series = (rest_square * rest_square).times_plus(L::splat(highest), cubic(rest, others));
+    let series = polynomial(rest, EIGHT);
     let result = root * root * series;
     x.if_above(L::splat(f64::MIN_POSITIVE), result, L::zero())
 }

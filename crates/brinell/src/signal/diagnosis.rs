@@ -20,9 +20,12 @@
 //! candidate of the list is said to stand is at most the level chosen. It does not say that a candidate that stands is
 //! the cause: other sources make lines too. Candidates that claim the same lines are therefore named with each other.
 
+mod comb;
+
+use self::comb::Sought;
 use super::distribution::chi_square_tail;
 use super::error::{SignalError, require};
-use super::lines::{Floor, Line, LineSet, harmonics, sidebands};
+use super::lines::{Floor, Line, LineSet};
 use super::spectrum::Spectrum;
 
 /// Smallest chance that a single line contributes.
@@ -37,6 +40,14 @@ const FARTHEST_ORDER: i32 = 20;
 const COINCIDENCE: f64 = 0.05;
 /// Sidebands are told from their carrier from this many bins on.
 const CLOSEST_SIDEBAND: f64 = 5.0;
+/// Sidebands that make a family of a single harmonic.
+const FEWEST_SIDEBANDS: usize = 3;
+/// Powers below this share of the strongest line's are no evidence: skirts of lines that slip smears, and round-off.
+const RANGE: f64 = 1e-3;
+/// Bins to either side of a place that its line fills: Hann's main lobe.
+const REACH: f64 = 2.0;
+/// Order of the sidebands to which a candidate accounts for lines.
+const FARTHEST_SIDEBAND: f64 = 5.0;
 
 /// A frequency to look for.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +61,23 @@ pub struct Candidate {
     /// Distance of the sidebands that would come with it, Hz: the speed at which the source passes through the load or the
     /// transmission path.
     pub sideband_spacing: Option<f64>,
+}
+
+impl Candidate {
+    fn check(&self) -> Result<(), SignalError> {
+        require(
+            self.frequency > 0.0 && self.frequency.is_finite(),
+            "frequency (Hz)",
+            self.frequency,
+            "above 0",
+        )?;
+        require(
+            (0.0..0.5 * self.frequency).contains(&self.tolerance),
+            "tolerance (Hz)",
+            self.tolerance,
+            "0 to below half the frequency",
+        )
+    }
 }
 
 /// What to look for about each candidate, and how sure to be.
@@ -101,6 +129,9 @@ pub struct Evidence {
     /// Upper bound of the chance that noise alone shows such harmonics for any candidate of the list; 1 where none of its
     /// lines lies within the spectrum. Its complement is the confidence that there is more than noise.
     pub false_alarm: f64,
+    /// By how much lines at frequencies that nobody asked for stand higher than noise would show them: 1 in noise. The
+    /// logarithm of the chance has been divided by it.
+    pub crowding: f64,
     /// Its sidebands, where it has a spacing wide enough to resolve.
     pub sidebands: Option<SidebandEvidence>,
     /// Whether it stands: false alarm at most the level, and at least two harmonics stand by themselves.
@@ -115,11 +146,21 @@ pub struct Evidence {
 impl Evidence {
     /// Sum of ln(power over noise) over its standing lines, sidebands included: number and strength in one.
     fn weight(&self) -> f64 {
-        let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
-        (self.harmonics.lines.iter().chain(sidebands))
-            .filter(|l| l.false_alarm <= LINE_LEVEL)
+        (self.lines().filter(|l| l.false_alarm <= LINE_LEVEL))
             .map(|l| l.snr_db * 0.1 * std::f64::consts::LN_10)
             .sum()
+    }
+
+    /// Power of its standing lines, sidebands included: the sum of half their squared amplitudes.
+    pub fn power(&self) -> f64 {
+        (self.lines().filter(|l| l.false_alarm <= LINE_LEVEL))
+            .map(|l| 0.5 * l.amplitude * l.amplitude)
+            .sum()
+    }
+
+    fn lines(&self) -> impl Iterator<Item = &Line> {
+        let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
+        self.harmonics.lines.iter().chain(sidebands)
     }
 }
 
@@ -173,18 +214,20 @@ pub fn diagnose(
         options.harmonics as f64,
         "2 to 100",
     )?;
-    let floor = Floor::new(spectrum)?;
-    let count = candidates.len() as f64;
-    let mut evidence = Vec::with_capacity(candidates.len());
-    for (index, candidate) in candidates.iter().enumerate() {
-        // Checks the candidate, too.
-        harmonics(spectrum, candidate.frequency, candidate.tolerance, 1)?;
-        evidence.push(examine(spectrum, &floor, index, candidate, options, count)?);
+    for candidate in candidates {
+        candidate.check()?;
     }
+    let floor = Floor::within(spectrum, RANGE)?;
+    let mut evidence = (0..candidates.len())
+        .map(|index| examine(&floor, index, candidates, options))
+        .collect::<Result<Vec<Evidence>, _>>()?;
     let mut ranking: Vec<usize> = (0..evidence.len())
         .filter(|i| evidence[*i].stands)
         .collect();
-    ranking.sort_by(|a, b| evidence[*b].weight().total_cmp(&evidence[*a].weight()));
+    ranking.sort_by(|a, b| {
+        let (a, b) = (&evidence[*a], &evidence[*b]);
+        (a.false_alarm.total_cmp(&b.false_alarm)).then(b.weight().total_cmp(&a.weight()))
+    });
 
     explain(&mut evidence, &ranking, spectrum, options);
     Ok(Diagnosis {
@@ -259,31 +302,50 @@ fn comb(
 }
 
 fn examine(
-    spectrum: &Spectrum,
     floor: &Floor,
     index: usize,
-    candidate: &Candidate,
+    candidates: &[Candidate],
     options: &DiagnosisOptions,
-    candidates: f64,
 ) -> Result<Evidence, SignalError> {
-    let step = spectrum.frequency_step;
-    let scores = Scores::new(floor, candidate, options.harmonics, step);
-    let (place, chance) = scores.best(candidate, step);
-    let found = harmonics(spectrum, place, 0.0, options.harmonics)?;
-    let standing = found.standing(LINE_LEVEL).count();
-    let frequency = common_frequency(&found).unwrap_or(place);
-    let false_alarm = (chance * candidates).min(1.0);
+    let candidate = &candidates[index];
     let spacing = candidate.sideband_spacing.filter(|_| options.sidebands > 0);
-    let sidebands = match spacing {
-        Some(spacing) => about(spectrum, frequency, spacing, options, candidates)?,
-        None => None,
+    let sought = Sought {
+        frequency: candidate.frequency,
+        tolerance: candidate.tolerance,
+        spacing,
+        harmonics: options.harmonics,
     };
+    let best = comb::best(floor, &sought);
+    let lines = (1..=options.harmonics)
+        .filter_map(|h| floor.line(h as i32, h as f64 * best.frequency, 0.0));
+    let found = LineSet {
+        lines: lines.collect(),
+    };
+    let standing = found.standing(LINE_LEVEL).count();
+    let frequency = common_frequency(&found).unwrap_or(best.frequency);
+    let many = candidates.len() as f64;
+    // What any other frequency shows, in place of noise alone: less what this one accounts for.
+    let crowding = match best.chance * many <= options.level {
+        true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
+            let left = without(floor.spectrum(), frequency, spacing.as_slice())?;
+            let left = comb::beside(left, frequency);
+            comb::crowding(&Floor::within(&left, RANGE)?, &sought, candidates)
+        }
+        _ => 1.0,
+    };
+    let chance = (best.chance.ln() / crowding).exp();
+    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
+    let false_alarm = (chance * many).min(1.0);
+    let beside = sidebands.as_ref().map_or(0, |s| s.standing);
+    let low = (found.standing(LINE_LEVEL)).any(|l| l.order <= 2);
     Ok(Evidence {
         candidate: index,
         frequency,
         standing,
         false_alarm,
-        stands: false_alarm <= options.level && standing >= 2,
+        crowding,
+        stands: false_alarm <= options.level
+            && (standing >= 2 || low && beside >= FEWEST_SIDEBANDS),
         harmonics: found,
         sidebands,
         alternatives: Vec::new(),
@@ -292,37 +354,96 @@ fn examine(
 }
 
 fn about(
-    spectrum: &Spectrum,
+    floor: &Floor,
     frequency: f64,
     spacing: f64,
     options: &DiagnosisOptions,
     candidates: f64,
-) -> Result<Option<SidebandEvidence>, SignalError> {
-    let step = spectrum.frequency_step;
+) -> Option<SidebandEvidence> {
+    let step = floor.step();
     let mut lines = Vec::new();
+    let count = options.sidebands as i32;
     for h in 1..=options.harmonics {
         let carrier = h as f64 * frequency;
         let tolerance = step.min(0.4 * spacing);
-        let set = sidebands(spectrum, carrier, spacing, tolerance, options.sidebands)?;
-        lines.extend(set.lines.into_iter().filter(|l| {
-            let order = (l.expected / frequency).round();
-            (l.expected - order * frequency).abs() >= CLOSEST_SIDEBAND * step
-        }));
+        lines.extend(
+            (-count..=count)
+                .filter(|m| *m != 0)
+                .filter_map(|m| floor.line(m, carrier + f64::from(m) * spacing, tolerance))
+                .filter(|l| {
+                    let order = (l.expected / frequency).round();
+                    (l.expected - order * frequency).abs() >= CLOSEST_SIDEBAND * step
+                }),
+        );
     }
     if lines.is_empty() {
-        return Ok(None);
+        return None;
     }
     let statistic: f64 = lines
         .iter()
         .map(|l| -2.0 * l.false_alarm.max(CAP).ln())
         .sum();
     let chance = chi_square_tail(statistic, 2.0 * lines.len() as f64);
-    Ok(Some(SidebandEvidence {
+    Some(SidebandEvidence {
         spacing,
         standing: lines.iter().filter(|l| l.false_alarm <= LINE_LEVEL).count(),
         lines,
         false_alarm: (chance * candidates).min(1.0),
-    }))
+    })
+}
+
+/// A spectrum without what damage at a frequency accounts for: lines on its harmonics and on their sidebands, spaced as any
+/// of `spacings` (all Hz), brought down to the noise about them. What is left speaks for others.
+///
+/// # Errors
+/// [`SignalError::OutOfRange`] where the frequency is not positive or the spectrum has fewer than 27 bins.
+pub fn without(
+    spectrum: &Spectrum,
+    frequency: f64,
+    spacings: &[f64],
+) -> Result<Spectrum, SignalError> {
+    require(
+        frequency > 0.0 && frequency.is_finite(),
+        "frequency (Hz)",
+        frequency,
+        "above 0",
+    )?;
+    let floor = Floor::within(spectrum, RANGE)?;
+    let step = spectrum.frequency_step;
+    let mut left = spectrum.clone();
+    let top = step * spectrum.amplitude.len() as f64;
+    let wide: Vec<f64> = (spacings.iter().copied())
+        .filter(|s| *s >= CLOSEST_SIDEBAND * step)
+        .collect();
+    let farthest = FARTHEST_SIDEBAND * wide.iter().fold(0.0, |m: f64, s| m.max(*s));
+    let mut place = |frequency: f64| {
+        let middle = frequency / step;
+        let first = (middle - REACH).ceil().max(1.0) as usize;
+        let last = ((middle + REACH).floor().max(0.0) as usize).min(left.amplitude.len() - 2);
+        if first > last {
+            return;
+        }
+        let level = floor.level(first, last);
+        for bin in first..=last {
+            let limit = level.power.sqrt();
+            left.amplitude[bin] = left.amplitude[bin].min(limit);
+        }
+    };
+    let mut h = 0.0;
+    while h * frequency < top + farthest {
+        let carrier = h * frequency;
+        if h > 0.0 {
+            place(carrier);
+        }
+        for spacing in &wide {
+            for m in 1..=FARTHEST_SIDEBAND as i32 {
+                place(carrier + f64::from(m) * spacing);
+                place(carrier - f64::from(m) * spacing);
+            }
+        }
+        h += 1.0;
+    }
+    Ok(left)
 }
 
 /// The fundamental by least squares from the harmonics that stand, each weighted by its power over noise.
@@ -334,89 +455,6 @@ fn common_frequency(found: &LineSet) -> Option<f64> {
         below += weight * order * order;
     }
     (below > 0.0).then(|| above / below)
-}
-
-/// A harmonic and the bins in which it may lie.
-struct Row {
-    order: f64,
-    first: usize,
-    /// -2 ln p of each bin, p capped.
-    scores: Vec<f64>,
-    /// Power over noise of each bin.
-    ratios: Vec<f64>,
-}
-
-impl Row {
-    /// The place of the bin nearest to the harmonic of `frequency`.
-    fn place(&self, frequency: f64, step: f64) -> usize {
-        let bin = (self.order * frequency / step).round() as usize;
-        bin.saturating_sub(self.first).min(self.scores.len() - 1)
-    }
-}
-
-/// Harmonics within the spectrum.
-struct Scores {
-    rows: Vec<Row>,
-}
-
-impl Scores {
-    fn new(floor: &Floor, candidate: &Candidate, harmonics: usize, step: f64) -> Self {
-        let rows = (1..=harmonics).filter_map(|h| {
-            let order = h as f64;
-            let (middle, reach) = (order * candidate.frequency, order * candidate.tolerance);
-            let first = floor.bin(middle - reach - 0.5 * step)?;
-            let last = floor.bin(middle + reach + 0.5 * step)?;
-            let level = floor.level(first, last);
-            let powers = (first..=last).map(|k| floor.power(k));
-            Some(Row {
-                order,
-                first,
-                scores: (powers.clone())
-                    .map(|p| -2.0 * floor.chance(p, level).max(CAP).ln())
-                    .collect(),
-                ratios: powers.map(|p| p / level.power).collect(),
-            })
-        });
-        Scores {
-            rows: rows.collect(),
-        }
-    }
-
-    /// The common frequency (Hz) at which the harmonics stand highest together, and the chance of that under noise,
-    /// corrected for the places tried.
-    fn best(&self, candidate: &Candidate, step: f64) -> (f64, f64) {
-        let Some(highest) = self.rows.last() else {
-            return (candidate.frequency, 1.0);
-        };
-        // Half a bin at the highest harmonic from one place to the next.
-        let steps = (candidate.tolerance * highest.order / (0.5 * step)).ceil();
-        let frequencies = (-(steps as i64)..=steps as i64)
-            .map(|i| candidate.frequency + candidate.tolerance * i as f64 / steps.max(1.0));
-        let mut places: Vec<(f64, Vec<usize>)> = frequencies
-            .map(|f| (f, self.rows.iter().map(|r| r.place(f, step)).collect()))
-            .collect();
-        places.dedup_by(|a, b| a.1 == b.1);
-        let sum = |bins: &[usize], values: fn(&Row) -> &[f64]| -> f64 {
-            (self.rows.iter().zip(bins))
-                .map(|(row, bin)| values(row)[*bin])
-                .sum()
-        };
-        let score = |p: &(f64, Vec<usize>)| sum(&p.1, |r| &r.scores);
-        let ratio = |p: &(f64, Vec<usize>)| sum(&p.1, |r| &r.ratios);
-        let top = places.iter().max_by(|a, b| score(a).total_cmp(&score(b)));
-        let Some(top) = top else {
-            return (candidate.frequency, 1.0);
-        };
-        let chance = chi_square_tail(score(top), 2.0 * self.rows.len() as f64);
-        // The cap makes neighbouring places equal: of those within a bin, the one with the most power.
-        let finest = (places.iter())
-            .filter(|p| (p.0 - top.0).abs() <= step)
-            .max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-        (
-            finest.unwrap_or(top).0,
-            (chance * places.len() as f64).min(1.0),
-        )
-    }
 }
 
 #[cfg(test)]

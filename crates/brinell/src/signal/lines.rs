@@ -153,6 +153,11 @@ pub(super) struct Level {
 
 impl<'a> Floor<'a> {
     pub(super) fn new(spectrum: &'a Spectrum) -> Result<Self, SignalError> {
+        Floor::within(spectrum, LOWEST_FLOOR)
+    }
+
+    /// With a floor of at least a share `lowest` of the strongest power.
+    pub(super) fn within(spectrum: &'a Spectrum, lowest: f64) -> Result<Self, SignalError> {
         require(
             spectrum.amplitude.len() > FEWEST_BINS + 2 * SKIRT + 2,
             "bins of the spectrum",
@@ -172,7 +177,7 @@ impl<'a> Floor<'a> {
             freedom,
             median: chi_square_quantile(0.5, freedom) / freedom,
             correlation: spectrum.noise_bandwidth / spectrum.frequency_step,
-            lowest: LOWEST_FLOOR * strongest * strongest,
+            lowest: lowest * strongest * strongest,
         })
     }
 
@@ -181,6 +186,15 @@ impl<'a> Floor<'a> {
         let bin = (frequency / self.spectrum.frequency_step).round();
         let last = self.spectrum.amplitude.len() - 2;
         (bin >= SKIRT as f64 && bin <= last as f64).then_some(bin as usize)
+    }
+
+    pub(super) fn spectrum(&self) -> &'a Spectrum {
+        self.spectrum
+    }
+
+    /// Hz from bin to bin.
+    pub(super) fn step(&self) -> f64 {
+        self.spectrum.frequency_step
     }
 
     pub(super) fn power(&self, bin: usize) -> f64 {
@@ -228,7 +242,7 @@ impl<'a> Floor<'a> {
     }
 
     /// The line within `tolerance` of `expected`, both Hz.
-    fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
+    pub(super) fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
         let step = self.spectrum.frequency_step;
         let nearest = self.bin(expected)?;
         let first = self

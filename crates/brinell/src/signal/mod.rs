@@ -35,13 +35,16 @@ pub mod ratio;
 pub mod spectrogram;
 pub mod spectrum;
 pub mod velocity_bands;
+pub mod whiten;
 pub mod window;
 
 #[cfg(test)]
 mod test_signals;
 
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
-pub use diagnosis::{Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose};
+pub use diagnosis::{
+    Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose, without,
+};
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
@@ -59,4 +62,5 @@ pub use psd::{Detrend, Segments, density_interval, psd};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
 pub use velocity_bands::{VelocityBands, velocity_bands};
+pub use whiten::whitened;
 pub use window::Window;

@@ -176,3 +176,23 @@ fn prop_odd_input() {
         .is_err()
     );
 }
+
+#[test]
+fn prop_what_one_accounts_for_can_be_taken_away() {
+    // Outer and inner race at once, in one band.
+    let mut x = impacts(106.8, 0.0, 0.3, 3);
+    (x.iter_mut().zip(impacts(162.9, SHAFT, 0.3, 4))).for_each(|(a, b)| *a += b);
+    let band = Band::between(3500.0, 6500.0);
+    let s = envelope_spectrum(&x, FS, band, &Segments::of(32_768)).unwrap();
+    let options = DiagnosisOptions::default();
+    let before = diagnose(&s.spectrum, &candidates(), &options).unwrap();
+    assert!(before.evidence[0].stands && before.evidence[1].stands);
+    let left = without(&s.spectrum, before.evidence[0].frequency, &[]).unwrap();
+    let after = diagnose(&left, &candidates(), &options).unwrap();
+    assert!(!after.evidence[0].stands && after.evidence[1].stands);
+    assert!(
+        (left.amplitude.iter().zip(&s.spectrum.amplitude)).all(|(a, b)| a <= b),
+        "nothing is added"
+    );
+    assert!(without(&s.spectrum, 0.0, &[]).is_err());
+}

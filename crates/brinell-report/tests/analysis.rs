@@ -1,0 +1,169 @@
+//! The page of an analysis: what must be on it, and that nothing odd breaks it.
+
+use brinell_report::{
+    AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Series, Spectrum, Table,
+    analysis_html, analysis_pictures,
+};
+use proptest::prelude::*;
+
+const HOSTILE: &str = "</script><img src=\"x\" onerror='y'>&\u{0}\u{2028}";
+
+fn report(text: &str, values: &[f64]) -> AnalysisReport {
+    let at = |i: usize| values.get(i).copied().unwrap_or(f64::NAN);
+    let spectrum = Spectrum {
+        label: text.into(),
+        df_hz: at(0),
+        amplitude: values.to_vec(),
+        unit: text.into(),
+        note: text.into(),
+    };
+    AnalysisReport {
+        title: text.into(),
+        subtitle: text.into(),
+        version: text.into(),
+        verdict: text.into(),
+        damage: at(1) > 0.0,
+        warnings: vec![text.into()],
+        notes: vec![text.into()],
+        facts: vec![Fact::new(text, at(2), text, text)],
+        names: vec![text.into(); 2],
+        waveforms: vec![
+            Series {
+                label: text.into(),
+                unit: text.into(),
+                t0_s: at(3),
+                dt_s: at(0),
+                values: values.to_vec(),
+            };
+            2
+        ],
+        close_up_s: at(4),
+        spectra: vec![spectrum.clone(); 2],
+        envelopes: vec![spectrum; 2],
+        markers: vec![Marker {
+            label: text.into(),
+            meaning: text.into(),
+            frequency_hz: at(5),
+            harmonics: 5,
+            present: at(6) > 0.0,
+        }],
+        band_hz: Some((at(7), at(8))),
+        kurtogram: Some(Kurtogram {
+            levels: values
+                .chunks(2)
+                .map(|v| KurtogramLevel {
+                    bandwidth_hz: at(0),
+                    kurtosis: v.to_vec(),
+                })
+                .collect(),
+            chosen_hz: Some((at(7), at(8))),
+            note: text.into(),
+        }),
+        tables: vec![Table {
+            title: text.into(),
+            columns: vec![text.into(), format!("#{text}")],
+            rows: vec![vec![text.into(); 2]],
+            note: text.into(),
+        }],
+    }
+}
+
+/// Eight samples, a spectrum with one line, and a kurtogram of 1, 2 and 4 bands.
+fn plain() -> AnalysisReport {
+    let mut r = report("plain", &[0.5, 1.0, 2.0, 0.0, 1.0, 1.5, 1.0, 1.0, 2.0]);
+    let level = |bandwidth_hz: f64, kurtosis: &[f64]| KurtogramLevel {
+        bandwidth_hz,
+        kurtosis: kurtosis.to_vec(),
+    };
+    r.kurtogram = Some(Kurtogram {
+        levels: vec![
+            level(4000.0, &[0.1]),
+            level(2000.0, &[0.0, 0.4]),
+            level(1000.0, &[0.0, 0.0, 3.5, 0.2]),
+        ],
+        chosen_hz: Some((2000.0, 3000.0)),
+        note: String::new(),
+    });
+    r
+}
+
+#[test]
+fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
+    let page = analysis_html(&report(
+        HOSTILE,
+        &[0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 1.0, 7.0, 8.0],
+    ));
+    for part in [
+        "verdict",
+        "waveform",
+        "spectrum",
+        "kurtogram",
+        "envelope",
+        "given",
+    ] {
+        assert!(page.contains(&format!("<section id=\"{part}\">")), "{part}");
+    }
+    assert!(!page.contains("<img") && !page.contains("</script>"));
+    // Nothing is fetched.
+    assert!(!page.contains("http://") && !page.contains("src=\"http"));
+    assert_eq!(page.matches("<html").count(), 1);
+    assert!(page.ends_with("</html>\n"));
+}
+
+#[test]
+fn regress_the_tag_says_what_the_verdict_says() {
+    let mut r = plain();
+    assert!(analysis_html(&r).contains("<span class=\"tag bad\">damage</span>"));
+    r.damage = false;
+    assert!(analysis_html(&r).contains("<span class=\"tag good\">nothing stands out</span>"));
+}
+
+#[test]
+fn regress_pictures_and_their_names() {
+    let names = |r: &AnalysisReport| -> Vec<String> {
+        analysis_pictures(r).into_iter().map(|p| p.name).collect()
+    };
+    let mut r = plain();
+    let all = [
+        "waveform",
+        "close-up",
+        "spectrum",
+        "kurtogram",
+        "envelope-spectrum",
+    ];
+    assert_eq!(names(&r), all);
+    r.kurtogram = None;
+    assert_eq!(
+        names(&r),
+        ["waveform", "close-up", "spectrum", "envelope-spectrum"]
+    );
+    assert!(!analysis_html(&r).contains("id=\"kurtogram\""));
+}
+
+#[test]
+fn analytic_a_second_signal_has_its_own_curve_and_name() {
+    let mut r = plain();
+    r.names = vec!["measured".into(), "simulated".into()];
+    let svg = |r: &AnalysisReport| analysis_pictures(r)[2].svg();
+    assert!(svg(&r).contains("measured") && svg(&r).contains("simulated"));
+    let two = svg(&r).matches("<path").count() + svg(&r).matches("<polyline").count();
+    r.spectra.truncate(1);
+    let one = svg(&r).matches("<path").count() + svg(&r).matches("<polyline").count();
+    assert!(two > one, "{two} {one}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn prop_odd_numbers_break_nothing(values in prop::collection::vec(prop_oneof![
+        any::<f64>(), -10.0..10.0f64, Just(f64::NAN), Just(f64::INFINITY), Just(0.0)
+    ], 0..40)) {
+        let r = report("x", &values);
+        let page = analysis_html(&r);
+        prop_assert!(page.ends_with("</html>\n"));
+        for picture in analysis_pictures(&r) {
+            let svg = picture.svg();
+            prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", picture.name);
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Scenarios and console examples in the text, tried on the program.
+//!
+//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to find it sound. In a block of
+//! `console` each line after `$ ` is run by the shell in a folder that holds a copy of `examples/`, and has to succeed; what follows it is what
+//! it prints. In a line of that `[..]` stands for anything, a line of `...` for any lines.
+
+use crate::{copy, fail};
+use mdbook_driver::errors::Result;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// How many scenarios and how many commands held.
+pub fn check(docs: &Path, brinell: &Path) -> Result<(usize, usize)> {
+    let folder = std::env::temp_dir().join(format!("brinell-book-{}", std::process::id()));
+    let done = try_all(docs, brinell, &folder);
+    let _ = fs::remove_dir_all(&folder);
+    done
+}
+
+fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)> {
+    copy(&docs.join("../examples"), &folder.join("examples"))?;
+    let bin = folder.join("bin");
+    fs::create_dir_all(&bin)?;
+    fs::copy(brinell, bin.join("brinell"))?;
+    let mut path = bin.into_os_string();
+    path.push(":");
+    path.push(std::env::var_os("PATH").unwrap_or_default());
+    let run = |line: &str| {
+        Command::new("sh")
+            .arg("-c")
+            .arg(format!("exec 2>&1; {line}"))
+            .current_dir(folder)
+            .env("PATH", &path)
+            .output()
+    };
+
+    let (mut scenarios, mut commands) = (0, 0);
+    let mut problems = Vec::new();
+    let mut sources = Vec::new();
+    gather(&docs.join("src"), &mut sources)?;
+    for source in sources {
+        let name = source
+            .strip_prefix(docs)
+            .unwrap_or(&source)
+            .display()
+            .to_string();
+        for (kind, block) in blocks(&fs::read_to_string(&source)?) {
+            match kind.as_str() {
+                "toml" if block.contains("{{#include") => {}
+                "toml" => {
+                    scenarios += 1;
+                    let text: Vec<&str> = block
+                        .lines()
+                        .map(|l| l.strip_prefix('~').unwrap_or(l))
+                        .collect();
+                    fs::write(folder.join("examples/from-the-book.toml"), text.join("\n"))?;
+                    let output = run("brinell check examples/from-the-book.toml")?;
+                    if !output.status.success() {
+                        problems.push(format!(
+                            "{name}:\n{block}\n{}",
+                            String::from_utf8_lossy(&output.stdout)
+                        ));
+                    }
+                }
+                "console" => {
+                    for (command, shown) in steps(&block) {
+                        commands += 1;
+                        let output = run(command)?;
+                        let printed = String::from_utf8_lossy(&output.stdout);
+                        let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
+                        if !output.status.success() || !matches(&shown, &lines) {
+                            problems.push(format!(
+                                "{name}: $ {command}\n{}\n--- prints\n{printed}",
+                                shown.join("\n")
+                            ));
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    fail("examples that do not hold", &problems)?;
+    Ok((scenarios, commands))
+}
+
+fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)?
+        .map(|e| e.map(|e| e.path()))
+        .collect::<std::io::Result<_>>()?;
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            gather(&path, sources)?;
+        } else if path.extension().is_some_and(|e| e == "md") {
+            sources.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Fenced blocks with what stands behind their fence.
+fn blocks(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut open: Option<(String, String)> = None;
+    for line in text.lines() {
+        match (line.strip_prefix("```"), &mut open) {
+            (Some(kind), None) => open = Some((kind.trim().to_owned(), String::new())),
+            (Some(_), Some(_)) => found.extend(open.take()),
+            (None, Some((_, block))) => {
+                block.push_str(line);
+                block.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    found
+}
+
+/// Commands with the lines that they print.
+fn steps(block: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut all: Vec<(&str, Vec<&str>)> = Vec::new();
+    for line in block.lines() {
+        match (line.strip_prefix("$ "), all.last_mut()) {
+            (Some(command), _) => all.push((command, Vec::new())),
+            (None, Some((_, shown))) => shown.push(line.trim_end()),
+            (None, None) => {}
+        }
+    }
+    all
+}
+
+fn matches(shown: &[&str], printed: &[&str]) -> bool {
+    match (shown.first(), printed.first()) {
+        (None, None) => true,
+        (Some(&"..."), _) => (0..=printed.len()).any(|k| matches(&shown[1..], &printed[k..])),
+        (Some(a), Some(b)) => alike(a, b) && matches(&shown[1..], &printed[1..]),
+        _ => false,
+    }
+}
+
+fn alike(shown: &str, printed: &str) -> bool {
+    match shown.split_once("[..]") {
+        None => shown == printed,
+        Some((before, after)) => printed.strip_prefix(before).is_some_and(|rest| {
+            (0..=rest.len())
+                .filter(|&k| rest.is_char_boundary(k))
+                .any(|k| alike(after, &rest[k..]))
+        }),
+    }
+}

@@ -1,0 +1,72 @@
+//! Builds the book and holds it against the program that it is about:
+//!
+//!     cargo run --manifest-path docs/tool/Cargo.toml
+//!
+//! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show equations. The build fails
+//! on a formula that does not parse, on an equation of the paper that is missing or stands twice, and on a link that leads nowhere. Where
+//! the variable BRINELL names a `brinell` command, every scenario in the text is checked by it and every console example is run and compared.
+
+mod examples;
+mod links;
+mod math;
+
+use mdbook_driver::MDBook;
+use mdbook_driver::errors::{Error, Result};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn main() -> Result<()> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .canonicalize()?;
+    let mut book = MDBook::load(&docs)?;
+    let out = book.build_dir_for("html");
+    book.with_preprocessor(math::Equations);
+    book.build()?;
+    // What included files point at.
+    for name in ["peers.csv", "pictures", "reproduction"] {
+        if docs.join(name).exists() {
+            copy(&docs.join(name), &out.join(name))?;
+        }
+    }
+    let out = out.canonicalize()?;
+    let pages = links::check(&out)?;
+    println!(
+        "{pages} pages, no broken link: {}",
+        out.join("index.html").display()
+    );
+    match std::env::var_os("BRINELL") {
+        Some(command) => {
+            let command = PathBuf::from(command).canonicalize()?;
+            let counts = examples::check(&docs, &command)?;
+            println!(
+                "{} scenarios sound, {} console examples as shown",
+                counts.0, counts.1
+            );
+        }
+        None => println!("examples not checked: BRINELL names no command"),
+    }
+    Ok(())
+}
+
+/// A file, or a folder of files.
+fn copy(from: &Path, to: &Path) -> Result<()> {
+    if from.is_dir() {
+        fs::create_dir_all(to)?;
+        for entry in fs::read_dir(from)? {
+            let entry = entry?;
+            copy(&entry.path(), &to.join(entry.file_name()))?;
+        }
+    } else {
+        fs::copy(from, to)?;
+    }
+    Ok(())
+}
+
+/// All problems at once.
+fn fail(what: &str, problems: &[String]) -> Result<()> {
+    if problems.is_empty() {
+        return Ok(());
+    }
+    Err(Error::msg(format!("{what}:\n{}", problems.join("\n"))))
+}
