@@ -53,6 +53,8 @@ pub(crate) enum Command {
     Compare(crate::compare::CompareArgs),
     /// Run the experiments of Li et al. (2023) and hold each of the paper's sentences against them
     Reproduce(crate::reproduce::ReproduceArgs),
+    /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
+    Calibrate(Box<crate::calibrate::CalibrateArgs>),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

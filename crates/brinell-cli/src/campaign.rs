@@ -6,7 +6,6 @@
 use crate::failure::Failure;
 use crate::progress::Joint;
 use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
-use brinell::channel::Frame;
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{IoError, Journal, Outcome, SignalWriter};
@@ -71,6 +70,11 @@ impl Ledger {
         self.rows.get(fingerprint)
     }
 
+    /// Scenarios that are finished.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Whether a scenario is finished, but by another version of this program.
     pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
         self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
@@ -111,6 +115,16 @@ pub(crate) trait Work: Sync {
     fn finished(&self, _: &Task, _: &Finished) -> Result<Vec<Quantity>, Failure> {
         Ok(Vec::new())
     }
+
+    /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
+    fn hears(&self) -> Option<usize> {
+        None
+    }
+
+    /// Numbers for the row beside the run's own, from what was heard after the run had settled.
+    fn besides(&self, _heard: &[f64]) -> Vec<Quantity> {
+        Vec::new()
+    }
 }
 
 /// How the tasks went.
@@ -131,6 +145,18 @@ pub(crate) fn run(
 ) -> Result<Went, Failure> {
     let total = tasks.iter().map(|task| task.duration_s).sum();
     let mut joint = Joint::new(tasks.len(), total, quiet);
+    run_within(tasks, work, ledger, threads, &mut joint, stop)
+}
+
+/// [`run()`] as a part of the work that `joint` shows.
+pub(crate) fn run_within(
+    tasks: &[Task],
+    work: &impl Work,
+    ledger: &mut Ledger,
+    threads: NonZeroUsize,
+    joint: &mut Joint,
+    stop: &AtomicBool,
+) -> Result<Went, Failure> {
     let bar = joint.bar();
     let (mut interrupted, mut failure) = (false, None);
     brinell::many::each(
@@ -160,7 +186,6 @@ pub(crate) fn run(
             joint.ended(&[], Path::new(""));
         },
     );
-    drop(joint);
     match failure {
         Some(failure) => Err(failure),
         None => Ok(Went { interrupted }),
@@ -198,6 +223,8 @@ fn one(
         sample_rate: simulation.sample_rate(),
         writer: work.signals(task, &scenario, &simulation)?,
         failed: None,
+        hears: work.hears(),
+        heard: Vec::new(),
         progress,
         stop,
     };
@@ -214,13 +241,16 @@ fn one(
     if let Some(writer) = recorder.writer {
         writer.finish(outcome)?;
     }
-    Ok(Some(row(match &finished.outcome.end {
+    let numbers = match &finished.outcome.end {
         End::Failed(error) => Err(error.to_string()),
         _ => {
+            let settled = (finished.findings.from * recorder.sample_rate).ceil() as usize;
+            let heard = recorder.heard.get(settled..).unwrap_or(&[]);
             let more = work.finished(task, &finished)?;
-            Ok([finished.quantities(), more].concat())
+            Ok([finished.quantities(), more, work.besides(heard)].concat())
         }
-    })))
+    };
+    Ok(Some(row(numbers)))
 }
 
 /// Rows to a file, time to the bar.
@@ -229,12 +259,17 @@ struct Recorder<'a> {
     sample_rate: f64,
     writer: Option<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
+    hears: Option<usize>,
+    heard: Vec<f64>,
     progress: crate::progress::Progress,
     stop: &'a AtomicBool,
 }
 
 impl Observer for Recorder<'_> {
-    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
+            self.heard.push(*x);
+        }
         let Some(writer) = &mut self.writer else {
             return ControlFlow::Continue(());
         };

@@ -4,6 +4,7 @@
 
 mod analyze;
 mod args;
+mod calibrate;
 mod campaign;
 mod check;
 mod compare;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Calibrate(args) => calibrate::calibrate(&args),
         Command::Compare(args) => compare::side_by_side(&args),
         Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Schema => look_up::schema(),

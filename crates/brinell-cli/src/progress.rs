@@ -102,6 +102,18 @@ impl Joint {
         self.bar.clone()
     }
 
+    /// Takes the bar away: no more runs come.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// A run of `duration` seconds was done before.
+    pub(crate) fn done_before(&mut self, duration: f64) {
+        self.ended += 1;
+        self.bar.inc(micros(duration));
+        self.tell();
+    }
+
     /// The run into `folder` has ended; `lines` go to standard output above the bar.
     pub(crate) fn ended(&mut self, lines: &[String], folder: &Path) {
         self.ended += 1;

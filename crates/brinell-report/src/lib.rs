@@ -13,6 +13,7 @@
 //! ```
 
 mod analysis;
+mod calibrate;
 mod chart;
 mod damage;
 mod data;
@@ -37,6 +38,10 @@ mod tables;
 mod thin;
 
 pub use analysis::{AnalysisReport, Table, analysis_html, analysis_pictures};
+pub use calibrate::{
+    CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot,
+    key_plot,
+};
 pub use damage::{
     DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
 };

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod analysis;
 pub mod bearing;
 pub mod cage;
+pub mod calibrate;
 pub mod campaign;
 pub mod channel;
 pub mod contact;

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
-pub(super) const MOST: usize = 1 << 22;
+pub(crate) const MOST: usize = 1 << 22;
 /// Steps between times may differ by so much from their mean, relative, before a rate is refused.
 const UNEVEN: f64 = 0.02;
 
@@ -19,46 +19,46 @@ const VARIES: f64 = 0.005;
 
 /// What was asked of a file.
 #[derive(Debug, Default)]
-pub(super) struct Wanted<'a> {
-    pub(super) channel: Option<&'a str>,
-    pub(super) rate: Option<f64>,
-    pub(super) time_channel: Option<&'a str>,
-    pub(super) time_unit: Option<&'a str>,
-    pub(super) unit: Option<&'a str>,
-    pub(super) speed_channel: Option<&'a str>,
-    pub(super) start: Option<f64>,
-    pub(super) duration: Option<f64>,
+pub(crate) struct Wanted<'a> {
+    pub(crate) channel: Option<&'a str>,
+    pub(crate) rate: Option<f64>,
+    pub(crate) time_channel: Option<&'a str>,
+    pub(crate) time_unit: Option<&'a str>,
+    pub(crate) unit: Option<&'a str>,
+    pub(crate) speed_channel: Option<&'a str>,
+    pub(crate) start: Option<f64>,
+    pub(crate) duration: Option<f64>,
 }
 
 /// A stretch of one channel, with everything that is known of it.
-pub(super) struct Measured {
-    pub(super) path: PathBuf,
-    pub(super) channel: String,
-    pub(super) x: Vec<f64>,
-    pub(super) rate: f64,
-    pub(super) unit: Unit,
+pub(crate) struct Measured {
+    pub(crate) path: PathBuf,
+    pub(crate) channel: String,
+    pub(crate) x: Vec<f64>,
+    pub(crate) rate: f64,
+    pub(crate) unit: Unit,
     /// Where the stretch begins, s.
-    pub(super) start: f64,
+    pub(crate) start: f64,
     /// Where rate, unit and channel come from, and what was left out: sentences.
-    pub(super) notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// What deserves attention.
-    pub(super) warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
     /// What lies beyond the stretch, where the signal is longer than one analysis takes.
-    pub(super) rest: Option<Rest>,
+    pub(crate) rest: Option<Rest>,
     /// Shaft speed that the file states, and where.
-    pub(super) speed: Option<StatedSpeed>,
+    pub(crate) speed: Option<StatedSpeed>,
     /// The scenario of the run that made the file.
-    pub(super) scenario: Option<Box<Loaded>>,
+    pub(crate) scenario: Option<Box<Loaded>>,
 }
 
 /// A speed that the file states.
-pub(super) struct StatedSpeed {
+pub(crate) struct StatedSpeed {
     /// Its mean, r/min.
-    pub(super) rpm: f64,
+    pub(crate) rpm: f64,
     /// Where it is stated.
-    pub(super) source: String,
+    pub(crate) source: String,
     /// Time (s, from the stretch's beginning) and speed (r/min), where it varies by more than [`VARIES`].
-    pub(super) course: Vec<(f64, f64)>,
+    pub(crate) course: Vec<(f64, f64)>,
 }
 
 impl StatedSpeed {
@@ -76,7 +76,7 @@ fn usage(message: String) -> Failure {
 }
 
 /// Reads what was wanted.
-pub(super) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
+pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let path = signals_in(path)?;
     let mut file = open(&path).map_err(bad)?;
     let scenario = scenario(&file, &path);
@@ -617,7 +617,7 @@ fn stretch(
 }
 
 /// What lies beyond the first [`MOST`] samples of a long signal.
-pub(super) struct Rest {
+pub(crate) struct Rest {
     /// Samples of the whole, from the first one analysed on.
     pub(super) samples: u64,
     /// Their moments.

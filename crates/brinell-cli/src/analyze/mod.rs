@@ -2,7 +2,7 @@
 
 mod args;
 mod bearing;
-mod measured;
+pub(crate) mod measured;
 mod page;
 
 pub(crate) use args::AnalyzeArgs;

@@ -13,7 +13,7 @@ const TRIED: usize = 5;
 const MOMENT: Duration = Duration::from_millis(60);
 
 /// Wall time of all tasks, s; `None` where no trial ran.
-pub(super) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
+pub(crate) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
     let tried = tasks.len().min(TRIED);
     let chosen = (0..tried).map(|k| k * (tasks.len() - 1) / (tried - 1).max(1));
     let costs: Vec<f64> = chosen.filter_map(|k| trial(&tasks[k], work)).collect();

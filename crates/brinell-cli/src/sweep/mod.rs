@@ -1,7 +1,7 @@
 //! `brinell sweep`: keys over lists and ranges, many runs, one table and its plots.
 
 mod args;
-mod cost;
+pub(crate) mod cost;
 mod page;
 mod points;
 mod table;
@@ -17,6 +17,7 @@ use brinell_io::{Metadata, atomic_write, keys};
 
 use page::usual;
 pub(crate) use page::{plural, told, words};
+pub(crate) use points::reason;
 use points::{FromSource, Points};
 use serde_json::{Value, json};
 use std::collections::HashSet;
@@ -193,7 +194,7 @@ fn tell_plan(
 }
 
 /// Wall time to one or two digits: no trial knows more.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "a second".into(),
         s if s < 100.0 => format!("{} s", s.ceil()),

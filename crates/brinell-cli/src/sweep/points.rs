@@ -175,7 +175,7 @@ fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
 }
 
 /// A failure on one line.
-fn reason(failure: &Failure) -> String {
+pub(crate) fn reason(failure: &Failure) -> String {
     let text = match failure {
         Failure::Scenario { problems, .. } => {
             let errors = problems

@@ -1,5 +1,6 @@
 //! The page and its pictures.
 
+mod calibrate;
 mod checks;
 mod damage;
 mod page;

@@ -1,0 +1,123 @@
+//! The command line of `brinell calibrate`.
+
+use clap::Args;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A key is fitted within its bounds: KEY=LOW:HIGH, or KEY=LOW:HIGH:log where it is searched in its logarithm.\n\n\
+    A target is a number of a run with its standard uncertainty (one sigma), in its unit or in per cent: NAME=VALUE~UNCERTAINTY. Names are those of \
+    the columns of `brinell sweep`: measured_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
+    Extremes, such as row1.largest_outer_force, scatter too, though a run cannot say by how much: give them an uncertainty that covers it.\n\n\
+    A measured signal (--measured) becomes targets itself: its octave levels and its envelope spectrum's at the first five harmonics of each \
+    defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they stand out. --model-uncertainty is \
+    what a model may differ by from a machine, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\
+    The search: a quarter of the runs is spread over the bounds (Latin hypercube), a fifth follows a particle swarm, the rest goes downhill \
+    from the best places (Levenberg and Marquardt); two to four runs a key are kept for the Jacobian at the best point. Differences are taken over a \
+    tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect does not stand out of that: impacts amplify round-off, so that an \
+    RMS is uncertain by a per cent, which finer differences would take for a slope. Residuals weigh with the target's uncertainty and the runs' own together.\n\n\
+    Files in the folder:\n  \
+    best.toml        the scenario with the best values; `brinell run` takes it\n  \
+    calibrate.json   values with 95 % intervals, correlations, what the data do not determine, residuals\n  \
+    calibrate.csv    a row a run: keys, status, chi-square, the targets' numbers and residuals\n  \
+    calibrate.html   the same as a page; one file, no network\n  \
+    journal.jsonl    finished runs, each on the disk when it is done\n\n\
+    The same command again goes on where it stopped, with the same outcome as if it had not; with a larger --budget finished runs count again. \
+    The outcome does not depend on --jobs.\n\n\
+    Exit codes: 0 done, whether the targets are met or not, 1 Ctrl-C stopped it (what is finished is kept) or no run came to its end, 2 bad input.\n\n\
+    Examples:\n  \
+    brinell calibrate base.toml --fit bearing.radial_clearance_um=2:20 --fit support.outer_stiffness_n_per_m=1e5:1e7:log \\\n    \
+    --target measured_ax.rms=30.4~1.0 --target defect1.frequency=250.2~0.5 -o out/cal --seed 1 --budget 60\n  \
+    brinell calibrate base.toml --fit operation.speed_rpm=1750:1850 --measured rig.mat --channel DE --unit g"
+)]
+pub(crate) struct CalibrateArgs {
+    /// The scenario whose keys are fitted (TOML); `-` reads standard input
+    pub(crate) scenario: PathBuf,
+    /// A key to fit, with its bounds; several are fitted together
+    #[arg(long, value_name = "KEY=LOW:HIGH[:log]", required = true)]
+    pub(crate) fit: Vec<String>,
+    /// A number that a run is to have, with its standard uncertainty
+    #[arg(long, value_name = "NAME=VALUE~UNCERTAINTY")]
+    pub(crate) target: Vec<String>,
+    /// Override any key, in every run
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// A measured acceleration to meet: csv and other text, parquet, mat, hdf5, npy, npz, wav, uff; or the folder of a run
+    #[arg(long, value_name = "FILE|FOLDER")]
+    pub(crate) measured: Option<PathBuf>,
+    /// Channel of the measured signal: its name, a part of it that no other has, or its number from 1
+    #[arg(long, value_name = "NAME|N", requires = "measured")]
+    pub(crate) channel: Option<String>,
+    /// Its sample rate
+    #[arg(
+        long,
+        alias = "sample-rate",
+        value_name = "HZ",
+        requires = "measured",
+        allow_negative_numbers = true
+    )]
+    pub(crate) rate: Option<f64>,
+    /// Column of times to take the rate from [default: one called t or time]
+    #[arg(
+        long,
+        value_name = "NAME|N",
+        requires = "measured",
+        conflicts_with = "rate"
+    )]
+    pub(crate) time_channel: Option<String>,
+    /// Unit of the times where the file does not say
+    #[arg(long, value_name = "s|ms|us", requires = "measured")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of the signal: m/s^2, g, ...
+    #[arg(long, value_name = "UNIT", requires = "measured")]
+    pub(crate) unit: Option<String>,
+    /// Skip so much of the signal's beginning
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "measured",
+        allow_negative_numbers = true
+    )]
+    pub(crate) start: Option<f64>,
+    /// Use so much from there [default: what is there, up to 4194304 samples]
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "measured",
+        allow_negative_numbers = true
+    )]
+    pub(crate) duration: Option<f64>,
+    /// Sensor's axis in the simulation: x or y [default: the axis nearer the load]
+    #[arg(long, value_name = "x|y", requires = "measured")]
+    pub(crate) axis: Option<String>,
+    /// Standard uncertainty of the model's levels against a machine's
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 5.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) model_uncertainty: f64,
+    /// Runs at most [default: 30 a key]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) budget: Option<usize>,
+    /// Which points are tried: every seed takes others
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Runs at a time [default: one a core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Folder for the results [default: out/calibrate-STEM, STEM being the scenario's file name without ending]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Go on in a folder that holds another calibration; runs of the same scenario count
+    #[arg(long)]
+    pub(crate) extend: bool,
+    /// Print the plan and what it costs; run nothing
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,344 @@
+//! `brinell calibrate`: keys within bounds to targets; the best set, how sure it is, and what the data leave open.
+
+mod args;
+mod measured;
+mod outcome;
+mod page;
+mod runs;
+mod words;
+
+use crate::args::ScenarioArgs;
+use crate::campaign::{JOURNAL, Ledger, Task};
+use crate::failure::Failure;
+use crate::files::{Source, stem};
+use crate::progress::Joint;
+use crate::run::{make_folder, stop_flag};
+use crate::say::{complain, say, short};
+use crate::sweep::{cost, duration, plural};
+pub(crate) use args::CalibrateArgs;
+use brinell::calibrate::search::latin_hypercube;
+use brinell::calibrate::{
+    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
+};
+use brinell::campaign::fingerprint;
+use brinell::document::Loaded;
+use brinell::simulate::Simulation;
+use measured::Pattern;
+use outcome::Outcome;
+use runs::{FromPoints, Runs};
+use serde_json::{Value, json};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Exit code where Ctrl-C stopped it, or no run came to its end.
+const NOT_WHOLE: u8 = 1;
+/// Runs for each key where no budget is given.
+const RUNS_PER_KEY: usize = 30;
+
+/// A calibration before it runs.
+struct Plan {
+    source: Source,
+    keys: Vec<Key>,
+    /// Unit of each key.
+    units: Vec<&'static str>,
+    targets: Vec<Target>,
+    pattern: Option<Pattern>,
+    settings: Settings,
+    /// The scenario in the middle of the bounds.
+    middle: Loaded,
+}
+
+pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
+    let begin = Instant::now();
+    let plan = Plan::read(args)?;
+    let threads = args.jobs.unwrap_or(brinell::many::threads(usize::MAX));
+    let points = FromPoints {
+        source: &plan.source,
+        keys: &plan.keys,
+        pattern: plan.pattern.as_ref(),
+    };
+    if args.dry_run {
+        plan.tell(&points, threads, None);
+        return Ok(ExitCode::SUCCESS);
+    }
+    let named = || Path::new("out").join(format!("calibrate-{}", stem(&args.scenario)));
+    let folder = args.output.clone().unwrap_or_else(named);
+    make_folder(&folder)?;
+    let words = |other: &Value| other_calibration(&folder, other);
+    let ledger = Ledger::open(&folder, &plan.header(), args.extend, words)?;
+    if !args.quiet {
+        plan.tell(&points, threads, Some(&ledger));
+    }
+    let stop = stop_flag()?;
+    let each = plan.middle.scenario.simulation.duration_s;
+    let total = each * plan.settings.budget as f64;
+    let mut runs = Runs {
+        points,
+        targets: &plan.targets,
+        ledger,
+        threads,
+        joint: Joint::new(plan.settings.budget, total, args.quiet),
+        stop: &stop,
+        done: 0,
+        before: 0,
+        failure: None,
+    };
+    let mut ask = |places: &[Vec<f64>]| runs.ask(places);
+    let found = fit(plan.keys.len(), &plan.targets, plan.settings, &mut ask);
+    runs.joint.clear();
+    if let Some(failure) = runs.failure.take() {
+        return Err(failure);
+    }
+    let found = match found {
+        Ok(found) => found,
+        Err(Unfit::Interrupted) => {
+            complain!(
+                "interrupted: finished runs are kept in {}; the same command goes on where this one stopped",
+                folder.join(JOURNAL).display()
+            );
+            return Ok(ExitCode::from(NOT_WHOLE));
+        }
+        Err(error) => {
+            complain!("error: {error}");
+            tell_reasons(&runs, &plan);
+            return Ok(ExitCode::from(NOT_WHOLE));
+        }
+    };
+    let outcome = Outcome::new(&plan, &runs, found)?;
+    let written = outcome.write(&folder)?;
+    if !args.quiet {
+        say!(
+            "{} in {:.2} s, {} from the journal",
+            plural(runs.done, "run"),
+            begin.elapsed().as_secs_f64(),
+            runs.before
+        );
+        outcome.tell();
+        for path in &written {
+            say!("  wrote {}", path.display());
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn usage(error: &CalibrateError, option: &str) -> Failure {
+    Failure::Usage(format!("{option}: {error}"))
+}
+
+impl Plan {
+    /// Reads and checks everything, before anything runs.
+    fn read(args: &CalibrateArgs) -> Result<Self, Failure> {
+        let keys: Vec<Key> = (args.fit.iter())
+            .map(|text| Key::read(text).map_err(|e| usage(&e, "--fit")))
+            .collect::<Result<_, _>>()?;
+        check_keys(&keys).map_err(|e| usage(&e, "--fit"))?;
+        let mut targets: Vec<Target> = (args.target.iter())
+            .map(|text| Target::read(text).map_err(|e| usage(&e, "--target")))
+            .collect::<Result<_, _>>()?;
+        let source = Source::open(&ScenarioArgs {
+            scenario: args.scenario.clone(),
+            set: args.set.clone(),
+        })?;
+        let settings = |places: &[f64]| -> Vec<(String, String)> {
+            let pairs = keys.iter().zip(places);
+            pairs
+                .map(|(k, unit)| (k.name.clone(), k.text(*unit)))
+                .collect()
+        };
+        let centre = vec![0.5; keys.len()];
+        for k in 0..keys.len() {
+            for end in [0.0, 1.0] {
+                let mut places = centre.clone();
+                places[k] = end;
+                source.load(&settings(&places), true)?;
+            }
+        }
+        let middle = source.load(&settings(&centre), false)?;
+        let units = keys.iter().map(|key| {
+            let entry = middle.provenance.iter().find(|p| p.key == key.name);
+            entry.map_or("", |p| p.unit)
+        });
+        let units = units.collect();
+        let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
+        let names = brinell::campaign::names(&middle.scenario, &simulation);
+        for target in &targets {
+            known(&target.name, &names)?;
+        }
+        let pattern = measured::pattern(args, &middle.scenario, &simulation)?;
+        if let Some(pattern) = &pattern {
+            // A target that is given outweighs what the signal says of the same number.
+            let given = |t: &&Target| !targets.iter().any(|g| g.name == t.name);
+            let more: Vec<Target> = pattern.targets.iter().filter(given).cloned().collect();
+            targets.extend(more);
+        }
+        if targets.is_empty() {
+            return Err(Failure::Usage(
+                "there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE".into(),
+            ));
+        }
+        check_targets(&targets).map_err(|e| usage(&e, "--target"))?;
+        let least = least_budget(keys.len());
+        let budget = args.budget.unwrap_or(RUNS_PER_KEY * keys.len());
+        if budget < least {
+            return Err(Failure::Usage(format!(
+                "--budget {budget}: expected {least} runs or more for {}: a start, and two runs a key for its uncertainty",
+                plural(keys.len(), "key")
+            )));
+        }
+        Ok(Self {
+            settings: Settings {
+                seed: args.seed,
+                budget,
+            },
+            source,
+            keys,
+            units,
+            targets,
+            pattern,
+            middle,
+        })
+    }
+
+    /// What tells this calibration from others. A larger budget goes on with the same.
+    fn header(&self) -> Value {
+        let keys: Vec<Value> = (self.keys.iter())
+            .map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log }))
+            .collect();
+        let targets: Vec<Value> = (self.targets.iter())
+            .map(|t| json!({ "name": t.name, "value": t.value, "standard_uncertainty": t.uncertainty }))
+            .collect();
+        json!({
+            "campaign": "calibrate",
+            "keys": keys,
+            "targets": targets,
+            "seed": self.settings.seed,
+            "scenario": fingerprint(&self.middle.scenario),
+        })
+    }
+
+    fn tell(&self, points: &FromPoints, threads: NonZeroUsize, ledger: Option<&Ledger>) {
+        say!(
+            "{} to {}:",
+            plural(self.keys.len(), "key"),
+            plural(self.targets.len(), "target")
+        );
+        for (key, unit) in self.keys.iter().zip(&self.units) {
+            let log = if key.log { ", in its logarithm" } else { "" };
+            say!(
+                "  {} from {:?} to {:?} {unit}{log}",
+                key.name,
+                key.low,
+                key.high
+            );
+        }
+        if let Some(pattern) = &self.pattern {
+            for note in &pattern.notes {
+                say!("  {note}");
+            }
+            for warning in &pattern.warnings {
+                complain!("warning: {warning}");
+            }
+        }
+        for target in &self.targets {
+            say!(
+                "  {} = {} ~ {}",
+                target.name,
+                short(target.value, 5),
+                short(target.uncertainty, 2)
+            );
+        }
+        let budget = self.settings.budget;
+        let sample = latin_hypercube(self.settings.seed, self.keys.len(), budget.min(100));
+        let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
+        let scale = budget as f64 / tasks.len().max(1) as f64;
+        let cost = cost::estimate(&tasks, points, threads).map_or(String::new(), |seconds| {
+            format!(", about {}", duration(scale * seconds))
+        });
+        let simulated = self.middle.scenario.simulation.duration_s * budget as f64;
+        say!(
+            "  up to {}: {} s simulated, {} at a time{cost}",
+            plural(budget, "run"),
+            short(simulated, 3),
+            threads
+        );
+        let kept = ledger.map_or(0, Ledger::len);
+        if kept > 0 {
+            say!(
+                "  {} in the journal, not to be run again",
+                plural(kept, "run")
+            );
+        }
+    }
+}
+
+/// A target is a number that runs have.
+fn known(name: &str, names: &[String]) -> Result<(), Failure> {
+    if names.iter().any(|n| n == name) {
+        return Ok(());
+    }
+    let part = name.split('.').next_back().unwrap_or(name);
+    let mut near: Vec<&str> = (names.iter().map(String::as_str))
+        .filter(|n| n.ends_with(part) || n.starts_with(name))
+        .take(8)
+        .collect();
+    if near.is_empty() {
+        near = vec!["measured_ax.rms", "envelope.bpfo", "row1.cage_slip"];
+    }
+    Err(Failure::Usage(format!(
+        "--target {name}: no such number of a run\n  allowed: the columns of `brinell sweep`, such as {}",
+        near.join(", ")
+    )))
+}
+
+/// The folder's journal is of something else.
+fn other_calibration(folder: &Path, other: &Value) -> String {
+    let folder = folder.display();
+    if other["campaign"] != "calibrate" {
+        let kind = other["campaign"].as_str().unwrap_or("something else");
+        return format!(
+            "{folder}/{JOURNAL} is the journal of {kind}; choose another folder with -o"
+        );
+    }
+    let keys = other["keys"].as_array().into_iter().flatten();
+    let keys: Vec<&str> = keys.filter_map(|k| k["key"].as_str()).collect();
+    format!(
+        "{folder} holds another calibration, of {}, with other bounds, targets, seed or base scenario; choose another folder with -o, or go on in \
+         it with --extend, where runs of the same scenario count",
+        keys.join(", ")
+    )
+}
+
+/// Why the first runs failed.
+fn tell_reasons(runs: &Runs, plan: &Plan) {
+    const SHOWN: usize = 3;
+    let size = plan.settings.budget;
+    let mut told: Vec<String> = Vec::new();
+    // The start lies in the journal or was never a scenario; its points follow from the seed.
+    for place in latin_hypercube(
+        plan.settings.seed,
+        plan.keys.len(),
+        start(size, plan.keys.len()),
+    ) {
+        if let Err(reason) = runs.row(&place)
+            && !told.contains(&reason)
+            && told.len() < SHOWN
+        {
+            complain!("  a run failed: {reason}");
+            told.push(reason);
+        }
+    }
+}
+
+fn start(budget: usize, keys: usize) -> usize {
+    brinell::calibrate::start_size(keys, budget)
+}
+
+/// The files of a calibration.
+fn put(folder: &Path, name: &str, text: &str, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let path = folder.join(name);
+    brinell_io::atomic_write(&path, text.as_bytes())?;
+    written.push(path);
+    Ok(())
+}

@@ -1,0 +1,277 @@
+//! What a calibration found, as numbers and files.
+
+use super::runs::{Runs, own_uncertainty};
+use super::{Plan, put};
+use crate::failure::Failure;
+use brinell::calibrate::identify::MOST;
+use brinell::calibrate::{Fit, MISSING};
+use brinell::scenario::Scenario;
+use brinell::signal::distribution::chi_square_tail;
+use brinell_io::{Cells, Column, Table};
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// A chance below which a misfit is none.
+const UNLIKELY: f64 = 0.05;
+
+/// A key's value.
+pub(super) struct Found {
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+    pub(super) value: f64,
+    /// In the unit interval.
+    pub(super) place: f64,
+    /// Half the 95 % interval, in ranges.
+    pub(super) half_width: f64,
+    pub(super) bounds: (f64, f64),
+    /// Within the bounds; `None` where the data do not determine the key.
+    pub(super) interval: Option<(f64, f64)>,
+}
+
+impl Found {
+    pub(super) fn is_determined(&self) -> bool {
+        self.interval.is_some()
+    }
+}
+
+/// A target against the best run.
+pub(super) struct Compared {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) target: f64,
+    pub(super) uncertainty: f64,
+    pub(super) value: Option<f64>,
+    /// The run's own.
+    pub(super) own: f64,
+    pub(super) residual: f64,
+}
+
+pub(super) struct Outcome<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) runs: &'a Runs<'a>,
+    pub(super) fit: Fit,
+    pub(super) found: Vec<Found>,
+    pub(super) compared: Vec<Compared>,
+    pub(super) scenario: Scenario,
+}
+
+impl<'a> Outcome<'a> {
+    pub(super) fn new(plan: &'a Plan, runs: &'a Runs<'a>, fit: Fit) -> Result<Self, Failure> {
+        let place = &fit.evaluations[fit.best].place;
+        let found = plan.keys.iter().enumerate().map(|(k, key)| {
+            let half_width = fit.identified.half_widths[k];
+            Found {
+                name: key.name.clone(),
+                unit: plan.units[k],
+                value: key.value(place[k]),
+                place: place[k],
+                half_width,
+                bounds: (key.low, key.high),
+                interval: (2.0 * half_width < MOST).then(|| {
+                    (
+                        key.value(place[k] - half_width),
+                        key.value(place[k] + half_width),
+                    )
+                }),
+            }
+        });
+        let found = found.collect();
+        let row = runs.row(place).ok();
+        let compared = plan.targets.iter().enumerate().map(|(t, target)| {
+            let quantity = row.and_then(|row| row.quantity(&target.name));
+            Compared {
+                name: target.name.clone(),
+                unit: quantity.map_or(String::new(), |q| match &q.unit[..] {
+                    "1" => String::new(),
+                    unit => unit.to_owned(),
+                }),
+                target: target.value,
+                uncertainty: target.uncertainty,
+                value: quantity.and_then(|q| q.value),
+                own: quantity.map_or(0.0, own_uncertainty),
+                residual: fit.residuals.get(t).copied().unwrap_or(MISSING),
+            }
+        });
+        let compared = compared.collect();
+        let scenario = plan
+            .source
+            .load(&runs.points.settings(place), true)?
+            .scenario;
+        Ok(Self {
+            plan,
+            runs,
+            found,
+            compared,
+            scenario,
+            fit,
+        })
+    }
+
+    pub(super) fn chi_square(&self) -> f64 {
+        self.fit.evaluations[self.fit.best].chi_square
+    }
+
+    /// That chance alone makes the misfit larger; `None` without a degree of freedom.
+    pub(super) fn chance(&self) -> Option<f64> {
+        let freedom = self.fit.identified.freedom;
+        (freedom > 0).then(|| chi_square_tail(self.chi_square(), freedom as f64))
+    }
+
+    /// Whether the uncertainties explain the misfit.
+    pub(super) fn is_met(&self) -> bool {
+        match self.chance() {
+            Some(chance) => chance >= UNLIKELY,
+            // As many keys as targets, or more: each target by itself.
+            None => self.compared.iter().all(|c| c.residual.abs() <= 2.0),
+        }
+    }
+
+    /// Everything that the calibration leaves; the same runs give the same bytes.
+    pub(super) fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+        let mut written = vec![self.table().write_csv(folder.join("calibrate.csv"))?];
+        let json = serde_json::to_string_pretty(&self.json()).unwrap_or_default() + "\n";
+        put(folder, "calibrate.json", &json, &mut written)?;
+        put(folder, "best.toml", &self.scenario.to_toml(), &mut written)?;
+        let page = brinell_report::calibration_html(&self.report());
+        put(folder, "calibrate.html", &page, &mut written)?;
+        Ok(written)
+    }
+
+    /// A row a run, in the order asked for.
+    fn table(&self) -> Table {
+        let all = &self.fit.evaluations;
+        let mut table = Table::default();
+        let mut numbers =
+            |name: String, unit: &str, about: &str, of: &dyn Fn(usize) -> Option<f64>| {
+                let cells = (0..all.len()).map(of).collect();
+                table.push(Column::new(name, unit, about), Cells::Numbers(cells));
+            };
+        numbers("run".into(), "1", "number of the run", &|k| {
+            Some((k + 1) as f64)
+        });
+        for (index, key) in self.plan.keys.iter().enumerate() {
+            let value = |k: usize| Some(key.value(all[k].place[index]));
+            numbers(key.name.clone(), self.plan.units[index], "fitted", &value);
+        }
+        numbers(
+            "chi_square".into(),
+            "1",
+            "sum of squares of the residuals",
+            &|k| Some(all[k].chi_square).filter(|c| c.is_finite()),
+        );
+        for (t, compared) in self.compared.iter().enumerate() {
+            let answer = |k: usize| all[k].answers.as_ref().map(|a| a[t]);
+            let name = &compared.name;
+            numbers(name.clone(), &compared.unit, "", &|k| answer(k)?.value);
+            let about = "the run's own standard uncertainty";
+            numbers(
+                format!("{name}.own_uncertainty"),
+                &compared.unit,
+                about,
+                &|k| Some(answer(k)?.uncertainty),
+            );
+            let about = "difference from the target in standard uncertainties";
+            numbers(format!("{name}.residual"), "1", about, &|k| {
+                let value = answer(k)?.value?;
+                Some((value - compared.target) / self.fit.sigma[t])
+            });
+        }
+        let stages = all
+            .iter()
+            .map(|e| Some(e.stage.word().to_owned()))
+            .collect();
+        let about = "start, swarm, local, or around the best";
+        table.push(Column::new("stage", "", about), Cells::Words(stages));
+        let reasons = all.iter().map(|e| match e.answers {
+            Some(_) => None,
+            None => self.runs.row(&e.place).err(),
+        });
+        let status = all.iter().map(|e| {
+            Some(
+                if e.answers.is_some() {
+                    "complete"
+                } else {
+                    "failed"
+                }
+                .to_owned(),
+            )
+        });
+        table.push(
+            Column::new("status", "", "complete or failed"),
+            Cells::Words(status.collect()),
+        );
+        table.push(
+            Column::new("reason", "", "why it failed"),
+            Cells::Words(reasons.collect()),
+        );
+        table
+    }
+
+    fn json(&self) -> Value {
+        let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
+        let identified = &self.fit.identified;
+        let keys = self.found.iter().zip(&self.plan.keys).enumerate().map(|(k, (f, key))| {
+            json!({
+                "key": f.name, "unit": f.unit, "value": f.value, "low": key.low, "high": key.high, "log": key.log,
+                "determined": f.is_determined(),
+                "interval_95": f.interval.map(|(low, high)| json!([low, high])),
+                "standard_uncertainty_in_ranges": finite(identified.deviations[k]),
+                "difference_over_ranges": 2.0 * self.fit.steps[k],
+            })
+        });
+        let keys: Vec<Value> = keys.collect();
+        let targets = self.compared.iter().zip(&self.fit.own).zip(&self.fit.sigma);
+        let targets: Vec<Value> = targets
+            .map(|((c, own), sigma)| {
+                json!({
+                    "name": c.name, "unit": c.unit, "target": c.target, "standard_uncertainty": c.uncertainty,
+                    "runs_own_standard_uncertainty": own, "weighed_with": sigma,
+                    "value": c.value, "best_runs_own_standard_uncertainty": c.own, "residual": c.residual,
+                })
+            })
+            .collect();
+        let keys_count = self.found.len();
+        let correlation: Vec<Vec<f64>> = (0..keys_count)
+            .map(|a| {
+                (0..keys_count)
+                    .map(|b| identified.correlation[(a, b)])
+                    .collect()
+            })
+            .collect();
+        let directions: Vec<Value> = (identified.directions.iter())
+            .map(|d| {
+                let parts: Map<String, Value> = (self.found.iter().zip(&d.vector))
+                    .map(|(f, v)| (f.name.clone(), json!(v)))
+                    .collect();
+                json!({
+                    "of_ranges": parts, "singular_value": d.singular_value, "noise": d.noise,
+                    "half_interval_95_in_ranges": finite(d.half_width), "determined": d.is_determined(),
+                })
+            })
+            .collect();
+        let failed = self
+            .fit
+            .evaluations
+            .iter()
+            .filter(|e| e.answers.is_none())
+            .count();
+        json!({
+            "brinell": brinell::VERSION,
+            "plan": self.plan.header(),
+            "budget": self.plan.settings.budget,
+            "runs": { "asked_for": self.fit.evaluations.len(), "failed": failed, "best": self.fit.best + 1, "differences_around": self.fit.centre + 1 },
+            "met": self.is_met(),
+            "chi_square": self.chi_square(),
+            "degrees_of_freedom": identified.freedom,
+            "chance_of_larger": self.chance(),
+            "uncertainties_multiplied_by": identified.inflation,
+            "keys": keys,
+            "targets": targets,
+            "correlation": correlation,
+            "directions": directions,
+            "verdict": self.verdict(),
+            "undetermined": self.undetermined(),
+            "measured": self.plan.pattern.as_ref().map(|p| p.notes.clone()),
+        })
+    }
+}

@@ -1,0 +1,169 @@
+//! The runs of a calibration: what a point of the unit cube means as a scenario, and what its run answers.
+
+use super::measured::{NORMAL, Pattern};
+use crate::campaign::{self, Ledger, Task, Work};
+use crate::failure::Failure;
+use crate::files::Source;
+use crate::progress::Joint;
+use brinell::calibrate::{Answer, Key, Target, Unfit};
+use brinell::campaign::{Quantity, Row, digest, fingerprint};
+use brinell::scenario::Scenario;
+use brinell::simulate::Simulation;
+use brinell_io::SignalWriter;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// Scenarios from points.
+pub(super) struct FromPoints<'a> {
+    pub(super) source: &'a Source,
+    pub(super) keys: &'a [Key],
+    pub(super) pattern: Option<&'a Pattern>,
+}
+
+impl FromPoints<'_> {
+    pub(super) fn settings(&self, place: &[f64]) -> Vec<(String, String)> {
+        let pairs = self.keys.iter().zip(place);
+        pairs
+            .map(|(key, unit)| (key.name.clone(), key.text(*unit)))
+            .collect()
+    }
+
+    /// What is to be run at a point, or why its scenario is bad.
+    pub(super) fn task(&self, place: &[f64]) -> Result<Task, String> {
+        let settings = self.settings(place);
+        let loaded = self.source.load(&settings, true);
+        let scenario = loaded
+            .map_err(|failure| crate::sweep::reason(&failure))?
+            .scenario;
+        Ok(Task {
+            fingerprint: self.fingerprint(&scenario),
+            duration_s: scenario.simulation.duration_s,
+            settings,
+        })
+    }
+
+    /// Of the scenario, and of what is taken from its signal.
+    fn fingerprint(&self, scenario: &Scenario) -> String {
+        let own = fingerprint(scenario);
+        match self.pattern {
+            Some(pattern) => {
+                let signature = pattern.signature.describe();
+                digest(&format!("{own} {} {signature}", pattern.channel))
+            }
+            None => own,
+        }
+    }
+}
+
+impl Work for FromPoints<'_> {
+    fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
+        Ok(self.source.load(&task.settings, true)?.scenario)
+    }
+
+    fn signals(
+        &self,
+        _: &Task,
+        _: &Scenario,
+        _: &Simulation,
+    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+        Ok(None)
+    }
+
+    fn hears(&self) -> Option<usize> {
+        self.pattern.map(|pattern| pattern.axis)
+    }
+
+    fn besides(&self, heard: &[f64]) -> Vec<Quantity> {
+        self.pattern
+            .map_or(Vec::new(), |pattern| pattern.quantities(heard))
+    }
+}
+
+/// Answers batches from the journal, and runs what is not there.
+pub(super) struct Runs<'a> {
+    pub(super) points: FromPoints<'a>,
+    pub(super) targets: &'a [Target],
+    pub(super) ledger: Ledger,
+    pub(super) threads: NonZeroUsize,
+    pub(super) joint: Joint,
+    pub(super) stop: &'a AtomicBool,
+    /// Runs of this call, and what it took from the journal.
+    pub(super) done: usize,
+    pub(super) before: usize,
+    /// What ended the campaign, other than the user.
+    pub(super) failure: Option<Failure>,
+}
+
+impl Runs<'_> {
+    /// For [`brinell::calibrate::fit`].
+    pub(super) fn ask(&mut self, places: &[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> {
+        let wanted: Vec<Result<Task, String>> =
+            places.iter().map(|place| self.points.task(place)).collect();
+        let mut tasks: Vec<Task> = Vec::new();
+        for task in wanted.iter().flatten() {
+            if self.ledger.row(&task.fingerprint).is_some() {
+                self.before += 1;
+                self.joint.done_before(task.duration_s);
+            } else if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
+                tasks.push(task.clone());
+            }
+        }
+        self.done += tasks.len();
+        let went = campaign::run_within(
+            &tasks,
+            &self.points,
+            &mut self.ledger,
+            self.threads,
+            &mut self.joint,
+            self.stop,
+        );
+        match went {
+            Ok(went) if !went.interrupted => {}
+            Ok(_) => return Err(Unfit::Interrupted),
+            Err(failure) => {
+                self.failure = Some(failure);
+                return Err(Unfit::Interrupted);
+            }
+        }
+        let answer = |task: &Result<Task, String>| {
+            let row = self.ledger.row(&task.as_ref().ok()?.fingerprint)?;
+            answers(row, self.targets)
+        };
+        Ok(wanted.iter().map(answer).collect())
+    }
+
+    /// The row of a point, or why it has none.
+    pub(super) fn row(&self, place: &[f64]) -> Result<&Row, String> {
+        let task = self.points.task(place)?;
+        let row = self.ledger.row(&task.fingerprint).ok_or("not run")?;
+        match &row.result {
+            Ok(_) => Ok(row),
+            Err(reason) => Err(reason.clone()),
+        }
+    }
+}
+
+/// What a row says of the targets; `None` where its run failed.
+fn answers(row: &Row, targets: &[Target]) -> Option<Vec<Answer>> {
+    row.result.as_ref().ok()?;
+    let one = |target: &Target| {
+        let quantity = row.quantity(&target.name);
+        Answer {
+            value: quantity.and_then(|q| q.value),
+            uncertainty: quantity.map_or(0.0, own_uncertainty),
+        }
+    };
+    Some(targets.iter().map(one).collect())
+}
+
+/// Standard uncertainty of a run's number: half its 95 % interval over 1.96; of a line's frequency half the interval, which is one sigma.
+pub(super) fn own_uncertainty(quantity: &Quantity) -> f64 {
+    let half = quantity
+        .interval()
+        .map_or(0.0, |(low, high)| 0.5 * (high - low));
+    if quantity.name.ends_with(".frequency") {
+        half
+    } else {
+        half / NORMAL
+    }
+}

@@ -1,0 +1,183 @@
+//! The outcome in sentences, for the terminal and the page.
+
+use super::outcome::{Found, Outcome};
+use crate::say::{say, short};
+use crate::sweep::plural;
+use brinell::calibrate::identify::{Direction, MOST};
+
+/// A residual worth naming, in standard uncertainties.
+const LARGE: f64 = 2.0;
+/// Keys that move by less than this share of the one that moves most are left out of a combination.
+const MINOR: f64 = 0.2;
+/// How far a combination is told, in ranges of the key that moves most.
+const TOLD: f64 = 0.1;
+
+impl Outcome<'_> {
+    /// Whether and how well the targets are met.
+    pub(super) fn verdict(&self) -> Vec<String> {
+        let targets = self.plan.targets.len();
+        let identified = &self.fit.identified;
+        let chi = self.chi_square();
+        let mut all = Vec::new();
+        let chance = self.chance().map_or(String::new(), |p| {
+            format!(
+                "; by chance alone it would be larger in {} of 100 cases",
+                short(100.0 * p, 2)
+            )
+        });
+        let freedom = match identified.freedom {
+            1.. => plural(identified.freedom as usize, "degree") + " of freedom",
+            _ => "no degree of freedom left".into(),
+        };
+        let base = format!(
+            "chi-square {} over {}, {freedom}{chance}",
+            short(chi, 3),
+            plural(targets, "target")
+        );
+        if self.is_met() {
+            all.push(format!(
+                "The targets are met within their uncertainties: {base}."
+            ));
+        } else {
+            all.push(format!(
+                "The targets are not met within the bounds: {base}."
+            ));
+        }
+        let mut worst: Vec<_> = self
+            .compared
+            .iter()
+            .filter(|c| c.residual.abs() > LARGE)
+            .collect();
+        worst.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
+        for c in worst.iter().take(6) {
+            all.push(match c.value {
+                Some(value) => format!(
+                    "{}: {} against {} {}, {} standard uncertainties too {}.",
+                    c.name,
+                    short(value, 4),
+                    short(c.target, 4),
+                    c.unit,
+                    short(c.residual.abs(), 2),
+                    if c.residual > 0.0 { "high" } else { "low" }
+                ),
+                None => format!("{}: the best run has no value of it.", c.name),
+            });
+        }
+        if worst.len() > 6 {
+            all.push(format!(
+                "And {} more are off by more than {LARGE}.",
+                worst.len() - 6
+            ));
+        }
+        for found in &self.found {
+            let side = match found.place {
+                p if p < 1e-3 => "lower",
+                p if p > 1.0 - 1e-3 => "upper",
+                _ => continue,
+            };
+            all.push(format!(
+                "{}: the best value lies on its {side} bound; a better one may lie beyond.",
+                found.name
+            ));
+        }
+        all
+    }
+
+    /// Keys and combinations that the data leave open.
+    pub(super) fn undetermined(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        let noise = self.fit.identified.directions.iter().any(|d| d.noise > 0.0);
+        for found in self.found.iter().filter(|f| !f.is_determined()) {
+            let width = 2.0 * found.half_width;
+            all.push(if width.is_finite() {
+                format!(
+                    "{}: not determined; its 95 % interval is {} times as wide as its range.",
+                    found.name,
+                    short(width, 2)
+                )
+            } else if noise {
+                format!(
+                    "{}: not determined; what it changes does not stand out of the runs' own uncertainty.",
+                    found.name
+                )
+            } else {
+                format!("{}: not determined; the data say nothing of it.", found.name)
+            });
+        }
+        for direction in &self.fit.identified.directions {
+            if !direction.is_determined() {
+                all.extend(self.combination(direction));
+            }
+        }
+        if all.is_empty() {
+            all.push(format!(
+                "Every key is determined: its 95 % interval covers less than {} % of its range.",
+                100.0 * MOST
+            ));
+        }
+        all
+    }
+
+    /// What may be changed together; nothing where it is one key.
+    fn combination(&self, direction: &Direction) -> Option<String> {
+        let largest = direction.vector.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let parts: Vec<String> = (self.plan.keys.iter().zip(&self.plan.units))
+            .zip(&direction.vector)
+            .filter(|(_, v)| v.abs() >= MINOR * largest)
+            .map(|((key, unit), v)| {
+                let share = TOLD * v / largest;
+                if key.log {
+                    let factor = (key.high / key.low).powf(share);
+                    format!("{} times {}", key.name, short(factor, 3))
+                } else {
+                    let by = share * (key.high - key.low);
+                    let sign = if by > 0.0 { "plus" } else { "minus" };
+                    format!("{} {sign} {} {unit}", key.name, short(by.abs(), 2))
+                        .trim_end()
+                        .to_owned()
+                }
+            })
+            .collect();
+        if parts.len() < 2 {
+            return None;
+        }
+        let why = if direction.singular_value <= direction.noise {
+            "less than the runs' own uncertainty shows"
+        } else {
+            "less than the data can tell"
+        };
+        Some(format!(
+            "A combination is not determined: {} together change the targets by {why}.",
+            parts.join(" and ")
+        ))
+    }
+
+    pub(super) fn tell(&self) {
+        for found in &self.found {
+            say!(
+                "  {} = {} {}  {}",
+                found.name,
+                short(found.value, 5),
+                found.unit,
+                found.told()
+            );
+        }
+        for sentence in self.verdict().iter().chain(&self.undetermined()) {
+            say!("  {sentence}");
+        }
+    }
+}
+
+impl Found {
+    /// The interval in words.
+    pub(super) fn told(&self) -> String {
+        match self.interval {
+            Some((low, high)) => format!("95 %: {} to {}", short(low, 4), short(high, 4)),
+            None => format!(
+                "not determined between {} and {}",
+                short(self.bounds.0, 4),
+                short(self.bounds.1, 4)
+            ),
+        }
+    }
+}

@@ -1,0 +1,349 @@
+//! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is wrong is said.
+
+mod common;
+
+use common::{SHORT, brinell, files, json};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+/// SHORT, four turns of the shaft long, so that there are blocks for intervals.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    let text = SHORT
+        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
+        .replace("duration_s = 0.02", "duration_s = 0.1");
+    fs::write(folder.path().join("base.toml"), text).unwrap();
+    folder
+}
+
+fn call<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    ["calibrate", "base.toml"]
+        .iter()
+        .chain(more)
+        .copied()
+        .collect()
+}
+
+/// Numbers of a run of the base with a setting, from a sweep of one point.
+fn truth(folder: &Path, setting: &str) -> Value {
+    let args = ["sweep", "base.toml", "--vary", setting, "-o", "truth", "-q"];
+    brinell(folder, &args).exits(0).keeps_quiet();
+    let journal = fs::read_to_string(folder.join("truth/journal.jsonl")).unwrap();
+    let row = journal.lines().nth(1).unwrap();
+    serde_json::from_str::<Value>(row).unwrap()["values"].clone()
+}
+
+fn value(truth: &Value, name: &str) -> f64 {
+    truth[name][1].as_f64().unwrap()
+}
+
+/// Every file of the results but the journal, whose lines come in the order of completion.
+fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
+    names
+        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
+        .collect()
+}
+
+fn same(a: &Path, b: &Path) {
+    for ((name, a), (other, b)) in results(a).iter().zip(&results(b)) {
+        assert_eq!(name, other);
+        assert!(a == b, "{name} differs");
+    }
+}
+
+#[test]
+fn prop_a_known_speed_comes_back() {
+    let folder = folder();
+    let truth = truth(folder.path(), "operation.speed_rpm=2950");
+    let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
+    let frequency = target("defect1.pure_rolling_frequency", "0.1%");
+    let rms = target("measured_ax.rms", "5%");
+    let args = [
+        "--fit",
+        "operation.speed_rpm=2500:3500",
+        "--target",
+        &frequency,
+        "--target",
+        &rms,
+        "--budget",
+        "20",
+        "-o",
+        "cal",
+    ];
+    brinell(folder.path(), &call(&args))
+        .exits(0)
+        .says(&["1 key to 2 targets", "up to 20 runs", "wrote cal/best.toml"])
+        .keeps_quiet();
+    let cal = folder.path().join("cal");
+    assert_eq!(
+        files(&cal),
+        [
+            "best.toml",
+            "calibrate.csv",
+            "calibrate.html",
+            "calibrate.json",
+            "journal.jsonl"
+        ]
+    );
+    let found = json(&cal.join("calibrate.json"));
+    let speed = &found["keys"][0];
+    assert_eq!(speed["determined"], true, "{found:#}");
+    // Three standard uncertainties of the target.
+    let off = speed["value"].as_f64().unwrap() / 2950.0 - 1.0;
+    assert!(off.abs() < 3e-3, "{speed}");
+    // The best scenario is one that is sound.
+    brinell(&cal, &["check", "best.toml"]).exits(0);
+}
+
+#[test]
+fn prop_neither_threads_nor_interruptions_change_a_byte() {
+    let folder = folder();
+    let truth = truth(folder.path(), "operation.speed_rpm=2900");
+    let target = format!(
+        "defect1.pure_rolling_frequency={:?}~0.2",
+        value(&truth, "defect1.pure_rolling_frequency")
+    );
+    let run = |out: &str, jobs: &str| {
+        brinell(
+            folder.path(),
+            &call(&[
+                "--fit",
+                "operation.speed_rpm=2500:3500",
+                "--target",
+                &target,
+                "--target",
+                "measured_ax.rms=30~10%",
+                "--budget",
+                "14",
+                "--set",
+                "simulation.duration_s=0.06",
+                "-o",
+                out,
+                "-j",
+                jobs,
+            ]),
+        )
+        .exits(0)
+    };
+    run("one", "1");
+    run("three", "3");
+    let out = |name: &str| folder.path().join(name);
+    same(&out("one"), &out("three"));
+    // The header and four runs are whole, the fifth was being written.
+    let journal = fs::read(out("three").join("journal.jsonl")).unwrap();
+    let ends: Vec<usize> = (0..journal.len())
+        .filter(|k| journal[*k] == b'\n')
+        .collect();
+    fs::create_dir(out("cut")).unwrap();
+    fs::write(out("cut").join("journal.jsonl"), &journal[..ends[4] + 100]).unwrap();
+    run("cut", "2").says(&["4 runs in the journal"]);
+    same(&out("one"), &out("cut"));
+    run("cut", "2").says(&["0 runs in"]);
+    same(&out("one"), &out("cut"));
+}
+
+#[test]
+fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
+    let folder = folder();
+    let args = [
+        "run",
+        "base.toml",
+        "--set",
+        "operation.speed_rpm=3300",
+        "--no-report",
+        "-q",
+        "-o",
+        "rig",
+    ];
+    brinell(folder.path(), &args).exits(0);
+    let args = call(&[
+        "--fit",
+        "operation.speed_rpm=2700:3700",
+        "--measured",
+        "rig",
+        "--budget",
+        "20",
+        "-o",
+        "cal",
+    ]);
+    brinell(folder.path(), &args)
+        .exits(0)
+        .keeps_quiet()
+        .says(&["against measured_ax", "signature.octave_5120_10240_hz"]);
+    let found = json(&folder.path().join("cal/calibrate.json"));
+    assert!(found["chi_square"].is_number(), "{found:#}");
+    let columns = fs::read_to_string(folder.path().join("cal/calibrate.csv")).unwrap();
+    assert!(columns.contains("signature.octave_5120_10240_hz.residual"));
+}
+
+#[test]
+fn prop_targets_out_of_reach_are_told_and_so_is_a_key_without_effect() {
+    let folder = folder();
+    let args = call(&[
+        "--fit",
+        "operation.speed_rpm=2900:3100",
+        "--fit",
+        "cage.guide_width_mm=5:7",
+        "--target",
+        "defect1.pure_rolling_frequency=500~1",
+        "--budget",
+        "14",
+        "--set",
+        "simulation.duration_s=0.04",
+        "-o",
+        "cal",
+    ]);
+    brinell(folder.path(), &args).exits(0).says(&[
+        "The targets are not met within the bounds: chi-square",
+        "defect1.pure_rolling_frequency:",
+        "standard uncertainties too low",
+        "operation.speed_rpm: the best value lies on its upper bound",
+        "cage.guide_width_mm: not determined; the data say nothing of it",
+    ]);
+    let found = json(&folder.path().join("cal/calibrate.json"));
+    assert_eq!(found["met"], false);
+    assert_eq!(found["keys"][1]["determined"], false);
+    assert_eq!(found["keys"][1]["interval_95"], Value::Null);
+}
+
+#[test]
+fn regress_runs_that_fail_are_rows() {
+    let folder = folder();
+    // Each bound is good with the middle of the other; in a corner the damage is wider than the roller.
+    let args = call(&[
+        "--fit",
+        "bearing.roller_length_mm=6:12",
+        "--fit",
+        "defects.0.shape.rectangle.width_mm=3:9",
+        "--target",
+        "measured_ax.rms=30~1",
+        "--budget",
+        "40",
+        "--set",
+        "simulation.duration_s=0.02",
+        "-o",
+        "cal",
+    ]);
+    brinell(folder.path(), &args).exits(0);
+    let cal = folder.path().join("cal");
+    let failed = json(&cal.join("calibrate.json"))["runs"]["failed"].as_u64();
+    assert!(failed > Some(0), "{failed:?}");
+    let table = fs::read_to_string(cal.join("calibrate.csv")).unwrap();
+    let rows = table.lines().filter(|line| line.contains("failed")).count();
+    assert_eq!(Some(rows as u64), failed);
+    assert!(table.contains("is wider than the roller"), "{table}");
+    let page = fs::read_to_string(cal.join("calibrate.html")).unwrap();
+    assert!(page.contains("Runs that failed"));
+}
+
+#[test]
+fn regress_bad_input_is_told_with_key_value_and_range() {
+    let folder = folder();
+    let good = ["--fit", "operation.speed_rpm=2900:3100"];
+    let refuse = |more: &[&str], parts: &[&str]| {
+        brinell(folder.path(), &call(more))
+            .exits(2)
+            .complains(parts);
+    };
+    refuse(&[], &["--fit"]);
+    refuse(
+        &good,
+        &["there is nothing to fit to: give --target NAME=VALUE~UNCERTAINTY, or --measured FILE"],
+    );
+    let with = |more: &[&'static str]| [&good[..], more].concat();
+    refuse(
+        &[
+            "--fit",
+            "operation.speed_rmp=1:2",
+            "--target",
+            "measured_ax.rms=30~1",
+        ],
+        &["operation.speed_rmp", "speed_rpm"],
+    );
+    refuse(
+        &[
+            "--fit",
+            "operation.speed_rpm=3100:2900",
+            "--target",
+            "measured_ax.rms=30~1",
+        ],
+        &[
+            "--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant",
+        ],
+    );
+    refuse(
+        &[
+            "--fit",
+            "bearing.radial_clearance_um=a:20",
+            "--target",
+            "measured_ax.rms=30~1",
+        ],
+        &["the lower bound, `a`, is not a number"],
+    );
+    refuse(
+        &[
+            "--fit",
+            "bearing.roller_diameter_mm=-3:8",
+            "--target",
+            "measured_ax.rms=30~1",
+        ],
+        &["bearing.roller_diameter_mm", "-3", "mm"],
+    );
+    refuse(
+        &["--fit", "name=1:2", "--target", "measured_ax.rms=30~1"],
+        &["name"],
+    );
+    refuse(
+        &with(&["--target", "measured_ax.rmss=30~1"]),
+        &[
+            "--target measured_ax.rmss: no such number of a run",
+            "allowed: the columns of `brinell sweep`, such as",
+        ],
+    );
+    refuse(
+        &with(&["--target", "measured_ax.rms=30"]),
+        &["--target: measured_ax.rms = 30: no standard uncertainty is given"],
+    );
+    refuse(
+        &with(&["--target", "measured_ax.rms=30~0"]),
+        &["the standard uncertainty is not above 0"],
+    );
+    refuse(
+        &with(&["--target", "measured_ax.rms=30~1", "--budget", "3"]),
+        &["--budget 3: expected 6 runs or more for 1 key"],
+    );
+    refuse(&with(&["--measured", "nowhere.csv"]), &["nowhere.csv"]);
+    fs::write(
+        folder.path().join("rig.csv"),
+        "t,a\n0,1\n0.001,2\n0.002,1\n0.003,3\n",
+    )
+    .unwrap();
+    let rig = with(&["--measured", "rig.csv", "--channel", "a", "--unit", "m/s^2"]);
+    let rated = [&rig[..], &["--rate", "1000"]].concat();
+    refuse(
+        &rated,
+        &[
+            "is sampled at 1000 Hz, and the scenario at 25600 Hz",
+            "--set simulation.sample_rate_hz=1000.0",
+        ],
+    );
+    let unit = with(&[
+        "--measured",
+        "rig.csv",
+        "--channel",
+        "a",
+        "--unit",
+        "V",
+        "--rate",
+        "25600",
+    ]);
+    refuse(&unit, &["a calibration takes accelerations"]);
+    assert!(files(folder.path()).len() == 2, "nothing is written");
+    let plan = with(&["--target", "measured_ax.rms=30~1", "--dry-run"]);
+    brinell(folder.path(), &call(&plan))
+        .exits(0)
+        .says(&["1 key to 1 target", "up to 30 runs"]);
+}

@@ -1,0 +1,170 @@
+//! The page of a calibration: what was found, how sure it is, what the data do not determine, and the runs that say so.
+
+mod plot;
+
+use std::fmt::Write as _;
+
+use crate::analysis::{Table, table};
+use crate::data::Fact;
+use crate::page::{figure, head, none};
+use crate::picture::{Picture, escape};
+use crate::plots::Layout;
+use crate::tables::{fact_table, facts};
+pub use plot::{course_plot, key_plot};
+
+/// A run as the pictures show it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// Value of each key.
+    pub values: Vec<f64>,
+    /// Sum of squares of the residuals; not finite where the run failed.
+    pub chi_square: f64,
+    /// Whether it lies on the line through the best run along this key alone, for each key.
+    pub alone: Vec<bool>,
+}
+
+/// A key that was fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedKey {
+    /// Dotted path.
+    pub name: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// Bounds.
+    pub bounds: (f64, f64),
+    /// Searched in its logarithm.
+    pub log: bool,
+    /// The best value.
+    pub best: f64,
+    /// Ends of the 95 % interval within the bounds, where the data determine the key.
+    pub interval: Option<(f64, f64)>,
+}
+
+/// Everything that the page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CalibrationReport {
+    /// Its name.
+    pub title: String,
+    /// What was fitted to what.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// Whether the targets are met.
+    pub met: bool,
+    /// The outcome in sentences.
+    pub verdict: Vec<String>,
+    /// Headline numbers.
+    pub facts: Vec<Fact>,
+    /// The keys.
+    pub keys: Vec<FittedKey>,
+    /// The keys with intervals and what to know, a line each.
+    pub found: Vec<Fact>,
+    /// What is not determined, in sentences.
+    pub undetermined: Vec<String>,
+    /// Targets against the best run.
+    pub targets: Table,
+    /// Correlations of the keys' estimates.
+    pub correlation: Table,
+    /// Directions of the keys' space.
+    pub directions: Table,
+    /// The runs in their order.
+    pub tried: Vec<Tried>,
+    /// Runs that failed, and why.
+    pub failures: Vec<(String, String)>,
+    /// How it was done, in sentences.
+    pub method: Vec<String>,
+    /// The best scenario.
+    pub scenario_toml: String,
+}
+
+/// The page's pictures, drawn wide.
+pub fn calibration_pictures(report: &CalibrationReport) -> Vec<Picture> {
+    let keys = (0..report.keys.len()).map(|k| key_plot(report, k, Layout::Wide));
+    keys.chain([course_plot(report, Layout::Wide)]).collect()
+}
+
+fn sentences(page: &mut String, all: &[String]) {
+    for sentence in all {
+        let _ = writeln!(page, "<p>{}</p>", escape(sentence));
+    }
+}
+
+/// The self-contained page.
+pub fn calibration_html(report: &CalibrationReport) -> String {
+    let mut page = String::with_capacity(1 << 19);
+    head(&mut page, &report.title);
+    let _ = writeln!(
+        page,
+        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
+        escape(&report.subtitle),
+        escape(&report.version)
+    );
+    if !report.met {
+        page.push_str(
+            "<p class=\"partial\" role=\"alert\"><strong>The targets are not met within the bounds.</strong></p>\n",
+        );
+    }
+    page.push_str("</header>\n<main>\n");
+    facts(&mut page, &report.facts);
+    page.push_str("<section id=\"outcome\">\n<h2>Outcome</h2>\n");
+    sentences(&mut page, &report.verdict);
+    fact_table(&mut page, &report.found, "No key was fitted.");
+    page.push_str(
+        "</section>\n<section id=\"undetermined\">\n<h2>What the data do not determine</h2>\n",
+    );
+    sentences(&mut page, &report.undetermined);
+    page.push_str("</section>\n");
+    table(&mut page, &report.targets);
+    page.push_str("<section id=\"keys\">\n<h2>Misfit over each key</h2>\n");
+    none(
+        &mut page,
+        "Dots: all runs, whatever the other keys. Filled: runs that differ from the best in this key alone, joined. Shaded: the 95 % interval, \
+         where the data determine the key. Upright line: the best value. A floor without a hollow is a key that the data leave open.",
+    );
+    for (index, key) in report.keys.iter().enumerate() {
+        let _ = writeln!(page, "<h3><code>{}</code></h3>", escape(&key.name));
+        figure(
+            &mut page,
+            &format!("key{index}"),
+            |layout| key_plot(report, index, layout),
+            "",
+        );
+    }
+    page.push_str("</section>\n<section id=\"course\">\n<h2>Course of the search</h2>\n");
+    let caption = "Dots: each run in the order asked for. Line: the best so far.";
+    figure(
+        &mut page,
+        "course",
+        |layout| course_plot(report, layout),
+        caption,
+    );
+    page.push_str("</section>\n");
+    table(&mut page, &report.directions);
+    if report.keys.len() > 1 {
+        table(&mut page, &report.correlation);
+    }
+    if !report.failures.is_empty() {
+        page.push_str("<section id=\"failures\">\n<h2>Runs that failed</h2>\n<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Run</th><th>Why</th></tr></thead><tbody>\n");
+        for (run, reason) in &report.failures {
+            let _ = writeln!(
+                page,
+                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
+                escape(run),
+                escape(reason)
+            );
+        }
+        page.push_str("</tbody></table></div>\n</section>\n");
+    }
+    page.push_str("<section id=\"method\">\n<h2>Method</h2>\n");
+    sentences(&mut page, &report.method);
+    page.push_str("</section>\n");
+    if !report.scenario_toml.is_empty() {
+        let _ = writeln!(
+            page,
+            "<section id=\"scenario\">\n<h2>Best scenario</h2>\n<pre><code>{}</code></pre>\n</section>",
+            escape(&report.scenario_toml)
+        );
+    }
+    page.push_str("</main>\n<footer>All runs are in calibrate.csv, all numbers in calibrate.json; best.toml is the best scenario.</footer>\n</body>\n</html>\n");
+    page
+}

@@ -1,0 +1,147 @@
+//! Misfit against a key, and over the runs.
+
+use super::CalibrationReport;
+use crate::chart::{Chart, Domain, Spec};
+use crate::picture::{Paint, Picture, Shape, ink};
+use crate::plots::Layout;
+
+/// Misfits this far above the best are drawn at the upper edge.
+const DECADES: f64 = 6.0;
+
+/// The misfit's axis: from below the best up, in decades; a floor, as a perfect fit has no logarithm.
+fn misfits(report: &CalibrationReport) -> (Domain, f64) {
+    let finite = report
+        .tried
+        .iter()
+        .map(|t| t.chi_square)
+        .filter(|c| c.is_finite());
+    let lowest = finite.clone().fold(f64::INFINITY, f64::min);
+    let highest = finite.fold(0.0, f64::max);
+    if !lowest.is_finite() {
+        let (lo, hi) = (0.1, 10.0);
+        return (Domain { lo, hi, log: true }, lo);
+    }
+    let floor = lowest.max(1e-3);
+    let lo = 10_f64.powf((floor.log10() - 0.3).floor());
+    let hi = 10_f64
+        .powf((highest.max(floor).log10() + 0.1).ceil())
+        .min(lo * 10_f64.powf(DECADES));
+    let hi = hi.max(10.0 * lo);
+    (Domain { lo, hi, log: true }, floor)
+}
+
+fn spec(
+    name: String,
+    title: String,
+    layout: Layout,
+    x: Domain,
+    y: Domain,
+    x_label: (&str, &str),
+) -> Spec {
+    let height = if layout == Layout::Wide { 300.0 } else { 260.0 };
+    Spec {
+        name,
+        title,
+        size: layout.size(height),
+        x,
+        y,
+        x_label: x_label.0.into(),
+        x_unit: x_label.1.into(),
+        y_label: "Chi-square".into(),
+        y_unit: String::new(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    }
+}
+
+fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
+    let paint = if filled {
+        Paint::fill(ink::VERMILLION, 1.0)
+    } else {
+        Paint::line(ink::BLUE, 1.2).filled("#ffffff", 1.0)
+    };
+    chart.picture.shapes.push(Shape::Circle {
+        x: chart.x.at(x),
+        y: chart.y.at(y),
+        r: 3.2,
+        paint,
+    });
+}
+
+/// Sum of squares against one key.
+pub fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -> Picture {
+    let about = &report.keys[key];
+    let (low, high) = about.bounds;
+    let x = if about.log {
+        let room = (high / low).powf(0.02);
+        Domain {
+            lo: low / room,
+            hi: high * room,
+            log: true,
+        }
+    } else {
+        let room = 0.02 * (high - low);
+        Domain::exact(low - room, high + room)
+    };
+    let (y, floor) = misfits(report);
+    let name = format!("misfit-{}", about.name.replace('.', "-"));
+    let title = format!("Chi-square over {}", about.name);
+    let mut chart = Chart::new(spec(name, title, layout, x, y, (&about.name, &about.unit)));
+    if let Some((from, to)) = about.interval {
+        chart.highlight(from, to);
+    }
+    let best = chart.x.at(about.best);
+    let upright = [(best, chart.frame.top), (best, chart.frame.bottom)];
+    chart.picture.path(
+        &upright,
+        Paint::line(ink::VERMILLION, 1.2).dashed(&[4.0, 3.0]),
+    );
+    let height = |c: f64| c.clamp(floor, y.hi);
+    let runs = report.tried.iter().filter(|t| t.chi_square.is_finite());
+    let mut alone: Vec<(f64, f64)> = Vec::new();
+    for run in runs {
+        let place = (run.values[key], height(run.chi_square));
+        if run.alone[key] {
+            alone.push(place);
+        } else {
+            dot(&mut chart, place.0, place.1, false);
+        }
+    }
+    alone.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (xs, ys): (Vec<f64>, Vec<f64>) = alone.iter().copied().unzip();
+    if alone.len() > 1 {
+        chart.points(&xs, &ys, Paint::line(ink::VERMILLION, 1.4));
+    }
+    for (x, y) in alone {
+        dot(&mut chart, x, y, true);
+    }
+    chart.finish()
+}
+
+/// Sum of squares of each run in its order, and the best so far.
+pub fn course_plot(report: &CalibrationReport, layout: Layout) -> Picture {
+    let count = report.tried.len().max(1) as f64;
+    let (y, floor) = misfits(report);
+    let title = "Chi-square over the runs".to_owned();
+    let x = Domain::exact(0.0, count + 1.0);
+    let mut chart = Chart::new(spec("course".into(), title, layout, x, y, ("Run", "")));
+    let mut line: Vec<(f64, f64)> = Vec::new();
+    let mut least = f64::INFINITY;
+    for (k, run) in report.tried.iter().enumerate() {
+        least = least.min(run.chi_square);
+        let x = (k + 1) as f64;
+        if least.is_finite() {
+            line.push((x, least.clamp(floor, y.hi)));
+        }
+        if run.chi_square.is_finite() {
+            dot(&mut chart, x, run.chi_square.clamp(floor, y.hi), false);
+        }
+    }
+    let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().unzip();
+    if xs.len() > 1 {
+        chart.points(&xs, &ys, Paint::line(ink::VERMILLION, 1.6));
+    }
+    chart.finish()
+}

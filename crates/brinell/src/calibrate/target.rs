@@ -1,0 +1,155 @@
+//! What a fit is to meet: numbers with their standard uncertainties.
+
+use super::CalibrateError;
+
+/// A number to be met.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Name of a number of a run: `measured_ax.rms`.
+    pub name: String,
+    /// What it is to be, in that number's unit.
+    pub value: f64,
+    /// Standard uncertainty (one sigma), above 0.
+    pub uncertainty: f64,
+}
+
+/// What a target looks like.
+const SYNTAX: &str = "NAME=VALUE~UNCERTAINTY, the uncertainty being one standard deviation in the target's unit or in per cent, for \
+                      instance measured_ax.rms=30.4~1.0 or measured_ax.rms=30.4~3%";
+
+impl Target {
+    /// `NAME=VALUE~UNCERTAINTY`.
+    ///
+    /// # Errors
+    /// Where the text is not that.
+    pub fn read(text: &str) -> Result<Self, CalibrateError> {
+        let syntax = || CalibrateError::Syntax {
+            text: text.trim().into(),
+            expected: SYNTAX.into(),
+        };
+        let (name, rest) = text.split_once('=').ok_or_else(syntax)?;
+        let name = name.trim();
+        if name.is_empty() || name.contains(char::is_whitespace) {
+            return Err(syntax());
+        }
+        let wrong = |why: String, allowed: &str| CalibrateError::Value {
+            name: name.into(),
+            value: rest.trim().into(),
+            why,
+            allowed: allowed.into(),
+        };
+        let number = |what: &str, text: &str| match text.trim().replace('_', "").parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok(x),
+            _ => Err(wrong(
+                format!("the {what}, `{}`, is not a number", text.trim()),
+                SYNTAX,
+            )),
+        };
+        let Some((value, uncertainty)) = rest.split_once('~') else {
+            number("value", rest)?;
+            return Err(wrong(
+                "no standard uncertainty is given, and without one nobody can say how well the target is met".into(),
+                SYNTAX,
+            ));
+        };
+        let value = number("value", value)?;
+        let uncertainty = match uncertainty.trim().strip_suffix('%') {
+            Some(share) => 0.01 * number("uncertainty", share)? * value.abs(),
+            None => number("uncertainty", uncertainty)?,
+        };
+        if uncertainty <= 0.0 {
+            return Err(wrong(
+                "the standard uncertainty is not above 0".into(),
+                "a standard uncertainty above 0; in per cent only of a value other than 0",
+            ));
+        }
+        Ok(Self {
+            name: name.into(),
+            value,
+            uncertainty,
+        })
+    }
+}
+
+/// Targets that may stand together: at least one, none twice.
+///
+/// # Errors
+/// Where they may not.
+pub fn check(targets: &[Target]) -> Result<(), CalibrateError> {
+    if targets.is_empty() {
+        return Err(CalibrateError::NoTarget);
+    }
+    for (k, target) in targets.iter().enumerate() {
+        if targets[..k].iter().any(|other| other.name == target.name) {
+            return Err(CalibrateError::TargetTwice(target.name.clone()));
+        }
+    }
+    Ok(())
+}
+
+/// What a run has for a target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// `None` where the run has no such number: a line that does not stand out.
+    pub value: Option<f64>,
+    /// The run's own standard uncertainty; 0 where it states none.
+    pub uncertainty: f64,
+}
+
+/// Residual of a target for which a run has no number, in standard uncertainties: far off, yet no more than a search can climb over.
+pub const MISSING: f64 = 10.0;
+
+/// Difference from the targets over the standard uncertainties `sigma`.
+pub fn residuals(targets: &[Target], sigma: &[f64], answers: &[Answer]) -> Vec<f64> {
+    let one = |((target, sigma), answer): ((&Target, &f64), &Answer)| match answer.value {
+        Some(value) => (value - target.value) / sigma,
+        None => MISSING,
+    };
+    targets.iter().zip(sigma).zip(answers).map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_targets_are_read() {
+        let read = |text| Target::read(text).unwrap();
+        let target = read("measured_ax.rms = 30.4 ~ 1.5");
+        assert_eq!(
+            (&target.name[..], target.value, target.uncertainty),
+            ("measured_ax.rms", 30.4, 1.5)
+        );
+        assert_eq!(read("a=-50~2%").uncertainty, 1.0);
+    }
+
+    #[test]
+    fn regress_what_is_wrong_is_said() {
+        for (text, said) in [
+            ("a.b", "`a.b`: expected NAME=VALUE~UNCERTAINTY"),
+            ("a=30", "a = 30: no standard uncertainty is given"),
+            ("a=x~1", "the value, `x`, is not a number"),
+            ("a=x", "the value, `x`, is not a number"),
+            ("a=1~x", "the uncertainty, `x`, is not a number"),
+            ("a=1~0", "the standard uncertainty is not above 0"),
+            ("a=0~5%", "the standard uncertainty is not above 0"),
+        ] {
+            let error = Target::read(text).unwrap_err().to_string();
+            assert!(error.contains(said), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn analytic_residuals_are_in_standard_uncertainties() {
+        let targets = [
+            Target::read("a=10~1").unwrap(),
+            Target::read("b=5~1").unwrap(),
+        ];
+        let answer = |value| Answer {
+            value,
+            uncertainty: 0.0,
+        };
+        let r = residuals(&targets, &[2.0, 1.0], &[answer(Some(13.0)), answer(None)]);
+        assert_eq!(r, [1.5, MISSING]);
+    }
+}
