@@ -103,6 +103,11 @@ pub(crate) trait Work: Sync {
     /// The scenario of a task. It is made by the thread that runs it, so that memory goes with the runs in progress.
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure>;
 
+    /// What a row of that scenario is filed under: everything that its numbers depend on.
+    fn fingerprint(&self, scenario: &Scenario) -> String {
+        fingerprint(scenario)
+    }
+
     /// Where the task's signals go, if anywhere.
     fn signals(
         &self,
@@ -209,7 +214,7 @@ fn one(
         result,
     };
     let scenario = work.scenario(task)?;
-    if fingerprint(&scenario) != task.fingerprint {
+    if work.fingerprint(&scenario) != task.fingerprint {
         return Err(Failure::Usage(
             "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now".into(),
         ));

@@ -292,8 +292,8 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
             "error: ",
             " at t = 0.0",
             " s: ",
-            "the pocket of roller ",
-            " in row 1",
+            " in row ",
+            // Which contact or pocket is pressed hardest there hangs on round-off.
             " carries ",
         ])
         .says(&["Failed: the results are partial, up to t = 0.0"]);

@@ -41,6 +41,12 @@ impl FromPoints<'_> {
             settings,
         })
     }
+}
+
+impl Work for FromPoints<'_> {
+    fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
+        Ok(self.source.load(&task.settings, true)?.scenario)
+    }
 
     /// Of the scenario, and of what is taken from its signal.
     fn fingerprint(&self, scenario: &Scenario) -> String {
@@ -52,12 +58,6 @@ impl FromPoints<'_> {
             }
             None => own,
         }
-    }
-}
-
-impl Work for FromPoints<'_> {
-    fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
-        Ok(self.source.load(&task.settings, true)?.scenario)
     }
 
     fn signals(
