@@ -175,7 +175,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         },
     };
     let views = view::all(&x, fs, known, &choice.bands, options)?;
-    let (findings, best) = verdict::find(&views, shaft, options)?;
+    // Half the main lobe of a Hann window over the whole record.
+    let resolution = 2.0 * fs / x.len() as f64;
+    let (findings, best) = verdict::find(&views, shaft, resolution, options)?;
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,

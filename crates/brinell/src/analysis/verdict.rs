@@ -97,9 +97,12 @@ struct Standing {
 ///
 /// What accounts for the others comes first ([`leading`]). Its lines are then taken out of every envelope spectrum, and what still
 /// stands comes next; what does not was the first one's. A cage's lines come last: what turns with the cage modulates all else.
+///
+/// A frequency nearer to a named one's than `resolution` (Hz) cannot be told from it, and is said to be explained by it.
 pub(super) fn find(
     views: &[View],
     shaft: f64,
+    resolution: f64,
     options: &Options,
 ) -> Result<(Vec<Finding>, usize), AnalysisError> {
     let candidates = candidates(shaft, options);
@@ -142,6 +145,9 @@ pub(super) fn find(
         if *component == Component::Cage && !findings.is_empty() {
             finding.strength = Strength::Faint;
         }
+        let near =
+            |f: &&Finding| (f.evidence.frequency - finding.evidence.frequency).abs() < resolution;
+        finding.explained_by = findings.iter().filter(near).map(|f| f.name).collect();
         let spacings = [shaft, options.orders.ftf.unwrap_or(0.0) * shaft];
         for (spectrum, evidence) in spectra.iter_mut().zip(&mut evidence) {
             let mine = &evidence[next.candidate];
