@@ -97,7 +97,7 @@ fn found(on: Surface, component: Component) {
     let k = Kinematics::pure_rolling(&geometry, 30.0 * TAU);
     let x = run(&mut s);
     let analysis = analyze(
-        &x,
+        &with_noise(&x, 0.3),
         FS,
         &Options::new(30.0, DefectOrders::of_bearing(&geometry)),
     )
