@@ -200,7 +200,7 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
         count(
             "Right-hand sides for samples",
             w.sample_evaluations,
-            "at eight times the sample rate",
+            "one a sample of the instantaneous channels",
         ),
         count("Contacts opened or closed", w.contact_switches, ""),
         count("Pockets opened or closed", w.pocket_switches, ""),
