@@ -3,6 +3,7 @@
 
 use super::assumptions::{RANGES, Values};
 use super::numbers::Numbers;
+use crate::random::Random;
 
 /// Cases that every draw runs: the paper's three RMS values, at a seventh of the cost of all cases.
 pub const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];
@@ -51,35 +52,17 @@ impl Design for Hypercube {
     }
 }
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+fn shuffled(random: &mut Random, n: usize) -> Vec<usize> {
+    let mut all: Vec<usize> = (0..n).collect();
+    for k in (1..n).rev() {
+        all.swap(k, (random.part() * (k + 1) as f64) as usize);
     }
-
-    /// From 0 to just below 1.
-    fn part(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn shuffled(&mut self, n: usize) -> Vec<usize> {
-        let mut all: Vec<usize> = (0..n).collect();
-        for k in (1..n).rev() {
-            all.swap(k, (self.part() * (k + 1) as f64) as usize);
-        }
-        all
-    }
+    all
 }
 
 /// The sets of a Latin hypercube. Numbers carry four digits: that is what a table shows, and what is run.
 pub fn draws(count: usize, seed: u64) -> Vec<Draw> {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut all: Vec<Draw> = (1..=count)
         .map(|number| Draw {
             number,
@@ -87,7 +70,7 @@ pub fn draws(count: usize, seed: u64) -> Vec<Draw> {
         })
         .collect();
     for range in RANGES {
-        let strata = random.shuffled(count);
+        let strata = shuffled(&mut random, count);
         for (draw, stratum) in all.iter_mut().zip(strata) {
             let place = (stratum as f64 + random.part()) / count as f64;
             let values: Vec<String> = match range.values {
