@@ -2,9 +2,9 @@
 //!
 //! A mode's transfer is N(s) / (s^2 + 2 zeta w s + w^2). The section has its poles mapped exactly, z = exp(s T), so frequency and decay are the
 //! mode's own at any w below half the fast rate, and a numerator of three taps that makes the response exact at frequency 0 (a real number) and
-//! at one more frequency (a complex one): the mode's own, or the output's half rate where the mode lies beyond. What lies above the output's
-//! half rate is the anti-alias filter's to remove, so those are the frequencies that count. Between and beyond them the error, relative to the
-//! response, stays below 2e-4 up to the output's half rate; the tests hold the section to that.
+//! at the passband's end (a complex one), 0.4 of the output's rate. What lies above is the anti-alias filter's to remove, so the frequencies between
+//! are those that count. There the error, relative to the response, stays below 5e-4 where N = w^2 (below 1e-4 for zeta up to 0.1), and below 9e-3
+//! where N = 2 zeta w s + w^2 (0.08 dB; that much only far above the mode). The tests hold the section to that.
 
 use std::f64::consts::TAU;
 
@@ -41,8 +41,8 @@ impl Mode {
         numerator / (viscous + (1.0 - ratio * ratio))
     }
 
-    /// As a section at `rate` Hz, of which frequencies up to `top` count.
-    pub(super) fn section(&self, rate: f64, top: f64) -> Section {
+    /// As a section at `rate` Hz, of which frequencies up to `edge` count.
+    pub(super) fn section(&self, rate: f64, edge: f64) -> Section {
         let w = TAU * self.frequency / rate;
         let pole = Complex::new(-self.damping * w, w * (1.0 - self.damping.powi(2)).sqrt());
         // 1 + a1 z^-1 + a2 z^-2 at the angle, without the loss of digits near z = 1.
@@ -50,11 +50,10 @@ impl Mode {
             let turned = Complex::new(0.0, angle);
             expm1(pole - turned) * expm1(pole.conj() - turned)
         };
-        let match_at = self.frequency.min(top);
-        let angle = TAU * match_at / rate;
+        let angle = TAU * edge / rate;
         // b0 + b1 z^-1 + b2 z^-2, turned by one sample, is b1 + (b0 + b2) cos + i (b0 - b2) sin.
         let sum = denominator(0.0).re;
-        let turned = self.response(match_at) * denominator(angle) * Complex::from_polar(1.0, angle);
+        let turned = self.response(edge) * denominator(angle) * Complex::from_polar(1.0, angle);
         let even = (sum - turned.re) / (2.0 * (0.5 * angle).sin().powi(2));
         let odd = turned.im / angle.sin();
         Section {
@@ -73,7 +72,8 @@ fn expm1(z: Complex<f64>) -> Complex<f64> {
     )
 }
 
-/// s / (s + w), its pole mapped exactly, no response at frequency 0 and 1 at half the rate. Its error is of order (w T)^2.
+/// s / (s + w), its pole mapped exactly, no response at frequency 0 and 1 at half the rate. Its error below the passband's end is less
+/// than 0.035 w T.
 pub(super) fn low_cut(frequency: f64, rate: f64) -> Section {
     let pole = (-TAU * frequency / rate).exp();
     let gain = 0.5 * (1.0 + pole);
@@ -116,31 +116,32 @@ impl Running {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     /// Output rate 1, fast rate 8, so frequencies are in units of the output rate.
     const RATE: f64 = 8.0;
-    const TOP: f64 = 0.5;
+    const EDGE: f64 = 0.4;
 
     #[test]
-    fn analytic_modes_keep_their_response_up_to_half_the_output_rate() {
-        let mut worst: f64 = 0.0;
-        for passes in [Passes::Deflection, Passes::Transmitted] {
-            for damping in [0.005, 0.02, 0.1, 0.5f64.sqrt(), 0.95] {
+    fn analytic_modes_keep_their_response_in_the_passband() {
+        for damping in [0.005, 0.02, 0.1, 0.5f64.sqrt(), 0.95] {
+            let deflection = if damping > 0.1 { 5e-4 } else { 1e-4 };
+            for (passes, limit) in [
+                (Passes::Deflection, deflection),
+                (Passes::Transmitted, 9e-3),
+            ] {
                 for frequency in [1e-4, 1e-2, 0.1, 0.3, 0.45, 0.7, 1.5, 3.9] {
                     let mode = Mode {
                         frequency,
                         damping,
                         passes,
                     };
-                    let section = mode.section(RATE, TOP);
+                    let section = mode.section(RATE, EDGE);
                     for k in 1..=2000 {
-                        let f = TOP * f64::from(k) / 2000.0;
+                        let f = EDGE * f64::from(k) / 2000.0;
                         let exact = mode.response(f);
                         let error = (section.response(TAU * f / RATE) - exact).norm();
-                        worst = worst.max(error / exact.norm());
                         assert!(
-                            error < 2e-4 * exact.norm(),
+                            error < limit * exact.norm(),
                             "{mode:?} at {f}: {}",
                             error / exact.norm()
                         );
@@ -148,7 +149,6 @@ mod tests {
                 }
             }
         }
-        println!("largest relative error {worst:.2e}");
     }
 
     #[test]
@@ -160,7 +160,7 @@ mod tests {
             damping,
             passes: Passes::Deflection,
         };
-        let mut running = Running::new(mode.section(RATE, TOP));
+        let mut running = Running::new(mode.section(RATE, EDGE));
         let (w, root) = (TAU * frequency, (1.0 - damping * damping).sqrt());
         let mut worst: f64 = 0.0;
         for k in 0..4000 {
@@ -178,9 +178,9 @@ mod tests {
         for frequency in [1e-5, 1e-3, 1e-2] {
             let section = low_cut(frequency, RATE);
             for k in 0..=4000 {
-                let f = TOP * f64::from(k) / 4000.0;
+                let f = EDGE * f64::from(k) / 4000.0;
                 let error = section.response(TAU * f / RATE) - low_cut_response(frequency, f);
-                assert!(error.norm() < (PI * frequency / RATE).powi(2) + 1e-12);
+                assert!(error.norm() < 0.035 * TAU * frequency / RATE);
             }
         }
     }

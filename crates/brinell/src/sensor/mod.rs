@@ -17,7 +17,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use realfft::num_complex::Complex;
 
 use crate::scenario::{Range, Sensor};
-use crate::signal::decimate::FACTOR;
+use crate::signal::decimate::{FACTOR, PASSBAND};
 use converter::Converter;
 use filter::{Mode, Passes, Running, low_cut, low_cut_response};
 use noise::{Level, Noise};
@@ -193,7 +193,7 @@ impl Sensing {
     /// At rest before t = 0.
     pub fn new(chain: &Chain) -> Self {
         let fast = chain.rate * FACTOR as f64;
-        let run = |mode: &Mode| Running::new(mode.section(fast, 0.5 * chain.rate));
+        let run = |mode: &Mode| Running::new(mode.section(fast, PASSBAND * chain.rate));
         let line = Line {
             direct: 1.0 - chain.path.iter().map(|(gain, _)| gain).sum::<f64>(),
             path: chain.path.iter().map(|(g, mode)| (*g, run(mode))).collect(),
@@ -302,7 +302,7 @@ mod tests {
                     continue;
                 };
                 assert_eq!(out[1], 0.0);
-                assert!((out[2] - 30f64.to_radians().cos() * out[0]).abs() < 1e-12);
+                assert!((out[2] - 30f64.to_radians().cos() * out[0]).abs() < 1e-9);
                 if k >= settle {
                     // n samples are 0.2 s: whole periods of every frequency here.
                     let turn = TAU * f * f64::from(k) / RATE;
@@ -315,8 +315,8 @@ mod tests {
             }
             let exact = chain.response(f);
             let error = (sum - exact).norm() / exact.norm();
-            // 1e-4 is the anti-alias filter's ripple.
-            assert!(error < 5e-4, "{f} Hz: {sum} against {exact}: {error:e}");
+            // The path's parts of velocity are the coarsest; the anti-alias filter's ripple is 1e-4.
+            assert!(error < 3e-3, "{f} Hz: {sum} against {exact}: {error:e}");
         }
     }
 

@@ -6,7 +6,7 @@ use crate::signal::decimate::FACTOR;
 /// Shortest of the noise's corners, as a share of the sample rate.
 const LOWEST_CORNER: f64 = 1e-9;
 /// Slowest of the chain's modes, as a share of the sample rate: a second-order section at eight times that rate has six digits left there.
-const SLOWEST_MODE: f64 = 1e-4;
+const SLOWEST_MODE: f64 = 1e-5;
 
 impl Checker<'_> {
     pub(super) fn sensor(&mut self) {
