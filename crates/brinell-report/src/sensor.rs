@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Domain, Spec, range};
 use crate::data::{Fact, Report};
-use crate::page::figure;
+use crate::frame::figure;
 use crate::picture::{Paint, Picture, ink};
 use crate::plots::Layout;
 use crate::tables::fact_table;
@@ -27,7 +27,7 @@ impl SensorView {
     }
 }
 
-/// Gain below the largest by more than this is cut off: a band's lower end reaches zero.
+/// Gain below the largest by more than this is cut off.
 const DEEPEST_DB: f64 = 80.0;
 
 /// Gain over frequency.

@@ -4,7 +4,7 @@ use crate::say::short;
 use brinell::summary::Parts;
 use brinell_report::{Fact, SensorView, Value};
 
-/// Frequencies of the response, from 0 to half the sample rate.
+/// Frequencies of the response, up to half the sample rate; not 0, which a band with a lower end does not pass at all.
 const POINTS: usize = 600;
 
 pub(super) fn view(parts: &Parts) -> SensorView {
@@ -13,7 +13,7 @@ pub(super) fn view(parts: &Parts) -> SensorView {
     };
     let top = 0.5 * parts.simulation.sample_rate();
     let frequency_hz: Vec<f64> = if chain.shapes_the_signal() {
-        (0..=POINTS)
+        (1..=POINTS)
             .map(|k| top * k as f64 / POINTS as f64)
             .collect()
     } else {

@@ -194,7 +194,7 @@ impl Keys for Writer<'_> {
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add::<T>(&spec, &value.write(), true);
-        } else if self.is_template() && (self.inline.is_some() || !value.is_defined()) {
+        } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
             self.aside(format!(
                 "{}: {}; only where {case}",
                 spec.name,

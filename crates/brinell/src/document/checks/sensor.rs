@@ -117,7 +117,9 @@ impl Checker<'_> {
             s.converter_range_m_per_s2.is_some(),
             s.converter_range_mv.is_some(),
         );
+        // 0 stands for bits that could not be read.
         match s.converter_bits {
+            Some(0) => {}
             Some(_) if !range && !volts => self.error(
                 BITS,
                 "a converter's steps follow from its range, which is not given".into(),
