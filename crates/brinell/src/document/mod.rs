@@ -28,3 +28,12 @@ pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
 pub use source::locate;
+
+/// What another document than the scenario is read with.
+pub(crate) mod reading {
+    pub(crate) use super::checks::Finder;
+    pub(crate) use super::keys::{Fallback, Keys, Spec, key, stated};
+    pub(crate) use super::leaf::{Choice, Leaf, Misfit};
+    pub(crate) use super::reader::Reader;
+    pub(crate) use super::source::{Node, Value as Toml, key_text, parse};
+}
