@@ -4,7 +4,7 @@ use super::distribution::{Distribution, Value};
 use super::plan::{Design, OutOfRange, Plan};
 use super::sequence::{Sequence, Sobol};
 use super::stream::{bits, seed, unit, word};
-use crate::document::reading::{Node, Toml, parse};
+use crate::document::reading::{Node, Toml, parse, quote};
 use crate::document::{Loaded, Problem, read};
 
 /// Times that a run is drawn before its class counts as impossible.
@@ -229,7 +229,9 @@ impl Draws {
         let class = &self.plan.classes[c];
         let drawn = self.values(run, attempt);
         let mut next = drawn.iter();
-        let mut settings: Vec<(String, String)> = Vec::new();
+        let record: Vec<String> = self.plan.signals.iter().map(|name| quote(name)).collect();
+        let record = format!("[{}]", record.join(", "));
+        let mut settings = vec![("simulation.record".to_owned(), record)];
         for template in [&self.plan.vary, &class.vary] {
             for (path, template) in template.settings() {
                 settings.push((path, template.toml(&mut next)));

@@ -224,6 +224,14 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
     }
 }
 
+/// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.
+///
+/// # Errors
+/// Where the text is no TOML.
+pub fn canonical(text: &str) -> Result<String, Vec<Problem>> {
+    Ok(Node::table(parse(text, &[])?).text())
+}
+
 /// Where a key stands in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.
 pub fn locate(text: &str, key: &str) -> Option<Place> {
     let mut table = Some(parse(text, &[]).ok()?);
