@@ -55,6 +55,11 @@ pub trait Listener: Sync {
     /// Run `run` of so many simulated seconds begins.
     fn begin(&self, run: usize, duration_s: f64) -> Box<dyn RunListener + '_>;
 
+    /// So many runs were there before.
+    fn before(&self, runs: usize) {
+        let _ = runs;
+    }
+
     /// Run `run` is on the disk; `failed` says why where it failed.
     fn ended(&self, run: usize, failed: Option<&str>);
 }
@@ -129,6 +134,7 @@ pub fn run(
         went.runs += runs.len();
         if folder.finished(*part)?.is_some() {
             went.before += runs.len();
+            listener.before(runs.len());
             clear(&folder, *part);
         } else {
             jobs.extend(runs.map(|run| (*part, run)));
@@ -183,6 +189,7 @@ impl Work<'_> {
     fn try_one(&self, part: usize, run: usize) -> Result<Ended, DatasetError> {
         self.begin(part)?;
         let ended = if self.folder.row(part, run).exists() {
+            self.listener.before(1);
             Ended::Before
         } else if self.make(part, run)? {
             Ended::Done

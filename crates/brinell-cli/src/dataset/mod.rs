@@ -83,6 +83,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         .map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
     let terminal = Terminal {
         stop: &stop,
+        duration,
         joint: Mutex::new(Joint::new(runs, duration * runs as f64, args.quiet)),
         failures: Mutex::new(Vec::new()),
     };
@@ -188,6 +189,8 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
 /// Shows runs on one bar, and listens for Ctrl-C.
 struct Terminal<'a> {
     stop: &'a AtomicBool,
+    /// Of a run, s.
+    duration: f64,
     joint: Mutex<Joint>,
     failures: Mutex<Vec<(usize, String)>>,
 }
@@ -199,6 +202,11 @@ impl Listener for Terminal<'_> {
             stop: self.stop,
             progress: Joint::part(&joint.bar(), duration_s),
         })
+    }
+
+    fn before(&self, runs: usize) {
+        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
+        (0..runs).for_each(|_| joint.done_before(self.duration));
     }
 
     fn ended(&self, run: usize, failed: Option<&str>) {
