@@ -6,7 +6,7 @@
 //! Rounds alternate, and medians are told, so that what else the machine does weighs on all alike.
 
 use brinell::simulate::{Observer, Simulation};
-use brinell_dataset::{Campaign, NO_LISTENER, Shard, run};
+use brinell_dataset::{Campaign, Shard, Silent, run};
 use std::error::Error;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let out = folder.path().join(format!("{round}-{k}"));
             let threads = NonZeroUsize::new(*threads).ok_or("no threads")?;
             let begin = Instant::now();
-            let went = run(&campaign, &out, Shard::WHOLE, threads, &NO_LISTENER)?;
+            let went = run(&campaign, &out, Shard::WHOLE, threads, &Silent)?;
             times[1 + k].push(begin.elapsed().as_secs_f64());
             assert!(went.whole && went.done == runs && went.failed == 0);
             std::fs::remove_dir_all(out)?;

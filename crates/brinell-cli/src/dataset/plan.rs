@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::say::{complain, say, short};
 use crate::sweep::cost::pace;
 use crate::sweep::{duration, plural};
-use brinell::design::{Misses, OutOfRange, Survey, problem_places};
+use brinell::design::{Misses, OutOfRange, Survey, place_in_plan};
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 
@@ -150,7 +150,7 @@ pub(super) fn refuse(campaign: &Campaign, survey: &Survey) -> Failure {
                 }
             );
             // A key that the plan sets is found there; what the base gives has its line there already.
-            let place = problem_places(campaign.draws(), text, *run, &problem);
+            let place = place_in_plan(campaign.draws(), text, *run, &problem);
             (problem.line, problem.column, problem.span) = (None, None, None);
             problem.placed(place)
         },
