@@ -286,7 +286,6 @@ impl Draws {
     ///
     /// # Errors
     /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where there is one.
-    #[expect(clippy::type_complexity, reason = "a failed run has a draw too")]
     pub fn scenario(
         &self,
         base: &str,

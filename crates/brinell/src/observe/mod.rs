@@ -209,11 +209,9 @@ impl Watch {
 
     /// At each sample instant.
     pub fn sample(&mut self, frame: &Frame) {
-        if self.started.is_none() {
-            if has_settled(frame, self.half_way) {
-                self.started = Some(frame.t);
-                self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
-            }
+        if self.started.is_none() && has_settled(frame, self.half_way) {
+            self.started = Some(frame.t);
+            self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
         }
         self.slip_course.take(frame, self.started.is_some());
         self.cage_orbit.take(frame);
