@@ -3,7 +3,7 @@
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::say::complain;
-use brinell::document::{Loaded, Place, Problem, Severity, locate, read_bytes};
+use brinell::document::{Loaded, Problem, locate, read_bytes};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -128,7 +128,7 @@ fn read_damage(
             // What `--set` gave stands nowhere in the file.
             let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
             let place = locate(text, &error.key).filter(|_| !given);
-            problem(error, place)
+            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
         };
         errors.into_iter().map(placed).collect::<Vec<_>>()
     })?;
@@ -143,21 +143,6 @@ fn read_damage(
         }
     }
     Ok(())
-}
-
-fn problem(error: brinell_damage::Unresolved, place: Option<Place>) -> Problem {
-    Problem {
-        severity: Severity::Error,
-        key: error.key,
-        message: error.message,
-        value: Some(format!("\"{}\"", error.file)),
-        allowed: None,
-        unit: None,
-        line: place.as_ref().map(|p| p.line),
-        column: place.as_ref().map(|p| p.column),
-        span: place.map(|p| p.span),
-        also: Vec::new(),
-    }
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -209,12 +209,9 @@ impl Watch {
 
     /// At each sample instant.
     pub fn sample(&mut self, frame: &Frame) {
-        if self.started.is_none() {
-            let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
-            if (turned && frame.t >= self.ramp) || frame.t >= self.half_way {
-                self.started = Some(frame.t);
-                self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
-            }
+        if self.started.is_none() && has_settled(frame, self.half_way) {
+            self.started = Some(frame.t);
+            self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
         }
         self.slip_course.take(frame, self.started.is_some());
         self.cage_orbit.take(frame);
@@ -283,6 +280,12 @@ impl Watch {
             lines: self.lines,
         }
     }
+}
+
+/// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way` (s) is reached.
+pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
+    let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
+    (turned && frame.t >= frame.model.load.ramp) || frame.t >= half_way
 }
 
 fn whole_turns(angle: f64) -> i64 {
