@@ -102,7 +102,7 @@ impl Noise {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::Welch;
+    use crate::signal::{Segments, psd};
 
     const RATE: f64 = 25_600.0;
 
@@ -145,22 +145,15 @@ mod tests {
             let level = level(colour);
             let mut noise = Noise::new(level, RATE, 0);
             let segment = 4096;
-            let mut welch = Welch::new(RATE, segment);
-            for _ in 0..400 * segment {
-                welch.push(noise.next());
-            }
-            let spectrum = welch.finish().unwrap();
-            // Bands of octaves, away from the window's leakage at the lowest bins. 800 half-overlapping segments leave 4 % a bin at most.
+            let x: Vec<f64> = (0..400 * segment).map(|_| noise.next()).collect();
+            let spectrum = psd(&x, RATE, &Segments::of(segment)).unwrap();
+            // Octaves, away from the window's leakage at the lowest bins.
             let df = spectrum.frequency_step;
             let mut low = 64;
             while 2 * low < segment / 2 {
-                let got: f64 = (low..2 * low)
-                    .map(|k| spectrum.amplitude[k].powi(2) / 2.0)
-                    .sum();
-                // Peak amplitudes of a Hann window spread a line's power over 1.5 bins.
-                let due: f64 = (low..2 * low)
-                    .map(|k| level.density(k as f64 * df, RATE) * 1.5 * df)
-                    .sum();
+                let bins = low..2 * low;
+                let got: f64 = bins.clone().map(|k| spectrum.density[k]).sum();
+                let due: f64 = bins.map(|k| level.density(k as f64 * df, RATE)).sum();
                 let db = 10.0 * (got / due).log10();
                 assert!(db.abs() < 0.1, "{colour:?} from bin {low}: {db} dB");
                 low *= 2;
