@@ -12,6 +12,7 @@ mod keys;
 mod leaf;
 mod load;
 mod nearest;
+mod pointed;
 mod problem;
 mod provenance;
 mod reader;
@@ -24,6 +25,7 @@ mod writer;
 
 pub use example::template;
 pub use load::{Loaded, read, read_bytes};
+pub use pointed::pointed_out;
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
