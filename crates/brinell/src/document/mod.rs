@@ -29,4 +29,4 @@ pub use pointed::pointed_out;
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
-pub use source::locate;
+pub use source::{float as toml_float, locate, quote as toml_quote};
