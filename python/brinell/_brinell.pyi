@@ -9,7 +9,32 @@ _Array = npt.NDArray[np.float64]
 _Band = tuple[float, float] | None
 _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
-__all__: list[str]
+__all__ = [
+    "ReadError",
+    "Run",
+    "RunError",
+    "Scenario",
+    "ScenarioError",
+    "SignalError",
+    "__version__",
+    "analyze",
+    "bearings",
+    "derived",
+    "envelope",
+    "envelope_spectrum",
+    "frequencies",
+    "indicators",
+    "kurtogram",
+    "psd",
+    "read_signal",
+    "schema",
+    "simulate",
+    "simulate_many",
+    "spectrogram",
+    "statics",
+    "sweep",
+    "template",
+]
 __version__: str
 
 class ScenarioError(ValueError):

@@ -7,21 +7,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 __all__ = ["circle", "defect", "depth_map", "image", "outline", "rectangle", "svg"]
 
-Surface = Literal["outer-raceway", "inner-raceway", "roller"]
+if TYPE_CHECKING:
+    _Surface = Literal["outer-raceway", "inner-raceway", "roller"]
 
 
 def defect(
     shape: dict[str, Any],
     *,
     depth_um: float | None = None,
-    on: Surface = "outer-raceway",
+    on: _Surface = "outer-raceway",
     row: int | None = None,
     center_deg: float | None = None,
     roller: int | None = None,
@@ -208,7 +209,9 @@ def depth_map(
         "z0_mm": -0.5 * (rows - 1) * dz_mm if z0_mm is None else z0_mm,
         "ds_mm": ds_mm,
         "dz_mm": dz_mm,
-        "depth_um": grid,
+        "columns": columns,
+        "rows": rows,
+        "depth_um": grid.ravel(),
     }
     return defect({"depth_map": entry}, **place)
 

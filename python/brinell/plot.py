@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -23,15 +23,14 @@ SECOND = "#c0571c"
 MARK = "#8a8a8a"
 
 
-def _axes(ax: Any, **subplot: Any) -> Any:
+def _axes(ax: Any) -> matplotlib.axes.Axes:
     plt = tables.need("matplotlib.pyplot", "plot")
-    if ax is not None:
-        return ax
-    _, ax = plt.subplots(figsize=(8.0, 3.2), layout="constrained", subplot_kw=subplot or None)
-    return ax
+    if ax is None:
+        _, ax = plt.subplots(figsize=(8.0, 3.2), layout="constrained")
+    return cast("matplotlib.axes.Axes", ax)
 
 
-def _plain(ax: Any, x: str, y: str, title: str) -> Any:
+def _plain(ax: matplotlib.axes.Axes, x: str, y: str, title: str) -> matplotlib.axes.Axes:
     ax.set_xlabel(x)
     ax.set_ylabel(y)
     ax.set_title(title, loc="left", fontsize="medium")
@@ -144,20 +143,20 @@ def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 4, 
     if to_hz is None:
         to_hz = (harmonics + 0.6) * max(struck.values()) if struck else 1000.0
     to_hz = min(to_hz, float(found.frequency_hz[-1]))
-    ax = spectrum(found, to_hz=to_hz, ax=ax)
+    axes = spectrum(found, to_hz=to_hz, ax=ax)
     for name, hz in struck.items():
-        _mark(ax, hz, name, harmonics, to_hz)
+        _mark(axes, hz, name, harmonics, to_hz)
     low, high = found.band_hz or (0.0, 0.0)
-    ax.set_title(f"envelope of {found.channel}, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
-    return ax
+    axes.set_title(f"envelope of {found.channel}, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
+    return axes
 
 
-def _polar(ax: Any, title: str) -> Any:
+def _polar(ax: Any, title: str) -> matplotlib.axes.Axes:
     ax.set_title(title, loc="left", fontsize="medium")
     ax.grid(True, color="#d8d8d8", linewidth=0.6)
     ax.set_rlabel_position(135)
     ax.set_ylim(bottom=0.0)
-    return ax
+    return cast("matplotlib.axes.Axes", ax)
 
 
 def _polar_axes(ax: Any) -> Any:
@@ -222,22 +221,22 @@ def roller_pass(result: Result, defect: int = 1, *, ax: Any = None) -> matplotli
     passes = [p for p in result.passes if p["defect"] == defect]
     if not passes:
         raise ValueError(f"defect = {defect}: no roller passed it\n  allowed: 1 to {len(result.defects)}, the scenario's defects")
-    ax = _axes(ax)
+    left = _axes(ax)
     shown = passes[0]
     order = np.argsort(shown["t"])
     ms = 1e3 * (shown["t"][order] - shown["t"][order][0])
-    ax.plot(ms, shown["force_n"][order], color=LINE, linewidth=1.2)
+    left.plot(ms, shown["force_n"][order], color=LINE, linewidth=1.2)
     title = f"roller {shown['roller']} of row {shown['row']} over defect {defect}"
-    _plain(ax, "time (ms)", "contact force (N)", title)
-    ax.yaxis.label.set_color(LINE)
-    ax.set_ylim(bottom=0.0)
-    ax.set_xlim(ms[0], ms[-1])
-    right = ax.twinx()
+    _plain(left, "time (ms)", "contact force (N)", title)
+    left.yaxis.label.set_color(LINE)
+    left.set_ylim(bottom=0.0)
+    left.set_xlim(ms[0], ms[-1])
+    right = left.twinx()
     right.plot(ms, shown["effective_length_mm"][order], color=SECOND, linewidth=1.2, linestyle="--")
     right.set_ylabel("effective length (mm)", color=SECOND)
     right.set_ylim(bottom=0.0)
     right.spines["top"].set_visible(False)
-    return ax
+    return left
 
 
 def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
@@ -251,14 +250,14 @@ def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> mat
     >>> brinell.plot.analysis(found).get_ylabel()
     'amplitude (g)'
     """
-    ax = spectrum(of.envelope, to_hz=to_hz, ax=ax)
-    top = ax.get_xlim()[1]
+    axes = spectrum(of.envelope, to_hz=to_hz, ax=ax)
+    top = axes.get_xlim()[1]
     for finding in of.findings:
         if finding["is_cause"]:
-            _mark(ax, finding["found_hz"], finding["name"], 5, top)
+            _mark(axes, finding["found_hz"], finding["name"], 5, top)
     low, high = of.envelope.band_hz or (0.0, 0.0)
-    ax.set_title(f"envelope, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
-    return ax
+    axes.set_title(f"envelope, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
+    return axes
 
 
 def table(of: Table, y: str, x: str | None = None, *, ax: Any = None) -> matplotlib.axes.Axes:
@@ -273,7 +272,8 @@ def table(of: Table, y: str, x: str | None = None, *, ax: Any = None) -> matplot
     'operation.speed_rpm'
     """
     if y not in of.columns:
-        near = [name for name in of.columns if y.split(".")[-1] in name][:8] or list(of.columns)[:8]
+        near = [name for name in of.columns if y.split(".")[-1] == name.split(".")[-1]]
+        near = sorted(near or of.units, key=lambda name: not name.startswith("measured"))[:8]
         raise ValueError(f"y = {y}: no such column\n  allowed: the columns of the table, such as {', '.join(near)}")
     numbers = [key for key in of.keys if of.columns[key].dtype != object]
     if x is None:

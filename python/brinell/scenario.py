@@ -140,7 +140,7 @@ class Scenario:
         --------
         >>> import brinell
         >>> brinell.Scenario.from_toml(brinell.template()).name
-        'my-bearing'
+        'nn3007-rectangle'
         """
         return cls._of(_brinell.Scenario.parse(text, _plain(settings or {}), folder))
 
@@ -190,7 +190,7 @@ class Scenario:
         >>> import brinell
         >>> text = brinell.Scenario.from_toml(brinell.template()).to_toml()
         >>> brinell.Scenario.from_toml(text).to_toml().splitlines()[0]
-        'name = "my-bearing"'
+        'name = "nn3007-rectangle"'
         """
         return self._native.toml
 

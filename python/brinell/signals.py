@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
 
+    _Window = Literal["rectangular", "hann", "hamming", "blackman-harris", "flat-top"]
+    _Detrend = Literal["none", "mean", "linear"]
+
 __all__ = [
     "Analysis",
     "Kurtogram",
@@ -38,8 +41,6 @@ __all__ = [
 ]
 
 Array = npt.NDArray[np.float64]
-Window = Literal["rectangular", "hann", "hamming", "blackman-harris", "flat-top"]
-Detrend = Literal["none", "mean", "linear"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,8 +95,8 @@ def psd(
     unit: str,
     length: int | None = None,
     overlap: float = 0.5,
-    window: Window = "hann",
-    detrend: Detrend = "none",
+    window: _Window = "hann",
+    detrend: _Detrend = "none",
 ) -> Spectrum:
     """Amplitudes and power spectral density by Welch's method.
 
@@ -111,8 +112,10 @@ def psd(
         Samples of a segment; about a second of them unless told, and at least four segments where the signal is long enough.
     overlap : float
         Share of a segment that the next one has too.
-    window, detrend : str
-        See the type.
+    window : {"rectangular", "hann", "hamming", "blackman-harris", "flat-top"}
+        For each segment.
+    detrend : {"none", "mean", "linear"}
+        What is taken off each segment before.
 
     Returns
     -------
@@ -138,7 +141,7 @@ def psd(
     return Spectrum._of(found, unit)
 
 
-def spectrum(x: npt.ArrayLike, *, rate_hz: float, unit: str, window: Window = "hann", detrend: Detrend = "none") -> Spectrum:
+def spectrum(x: npt.ArrayLike, *, rate_hz: float, unit: str, window: _Window = "hann", detrend: _Detrend = "none") -> Spectrum:
     """Amplitude spectrum of the whole signal as one segment: the finest lines.
 
     Parameters
@@ -188,7 +191,7 @@ def envelope_spectrum(
     band_hz: tuple[float, float] | None = None,
     length: int | None = None,
     overlap: float = 0.5,
-    window: Window = "hann",
+    window: _Window = "hann",
 ) -> Spectrum:
     """Spectrum of the envelope less its mean: what repeats in a resonance.
 
@@ -232,7 +235,7 @@ class Spectrogram:
 
 
 def spectrogram(
-    x: npt.ArrayLike, *, rate_hz: float, unit: str, length: int, overlap: float = 0.5, window: Window = "hann"
+    x: npt.ArrayLike, *, rate_hz: float, unit: str, length: int, overlap: float = 0.5, window: _Window = "hann"
 ) -> Spectrogram:
     """Power spectral density of each segment by itself.
 
@@ -251,7 +254,8 @@ def spectrogram(
     samples = np.asarray(x, dtype=float)
     first, time_step, step, density = _brinell.spectrogram(samples, rate_hz, length, overlap, window)
     frames, bins = density.shape
-    return Spectrogram(first + time_step * np.arange(frames), step * np.arange(bins), density, unit)
+    time = first + time_step * np.arange(frames, dtype=float)
+    return Spectrogram(time.astype(float), (step * np.arange(bins)).astype(float), density, unit)
 
 
 @dataclass(frozen=True, eq=False)

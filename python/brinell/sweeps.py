@@ -150,8 +150,8 @@ def sweep(
         for at, key in enumerate(keys):
             columns[key] = _column([settings[place[number]][at] for place in places])
     units: dict[str, str] = {}
-    for name, unit, values in numbers:
-        columns[name] = values
+    for name, unit, column in numbers:
+        columns[name] = column
         units[name] = unit
     return Table(
         keys=[key for keys, _ in axes for key in keys],

@@ -89,7 +89,7 @@ def test_xval_a_failed_run_has_the_words_of_the_command(command, tmp_path, examp
     sets = {"simulation.start": "equilibrium", "support.inner_stiffness_n_per_m": 0.0, "support.outer_stiffness_n_per_m": 0.0}
     given = [part for key, value in sets.items() for part in ("--set", f"{key}={value}")]
     told = run(command, "run", examples / "rectangle.toml", *given, "-o", tmp_path, "-q", code=2).stderr
-    with pytest.raises(brinell.ScenarioError) as caught:
+    with pytest.raises(brinell.ScenarioError) as caught, pytest.warns(brinell.ScenarioWarning):
         brinell.simulate(examples / "rectangle.toml", settings=sets)
     assert told.splitlines()[-1] == f"error: {caught.value}"
 

@@ -29,9 +29,9 @@ def test_prop_many_runs_are_each_alone_bit_for_bit(base):
 
 
 def test_prop_a_failure_is_raised_or_takes_its_place(base):
-    bad = base.replace({
-        "simulation.start": "equilibrium", "support.inner_stiffness_n_per_m": 0.0, "support.outer_stiffness_n_per_m": 0.0,
-    })
+    loose = {"simulation.start": "equilibrium", "support.inner_stiffness_n_per_m": 0.0, "support.outer_stiffness_n_per_m": 0.0}
+    with pytest.warns(brinell.ScenarioWarning, match="will drift"):
+        bad = base.replace(loose)
     good = base.replace({"simulation.duration_s": 0.01})
     with pytest.raises(brinell.ScenarioError, match="no static balance"):
         brinell.simulate_many([good, bad, good])
@@ -155,9 +155,9 @@ def test_regress_ground_truth_of_entries_and_exits(result):
     on = events["t"][events["enters"]]
     assert len(on) > 10 and set(events["defect"]) == {1} and set(events["row"]) == {1}
     assert events["roller"].min() >= 1 and events["roller"].max() <= 19
-    # Rollers of row 1 come on at BPFO once it rolls.
+    # Rollers of row 1 come on at BPFO, or a few per cent more slowly as long as the cage slips.
     late = on[on > 0.05]
-    np.testing.assert_allclose(np.diff(late).mean(), 1.0 / 250.1, rtol=0.02)
+    np.testing.assert_allclose(np.diff(late).mean(), 1.0 / 250.1, rtol=0.05)
 
 
 def test_regress_names_that_are_not_there(result):

@@ -251,6 +251,11 @@ impl Run {
             finished,
         })
     }
+
+    /// The measured channel that spectra are of.
+    fn shown(&self) -> &'static str {
+        ["measured_ax", "measured_ay"][self.finished.findings.axis]
+    }
 }
 
 #[pymethods]
@@ -405,10 +410,5 @@ impl Run {
             })
             .collect();
         json_to_python(py, &list.into())
-    }
-
-    /// The measured channel that spectra are of.
-    fn shown(&self) -> &'static str {
-        ["measured_ax", "measured_ay"][self.finished.findings.axis]
     }
 }
