@@ -116,14 +116,19 @@ def spectrum(of: Spectrum, *, to_hz: float | None = None, ax: Any = None) -> mat
     return _plain(ax, "frequency (Hz)", f"amplitude ({_unit(of.unit)})", of.channel or "")
 
 
-def _mark(ax: Any, hz: float, label: str, harmonics: int, top: float) -> None:
-    across = ax.get_xaxis_transform()
+#: Of what is marked first, second, and so on.
+_MARKS = (SECOND, "#3f7d4e", "#7a4f9a")
+
+
+def _mark(ax: Any, hz: float, label: str, harmonics: int, top: float, place: int = 0) -> None:
+    """Harmonics of a frequency; a second one's labels stand below the first one's."""
+    across, colour = ax.get_xaxis_transform(), _MARKS[place % len(_MARKS)]
     for k in range(1, harmonics + 1):
         if k * hz > top:
             break
-        ax.axvline(k * hz, color=SECOND, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.8, zorder=0)
+        ax.axvline(k * hz, color=colour, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.8, zorder=0)
         text = label if k == 1 else f"{k}×"
-        ax.text(k * hz, 0.98, f" {text}", transform=across, va="top", fontsize="small", color=SECOND)
+        ax.text(k * hz, 0.98 - 0.08 * place, f" {text}", transform=across, va="top", fontsize="small", color=colour)
 
 
 def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 4, ax: Any = None) -> matplotlib.axes.Axes:
@@ -144,8 +149,8 @@ def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 4, 
         to_hz = (harmonics + 0.6) * max(struck.values()) if struck else 1000.0
     to_hz = min(to_hz, float(found.frequency_hz[-1]))
     axes = spectrum(found, to_hz=to_hz, ax=ax)
-    for name, hz in struck.items():
-        _mark(axes, hz, name, harmonics, to_hz)
+    for place, (name, hz) in enumerate(struck.items()):
+        _mark(axes, hz, name, harmonics, to_hz, place)
     low, high = found.band_hz or (0.0, 0.0)
     axes.set_title(f"envelope of {found.channel}, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
     return axes
@@ -165,6 +170,11 @@ def _polar_axes(ax: Any) -> Any:
         return ax
     _, ax = plt.subplots(figsize=(4.6, 4.6), layout="constrained", subplot_kw={"projection": "polar"})
     return ax
+
+
+def _beside(ax: Any) -> None:
+    """A legend that covers no angle."""
+    ax.legend(loc="upper left", bbox_to_anchor=(-0.12, 0.04), fontsize="small", frameon=False)
 
 
 def load_zone(result: Result, *, ax: Any = None) -> matplotlib.axes.Axes:
@@ -187,7 +197,7 @@ def load_zone(result: Result, *, ax: Any = None) -> matplotlib.axes.Axes:
         closed = [np.r_[values, values[:1]] for values in (angle, mean)]
         ax.plot(*closed, color=colour, linestyle=style, linewidth=1.2, label=f"row {row + 1}")
     if len(zone["outer_contacts_by_row"]) > 1:
-        ax.legend(loc="lower left", fontsize="small", frameon=False)
+        _beside(ax)
     return _polar(ax, "mean force of outer contacts (N)")
 
 
@@ -202,9 +212,10 @@ def statics(zone: LoadZone, *, ax: Any = None) -> matplotlib.axes.Axes:
     'polar'
     """
     ax = _polar_axes(ax)
-    for name, force, colour in (("outer", zone.outer_force_n, LINE), ("inner", zone.inner_force_n, SECOND)):
-        ax.scatter(np.radians(zone.angle_deg), force, s=6, color=colour, label=f"{name} contacts", linewidth=0)
-    ax.legend(loc="lower left", fontsize="small", frameon=False)
+    angle = np.radians(zone.angle_deg)
+    ax.scatter(angle, zone.outer_force_n, s=22, facecolors="none", edgecolors=LINE, linewidths=0.8, label="outer contacts")
+    ax.scatter(angle, zone.inner_force_n, s=5, color=SECOND, label="inner contacts", linewidth=0)
+    _beside(ax)
     return _polar(ax, "static contact forces (N)")
 
 
@@ -252,9 +263,9 @@ def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> mat
     """
     axes = spectrum(of.envelope, to_hz=to_hz, ax=ax)
     top = axes.get_xlim()[1]
-    for finding in of.findings:
-        if finding["is_cause"]:
-            _mark(axes, finding["found_hz"], finding["name"], 5, top)
+    causes = [finding for finding in of.findings if finding["is_cause"]]
+    for place, cause in enumerate(causes):
+        _mark(axes, cause["found_hz"], cause["name"], 5, top, place)
     low, high = of.envelope.band_hz or (0.0, 0.0)
     axes.set_title(f"envelope, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
     return axes
