@@ -4,15 +4,15 @@
 //! finished where a row has the fingerprint of its scenario and the version of this program.
 
 use crate::failure::Failure;
-use crate::progress::Joint;
+use crate::progress::{Joint, Progress};
+use crate::recorder::Recorder;
 use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, Simulation, SolverWork};
-use brinell_io::{IoError, Journal, Outcome, SignalWriter};
+use brinell::simulate::{End, Simulation};
+use brinell_io::{Journal, SignalWriter};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -111,14 +111,11 @@ pub(crate) trait Work: Sync {
     /// Where the task's signals go, if anywhere.
     fn signals(
         &self,
-        task: &Task,
-        scenario: &Scenario,
-        simulation: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Failure>;
-
-    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row.
-    fn finished(&self, _: &Task, _: &Finished) -> Result<Vec<Quantity>, Failure> {
-        Ok(Vec::new())
+        _: &Task,
+        _: &Scenario,
+        _: &Simulation,
+    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+        Ok(None)
     }
 
     /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
@@ -126,9 +123,10 @@ pub(crate) trait Work: Sync {
         None
     }
 
-    /// Numbers for the row beside the run's own, from what was heard after the run had settled.
-    fn besides(&self, _heard: &[f64]) -> Vec<Quantity> {
-        Vec::new()
+    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row. `heard` is what was asked
+    /// for, from when the run had settled.
+    fn finished(&self, _: &Task, _: &Finished, _heard: &[f64]) -> Result<Vec<Quantity>, Failure> {
+        Ok(Vec::new())
     }
 }
 
@@ -201,7 +199,7 @@ pub(crate) fn run_within(
 fn one(
     task: &Task,
     work: &impl Work,
-    progress: crate::progress::Progress,
+    progress: Progress,
     stop: &AtomicBool,
 ) -> Result<Option<Row>, Failure> {
     if stop.load(Ordering::Relaxed) {
@@ -223,77 +221,20 @@ fn one(
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
     };
-    let mut recorder = Recorder {
-        row: vec![0.0; simulation.channels().len() + 1],
-        sample_rate: simulation.sample_rate(),
-        writer: work.signals(task, &scenario, &simulation)?,
-        failed: None,
-        hears: work.hears(),
-        heard: Vec::new(),
-        progress,
-        stop,
-    };
+    let writers = work.signals(task, &scenario, &simulation)?;
+    let mut recorder = Recorder::new(&simulation, writers.into_iter().collect(), progress, stop)
+        .hearing(work.hears());
     let finished = finish(scenario, simulation, &mut recorder);
-    recorder.progress.finish();
-    if let Some(error) = recorder.failed {
-        return Err(error.into());
-    }
-    let outcome = match &finished.outcome.end {
-        End::Complete => Outcome::Complete,
-        End::Stopped => return Ok(None),
-        End::Failed(error) => Outcome::Partial(error.to_string()),
-    };
-    if let Some(writer) = recorder.writer {
-        writer.finish(outcome)?;
-    }
+    let heard = recorder.close(&finished.outcome.end, false)?;
     let numbers = match &finished.outcome.end {
+        End::Stopped => return Ok(None),
         End::Failed(error) => Err(error.to_string()),
-        _ => {
-            let settled = (finished.findings.from * recorder.sample_rate).ceil() as usize;
-            let heard = recorder.heard.get(settled..).unwrap_or(&[]);
-            let more = work.finished(task, &finished)?;
-            Ok([finished.quantities(), more, work.besides(heard)].concat())
+        End::Complete => {
+            let settled = finished.findings.from * finished.simulation.sample_rate();
+            let settled = heard.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
+            let more = work.finished(task, &finished, settled)?;
+            Ok([finished.quantities(), more].concat())
         }
     };
     Ok(Some(row(numbers)))
-}
-
-/// Rows to a file, time to the bar.
-struct Recorder<'a> {
-    row: Vec<f64>,
-    sample_rate: f64,
-    writer: Option<Box<dyn SignalWriter>>,
-    failed: Option<IoError>,
-    hears: Option<usize>,
-    heard: Vec<f64>,
-    progress: crate::progress::Progress,
-    stop: &'a AtomicBool,
-}
-
-impl Observer for Recorder<'_> {
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
-            self.heard.push(*x);
-        }
-        let Some(writer) = &mut self.writer else {
-            return ControlFlow::Continue(());
-        };
-        self.row[0] = index as f64 / self.sample_rate;
-        self.row[1..].copy_from_slice(row);
-        match writer.write_row(&self.row) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                self.failed = Some(error);
-                ControlFlow::Break(())
-            }
-        }
-    }
-
-    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.progress.at(t);
-        if self.stop.load(Ordering::Relaxed) {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    }
 }

@@ -16,6 +16,7 @@ mod look_up;
 mod page;
 mod plan;
 mod progress;
+mod recorder;
 mod reproduce;
 mod run;
 mod say;

@@ -5,17 +5,17 @@ mod many;
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::progress::Progress;
+use crate::recorder::Recorder;
 use crate::say::{say, short};
 use crate::{files, page};
-use brinell::channel::Frame;
+use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
-use brinell::observe::{Kind, Watch};
+use brinell::observe::Kind;
 use brinell::signal::Indicator;
-use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::simulate::{End, Simulation};
 use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
-use brinell_io::{Column, Format, IoError, Metadata, SignalWriter, atomic_write, keys};
-use std::ops::ControlFlow;
+use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_write, keys};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let folder = args.output.clone().unwrap_or_else(named);
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
-    let done = execute(args, &loaded, &simulation, &folder, progress, &stop)?;
+    let done = execute(args, &loaded, simulation, &folder, progress, &stop)?;
     if !args.quiet {
         for line in &done.told {
             say!("{line}");
@@ -70,7 +70,7 @@ struct Done {
 fn execute(
     args: &RunArgs,
     loaded: &Loaded,
-    simulation: &Simulation,
+    simulation: Simulation,
     folder: &Path,
     progress: Progress,
     stop: &AtomicBool,
@@ -80,37 +80,23 @@ fn execute(
     let path = folder.join("scenario.toml");
     atomic_write(&path, loaded.to_toml().as_bytes())?;
     let mut written = vec![path];
-    let writers = writers(args, loaded, simulation, folder)?;
+    let writers = writers(args, loaded, &simulation, folder)?;
 
-    let mut recorder = Recorder {
-        watch: Watch::new(&loaded.scenario, simulation),
+    let mut recorder = Recorder::new(&simulation, writers, progress, stop);
+    let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
+    let heard = recorder.close(&finished.outcome.end, true)?;
+    written.extend(heard.written);
+    let Finished {
         simulation,
-        row: vec![0.0; simulation.channels().len() + 1],
-        writers,
-        failed: None,
-        progress,
-        stop,
-    };
-    let outcome = simulation.run(&mut recorder);
-    recorder.progress.finish();
-    let elapsed = recorder.progress.elapsed();
-    if let Some(error) = recorder.failed {
-        return Err(error.into());
-    }
+        outcome,
+        findings,
+        ..
+    } = finished;
     let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
-    let ending = match &outcome.end {
-        End::Complete => brinell_io::Outcome::Complete,
-        End::Stopped => brinell_io::Outcome::Partial("interrupted".into()),
-        End::Failed(error) => brinell_io::Outcome::Partial(error.to_string()),
-    };
-    for writer in recorder.writers {
-        written.push(writer.finish(ending.clone())?);
-    }
-    let findings = recorder.watch.finish(simulation);
     let statics = static_load_zone(simulation.model());
     let parts = Parts {
         loaded,
-        simulation,
+        simulation: &simulation,
         outcome: &outcome,
         findings: &findings,
         statics: &statics,
@@ -129,7 +115,7 @@ fn execute(
         plots(args, &report, folder, &mut written)?;
     }
     Ok(Done {
-        told: tell(&parts, elapsed, &written),
+        told: tell(&parts, heard.elapsed, &written),
         end: outcome.end,
         interrupted,
     })
@@ -256,47 +242,6 @@ pub(crate) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     })
     .map_err(|error| Failure::Usage(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(stop)
-}
-
-struct Recorder<'a> {
-    simulation: &'a Simulation,
-    watch: Watch,
-    row: Vec<f64>,
-    writers: Vec<Box<dyn SignalWriter>>,
-    failed: Option<IoError>,
-    progress: Progress,
-    stop: &'a AtomicBool,
-}
-
-impl Observer for Recorder<'_> {
-    fn step(&mut self, frame: &Frame) {
-        self.watch.step(frame);
-    }
-
-    fn sample(&mut self, _: u64, frame: &Frame) {
-        self.watch.sample(frame);
-    }
-
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.watch.row(self.simulation, index, row, filtered);
-        self.row[0] = index as f64 / self.simulation.sample_rate();
-        self.row[1..].copy_from_slice(row);
-        for writer in &mut self.writers {
-            if let Err(error) = writer.write_row(&self.row) {
-                self.failed = Some(error);
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.progress.at(t);
-        if self.stop.load(Ordering::Relaxed) {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    }
 }
 
 /// A few lines on what came out.

@@ -2,20 +2,14 @@
 
 mod common;
 
-use common::{SHORT, brinell, files, json};
+use common::{brinell, files, interrupted, json, lines, same, with_blocks};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
-/// SHORT, four turns of the shaft long, so that there are blocks for intervals.
 fn folder() -> TempDir {
-    let folder = tempdir().unwrap();
-    let text = SHORT
-        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
-        .replace("duration_s = 0.02", "duration_s = 0.1");
-    fs::write(folder.path().join("base.toml"), text).unwrap();
-    folder
+    with_blocks("base.toml")
 }
 
 fn call<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -28,7 +22,12 @@ fn call<'a>(more: &[&'a str]) -> Vec<&'a str> {
 
 /// Numbers of a run of the base with a setting, from a sweep of one point.
 fn truth(folder: &Path, setting: &str) -> Value {
+    truth_with(folder, setting, &[])
+}
+
+fn truth_with(folder: &Path, setting: &str, more: &[&str]) -> Value {
     let args = ["sweep", "base.toml", "--vary", setting, "-o", "truth", "-q"];
+    let args = [&args, more].concat();
     brinell(folder, &args).exits(0).keeps_quiet();
     let journal = fs::read_to_string(folder.join("truth/journal.jsonl")).unwrap();
     let row = journal.lines().nth(1).unwrap();
@@ -37,21 +36,6 @@ fn truth(folder: &Path, setting: &str) -> Value {
 
 fn value(truth: &Value, name: &str) -> f64 {
     truth[name][1].as_f64().unwrap()
-}
-
-/// Every file of the results but the journal, whose lines come in the order of completion.
-fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
-    names
-        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
-        .collect()
-}
-
-fn same(a: &Path, b: &Path) {
-    for ((name, a), (other, b)) in results(a).iter().zip(&results(b)) {
-        assert_eq!(name, other);
-        assert!(a == b, "{name} differs");
-    }
 }
 
 #[test]
@@ -99,6 +83,49 @@ fn prop_a_known_speed_comes_back() {
 }
 
 #[test]
+fn prop_two_known_keys_come_back_within_their_intervals() {
+    let folder = folder();
+    // Of a run with both keys off the middle of their ranges.
+    let truth = truth_with(
+        folder.path(),
+        "operation.speed_rpm=2950",
+        &["--set", "operation.load_n=[410.0,0.0]"],
+    );
+    let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
+    let frequency = target("defect1.pure_rolling_frequency", "0.1%");
+    let force = target("row1.largest_outer_force", "2%");
+    let rms = target("measured_ax.rms", "5%");
+    let args = [
+        "--fit",
+        "operation.speed_rpm=2500:3500",
+        "--fit",
+        "operation.load_n.0=200:800",
+        "--target",
+        &frequency,
+        "--target",
+        &force,
+        "--target",
+        &rms,
+        "--budget",
+        "40",
+        "-o",
+        "cal",
+    ];
+    brinell(folder.path(), &call(&args)).exits(0).says(&[
+        "2 keys to 3 targets",
+        "operation.load_n.0 from 200.0 to 800.0 N",
+        "The targets are met",
+        "Every key is determined",
+    ]);
+    let found = json(&folder.path().join("cal/calibrate.json"));
+    for (k, known) in [2950.0, 410.0].into_iter().enumerate() {
+        let ends = found["keys"][k]["interval_95"].as_array().unwrap();
+        let (low, high) = (ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap());
+        assert!(low < known && known < high, "{found:#}");
+    }
+}
+
+#[test]
 fn prop_neither_threads_nor_interruptions_change_a_byte() {
     let folder = folder();
     let truth = truth(folder.path(), "operation.speed_rpm=2900");
@@ -106,28 +133,25 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
         "defect1.pure_rolling_frequency={:?}~0.2",
         value(&truth, "defect1.pure_rolling_frequency")
     );
-    let run = |out: &str, jobs: &str| {
-        brinell(
-            folder.path(),
-            &call(&[
-                "--fit",
-                "operation.speed_rpm=2500:3500",
-                "--target",
-                &target,
-                "--target",
-                "measured_ax.rms=30~10%",
-                "--budget",
-                "14",
-                "--set",
-                "simulation.duration_s=0.06",
-                "-o",
-                out,
-                "-j",
-                jobs,
-            ]),
-        )
-        .exits(0)
+    let args = |out: &'static str, jobs: &'static str| {
+        call(&[
+            "--fit",
+            "operation.speed_rpm=2500:3500",
+            "--target",
+            &target,
+            "--target",
+            "measured_ax.rms=30~10%",
+            "--budget",
+            "14",
+            "--set",
+            "simulation.duration_s=0.06",
+            "-o",
+            out,
+            "-j",
+            jobs,
+        ])
     };
+    let run = |out, jobs| brinell(folder.path(), &args(out, jobs)).exits(0);
     run("one", "1");
     run("three", "3");
     let out = |name: &str| folder.path().join(name);
@@ -143,6 +167,14 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
     same(&out("one"), &out("cut"));
     run("cut", "2").says(&["0 runs in"]);
     same(&out("one"), &out("cut"));
+    // Ctrl-C after the first runs.
+    let journal = out("broken").join("journal.jsonl");
+    interrupted(folder.path(), &args("broken", "1"), &journal, 3)
+        .exits(1)
+        .complains(&["interrupted: finished runs are kept in broken"]);
+    assert!((3..15).contains(&lines(&journal)));
+    run("broken", "2");
+    same(&out("one"), &out("broken"));
 }
 
 #[test]

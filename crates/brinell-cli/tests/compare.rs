@@ -3,17 +3,14 @@
 mod common;
 
 use brinell_io::{Cells, Table};
-use common::{SHORT, brinell, files, json};
+use common::{brinell, files, json, same, with_blocks};
 use std::fs;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 /// Two scenarios of four turns of the shaft.
 fn folder() -> TempDir {
-    let folder = tempdir().unwrap();
-    let text = SHORT
-        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
-        .replace("duration_s = 0.02", "duration_s = 0.1");
-    fs::write(folder.path().join("actual.toml"), &text).unwrap();
+    let folder = with_blocks("actual.toml");
+    let text = fs::read_to_string(folder.path().join("actual.toml")).unwrap();
     let simple = text.replace("length_mm = 2.0", "length_mm = 3.0");
     fs::write(folder.path().join("simple.toml"), simple).unwrap();
     folder
@@ -51,6 +48,8 @@ fn regress_files_and_variants_come_side_by_side() {
         "compare.html",
         "compare.json",
         "compare.parquet",
+        "scenarios/1-actual.toml",
+        "scenarios/3-lumped.toml",
     ] {
         assert!(names.contains(&name.to_owned()), "{names:?}");
     }
@@ -97,10 +96,7 @@ fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
         let args: Vec<&str> = args.into_iter().chain([out, "-q", "-j", jobs]).collect();
         brinell(folder.path(), &args).exits(0).keeps_quiet();
     }
-    for name in files(&folder.path().join("one")) {
-        let read = |out: &str| fs::read(folder.path().join(out).join(&name)).unwrap();
-        assert!(read("one") == read("two"), "{name} differs");
-    }
+    same(&folder.path().join("one"), &folder.path().join("two"));
     let table = Table::read_parquet(folder.path().join("one/compare.parquet")).unwrap();
     let column = |name: &str| {
         let k = table.columns.iter().position(|c| c.name == name).unwrap();

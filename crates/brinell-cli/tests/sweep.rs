@@ -3,23 +3,13 @@
 mod common;
 
 use brinell_io::{Cells, Table};
-use common::{SHORT, brinell, files, json};
+use common::{brinell, files, interrupted, json, lines, results, same, with_blocks};
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
-
-/// SHORT, four turns of the shaft long, so that there are blocks for intervals.
-fn base(folder: &Path) {
-    let text = SHORT
-        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
-        .replace("duration_s = 0.02", "duration_s = 0.1");
-    fs::write(folder.join("base.toml"), text).unwrap();
-}
+use tempfile::TempDir;
 
 fn folder() -> TempDir {
-    let folder = tempdir().unwrap();
-    base(folder.path());
-    folder
+    with_blocks("base.toml")
 }
 
 const GRID: [&str; 6] = [
@@ -33,23 +23,6 @@ const GRID: [&str; 6] = [
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     GRID.iter().chain(more).copied().collect()
-}
-
-/// Every file of the results but the journal, whose lines come in the order of completion.
-fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
-    names
-        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
-        .collect()
-}
-
-fn same(a: &Path, b: &Path) {
-    let (a, b) = (results(a), results(b));
-    let names = |r: &[(String, Vec<u8>)]| r.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&a), names(&b));
-    for ((name, a), (_, b)) in a.iter().zip(&b) {
-        assert!(a == b, "{name} differs");
-    }
 }
 
 /// Cells of RFC 4180.
@@ -386,27 +359,12 @@ fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
         "1",
     ];
     let journal = folder.path().join("out/journal.jsonl");
-    let lines = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-    let child = common::command(folder.path(), &args)
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    let begin = std::time::Instant::now();
-    while lines() < 3 {
-        assert!(begin.elapsed().as_secs() < 60, "no point is finished");
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    }
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
-    let call: common::Call = child.wait_with_output().unwrap().into();
+    let call = interrupted(folder.path(), &args, &journal, 3);
     call.exits(1).complains(&[
         "interrupted: ",
         "to go; the same command goes on where this one stopped",
     ]);
-    let done = lines() - 1;
+    let done = lines(&journal) - 1;
     assert!((2..101).contains(&done));
     let rows = csv(&folder.path().join("out/sweep.csv"));
     assert_eq!(rows.len(), 102);

@@ -138,20 +138,25 @@ fn open_alone(partial: &Path, path: &Path) -> Result<File, IoError> {
             .truncate(false)
             .open(partial)
             .map_err(|e| IoError::writing(path, e))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(IoError::Busy {
-                    path: path.to_owned(),
-                });
-            }
-            // Some network file systems have no locks; there the user keeps runs apart.
-            Err(TryLockError::Error(_)) => return Ok(file),
+        if !lock(&file, path)? {
+            return Ok(file);
         }
         // Between our open and our lock the former owner may have renamed or removed it; then start over.
         if is_still_at(&file, partial) {
             return Ok(file);
         }
+    }
+}
+
+/// Keeps other processes away from an open file, for as long as it is open; `path` is what they would be told is busy. False where the file
+/// system has no locks, as some networks' have not: that is no reason not to work, and the user keeps runs apart.
+pub(crate) fn lock(file: &File, path: &Path) -> Result<bool, IoError> {
+    match file.try_lock() {
+        Ok(()) => Ok(true),
+        Err(TryLockError::WouldBlock) => Err(IoError::Busy {
+            path: path.to_owned(),
+        }),
+        Err(TryLockError::Error(_)) => Ok(false),
     }
 }
 

@@ -5,8 +5,9 @@
 //! stays as it is. One process at a time has a journal open.
 
 use crate::IoError;
+use crate::atomic::lock;
 use serde_json::Value;
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -32,16 +33,7 @@ impl Journal {
             .truncate(false)
             .open(path)
             .map_err(|e| IoError::writing(path, e))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(IoError::Busy {
-                    path: path.to_owned(),
-                });
-            }
-            // A file system without locks is no reason not to work.
-            Err(TryLockError::Error(_)) => {}
-        }
+        lock(&file, path)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)
             .map_err(|e| IoError::reading(path, e))?;

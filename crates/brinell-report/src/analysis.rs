@@ -4,26 +4,11 @@ use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
-use crate::embedded::base64;
-use crate::font;
+use crate::frame::{Opening, THINNED, close, figure, open, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
-use crate::page::figure;
 use crate::picture::{Paint, Picture, escape, ink};
 use crate::plots::{Layout, legend, marker_lanes, time_unit};
-use crate::tables::facts;
-
-/// A table of words and numbers as they are to be read.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
-    /// Heading.
-    pub title: String,
-    /// Heads of the columns; one that begins with `#` is set as numbers.
-    pub columns: Vec<String>,
-    /// Rows, a cell for each column.
-    pub rows: Vec<Vec<String>>,
-    /// Under it; may be empty.
-    pub note: String,
-}
+use crate::tables::{Table, facts, table};
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -247,35 +232,56 @@ pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn analysis_html(report: &AnalysisReport) -> String {
-    let mut page = String::with_capacity(1 << 19);
-    let title = escape(&report.title);
-    let _ = write!(
-        page,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n"
-    );
-    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
-        let _ = writeln!(
+    let opening = Opening {
+        title: &report.title,
+        subtitle: &report.subtitle,
+        done: "Analysed",
+        version: &report.version,
+    };
+    let alerts: Vec<_> = report.warnings.iter().map(|w| ("", w.as_str())).collect();
+    let mut page = open(&opening, &alerts);
+    page.push_str("<main>\n");
+    section(&mut page, "verdict", "Verdict", |page| {
+        verdict(page, report)
+    });
+    section(&mut page, "waveform", "Waveform", |page| {
+        figure(page, "whole", |layout| waveform(report, layout, false), "");
+        figure(
             page,
-            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
-            base64(face)
+            "close",
+            |layout| waveform(report, layout, true),
+            "A stretch from the middle, about ten strikes of the frequency that matters most long.",
         );
+    });
+    let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
+    section(&mut page, "spectrum", "Spectrum", |page| {
+        let draw = |layout| spectrum(report, layout);
+        figure(page, "spectrum", draw, &note(&report.spectra));
+    });
+    if let Some(map) = &report.kurtogram {
+        section(&mut page, "kurtogram", "Kurtogram", |page| {
+            let draw = |layout| kurtogram(map, layout);
+            figure(page, "kurtogram", draw, &escape(&map.note));
+        });
     }
-    page.push_str(include_str!("page.css"));
-    let _ = write!(
-        page,
-        "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p class=\"subtitle\">{}</p>\n<p class=\"version\">Analysed by brinell {}</p>\n",
-        escape(&report.subtitle),
-        escape(&report.version)
-    );
-    for warning in &report.warnings {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\">{}</p>",
-            escape(warning)
-        );
+    section(&mut page, "envelope", "Envelope spectrum", |page| {
+        let draw = |layout| envelope(report, layout);
+        figure(page, "envelope", draw, &note(&report.envelopes));
+    });
+    for one in &report.tables {
+        table(&mut page, one);
     }
-    page.push_str("</header>\n<main>\n<section id=\"verdict\">\n<h2>Verdict</h2>\n");
+    section(&mut page, "given", "What was given", |page| {
+        page.push_str("<ul>\n");
+        for note in &report.notes {
+            let _ = writeln!(page, "<li>{}</li>", escape(note));
+        }
+        page.push_str("</ul>\n");
+    });
+    close(page, THINNED, &[])
+}
+
+fn verdict(page: &mut String, report: &AnalysisReport) {
     let class = if report.damage { "bad" } else { "good" };
     let word = if report.damage {
         "damage"
@@ -287,87 +293,5 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         "<p><span class=\"tag {class}\">{word}</span></p>\n<p>{}</p>",
         escape(&report.verdict)
     );
-    facts(&mut page, &report.facts);
-    page.push_str("</section>\n<section id=\"waveform\">\n<h2>Waveform</h2>\n");
-    figure(
-        &mut page,
-        "whole",
-        |layout| waveform(report, layout, false),
-        "",
-    );
-    figure(
-        &mut page,
-        "close",
-        |layout| waveform(report, layout, true),
-        "A stretch from the middle, about ten strikes of the frequency that matters most long.",
-    );
-    page.push_str("</section>\n<section id=\"spectrum\">\n<h2>Spectrum</h2>\n");
-    let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
-    figure(
-        &mut page,
-        "spectrum",
-        |layout| spectrum(report, layout),
-        &note(&report.spectra),
-    );
-    if let Some(map) = &report.kurtogram {
-        page.push_str("</section>\n<section id=\"kurtogram\">\n<h2>Kurtogram</h2>\n");
-        let note = escape(&map.note);
-        figure(
-            &mut page,
-            "kurtogram",
-            |layout| kurtogram(map, layout),
-            &note,
-        );
-    }
-    page.push_str("</section>\n<section id=\"envelope\">\n<h2>Envelope spectrum</h2>\n");
-    figure(
-        &mut page,
-        "envelope",
-        |layout| envelope(report, layout),
-        &note(&report.envelopes),
-    );
-    page.push_str("</section>\n");
-    for one in &report.tables {
-        table(&mut page, one);
-    }
-    page.push_str("<section id=\"given\">\n<h2>What was given</h2>\n<ul>\n");
-    for note in &report.notes {
-        let _ = writeln!(page, "<li>{}</li>", escape(note));
-    }
-    page.push_str(
-        "</ul>\n</section>\n</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest \
-         value, in spectra its largest.</footer>\n</body>\n</html>\n",
-    );
-    page
-}
-
-pub(crate) fn table(page: &mut String, table: &Table) {
-    let _ = write!(
-        page,
-        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>",
-        escape(&table.title)
-    );
-    let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
-    let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
-    for (i, column) in table.columns.iter().enumerate() {
-        let _ = write!(
-            page,
-            "<th{}>{}</th>",
-            class(i),
-            escape(column.trim_start_matches('#'))
-        );
-    }
-    page.push_str("</tr></thead><tbody>\n");
-    for row in &table.rows {
-        page.push_str("<tr>");
-        for (i, cell) in row.iter().enumerate() {
-            let _ = write!(page, "<td{}>{}</td>", class(i), escape(cell));
-        }
-        page.push_str("</tr>\n");
-    }
-    page.push_str("</tbody></table></div>\n");
-    if !table.note.is_empty() {
-        let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
-    }
-    page.push_str("</section>\n");
+    facts(page, &report.facts);
 }

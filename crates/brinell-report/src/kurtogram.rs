@@ -1,10 +1,8 @@
 //! The kurtogram: how impulsive each band is, rows of ever narrower bands; darker where more.
 
-use crate::chart::{Chart, Domain, Spec, range};
-use crate::number::{linear_ticks, tick_labels};
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
+use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
+use crate::picture::{Paint, Picture, Rect, ink};
 use crate::plots::Layout;
-use crate::raster::{LEVELS, shade};
 
 /// Bands of one width, side by side from zero frequency.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,7 +65,7 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         y_unit: String::new(),
         lanes: vec![],
         left: 0.0,
-        right: 6.4 * size.font,
+        right: SCALE_MARGIN * size.font,
         x_axis: true,
     });
     let values = top.map(|top| view.rows(top)).unwrap_or_default();
@@ -76,13 +74,14 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
         return chart.finish();
     };
     let highest = if highest > 0.0 { highest } else { 1.0 };
-    let frame = chart.frame;
-    let font = size.font;
-    chart.picture.shapes.push(Shape::Image {
-        place: frame,
+    chart.shades(&Shades {
         columns: MOST_COLUMNS,
-        pixels: values.iter().map(|k| shade(k / highest)).collect(),
+        values: &values,
+        range: (0.0, highest),
+        ticks: 5,
+        head: "kurtosis",
     });
+    let frame = chart.frame;
     let narrow = |l: &&KurtogramLevel| {
         let (low, high) = view.chosen_hz.unwrap_or((0.0, 0.0));
         ((high - low) / l.bandwidth_hz - 1.0).abs() < 1e-6
@@ -103,30 +102,6 @@ pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
             .picture
             .rect(around, Paint::line(ink::VERMILLION, 2.0));
     }
-    let bar = Rect {
-        left: frame.right + 0.9 * font,
-        right: frame.right + 1.9 * font,
-        top: frame.top + 2.0 * font,
-        ..frame
-    };
-    chart.picture.shapes.push(Shape::Image {
-        place: bar,
-        columns: 1,
-        pixels: (0..LEVELS)
-            .rev()
-            .map(|k| shade(k as f64 / (LEVELS - 1) as f64))
-            .collect(),
-    });
-    chart.picture.rect(bar, Paint::line(ink::FRAME, 1.0));
-    let ticks = linear_ticks(0.0, highest, 5);
-    for (value, label) in ticks.iter().zip(tick_labels(&ticks).0) {
-        let y = bar.bottom - value / highest * bar.height() + 0.36 * font;
-        let text = Text::new(bar.right + 0.4 * font, y, font, Anchor::Start, &label);
-        chart.picture.text(text);
-    }
-    let place = frame.top + 1.1 * font;
-    let head = Text::new(bar.left, place, font, Anchor::Start, "kurtosis");
-    chart.picture.text(head);
     chart.finish()
 }
 

@@ -19,6 +19,7 @@ mod damage;
 mod data;
 mod embedded;
 mod font;
+mod frame;
 mod kurtogram;
 mod load;
 mod motion;
@@ -37,7 +38,7 @@ mod sweep;
 mod tables;
 mod thin;
 
-pub use analysis::{AnalysisReport, Table, analysis_html, analysis_pictures};
+pub use analysis::{AnalysisReport, analysis_html, analysis_pictures};
 pub use calibrate::{
     CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot,
     key_plot,
@@ -72,3 +73,4 @@ pub use sweep::{
     IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,
     sweep_pictures,
 };
+pub use tables::Table;

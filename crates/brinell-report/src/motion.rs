@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use crate::data::Report;
 use crate::embedded::base64;
 use crate::font;
+use crate::frame::{figure, none};
 use crate::number::significant;
-use crate::page::{figure, none};
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, escape, ink};
 use crate::plots::{Layout, legend};
 

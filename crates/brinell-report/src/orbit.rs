@@ -3,7 +3,7 @@
 use crate::chart::{Chart, Domain, Spec, left_margin, range, right_margin};
 use crate::data::Report;
 use crate::font;
-use crate::page::{figure, none};
+use crate::frame::{figure, none};
 use crate::picture::{Anchor, Paint, Picture, Text, escape, ink};
 use crate::plots::{Layout, legend};
 

@@ -1,16 +1,16 @@
-//! The page: one HTML file with its style, script, typeface, pictures and data inside.
+//! The page of a run: its sections.
 
 use std::fmt::Write as _;
 
 use crate::chart::Domain;
 use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::Report;
-use crate::embedded::{Chart, base64};
-use crate::font;
+use crate::embedded::Chart;
+use crate::frame::{Opening, THINNED, alert, close, code, figure, none, open, section};
 use crate::load::load_distribution;
-use crate::number::{Height, runs, significant};
-use crate::picture::{Picture, escape};
-use crate::plots::{self, Layout};
+use crate::number::significant;
+use crate::picture::escape;
+use crate::plots;
 use crate::tables::{assumptions, fact_table, facts, indicators};
 
 /// Passes drawn; a page with more is no longer read.
@@ -18,35 +18,23 @@ const PASSES: usize = 12;
 
 /// The self-contained report page.
 pub fn html(report: &Report) -> String {
-    let mut page = String::with_capacity(1 << 20);
     let title = if report.title.is_empty() {
         "Bearing vibration"
     } else {
         &report.title
     };
-    head(&mut page, title);
-    if !report.subtitle.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"subtitle\">{}</p>",
-            escape(&report.subtitle)
-        );
-    }
-    if !report.version.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"version\">Simulated by brinell {}</p>",
-            escape(&report.version)
-        );
-    }
-    if let Some(why) = &report.partial {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\"><strong>This run is partial.</strong> {}</p>",
-            escape(why)
-        );
-    }
-    page.push_str("</header>\n");
+    let opening = Opening {
+        title,
+        subtitle: &report.subtitle,
+        done: "Simulated",
+        version: &report.version,
+    };
+    let partial = report.partial.as_deref();
+    let alerts: Vec<_> = partial
+        .map(|why| ("This run is partial.", why))
+        .into_iter()
+        .collect();
+    let mut page = open(&opening, &alerts);
     let sections: [Section; 15] = [
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),
@@ -80,72 +68,17 @@ pub fn html(report: &Report) -> String {
     page.push_str("</ul></nav>\n<main>\n");
     facts(&mut page, &report.facts);
     for (id, name, write) in sections {
-        let _ = write!(page, "<section id=\"{id}\">\n<h2>{name}</h2>\n");
-        write(&mut page, report);
-        page.push_str("</section>\n");
+        section(&mut page, id, name, |page| write(page, report));
     }
-    page.push_str("</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.\
-        </footer>\n<script>\n");
-    page.push_str(include_str!("page.js"));
-    page.push_str(include_str!("motion.js"));
-    page.push_str("</script>\n</body>\n</html>\n");
-    page
-}
-
-/// From the first byte to the heading; `header` stays open.
-pub(crate) fn head(page: &mut String, title: &str) {
-    let title = escape(title);
-    let _ = write!(
+    close(
         page,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n",
-    );
-    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
-        let _ = writeln!(
-            page,
-            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
-            base64(face)
-        );
-    }
-    page.push_str(include_str!("page.css"));
-    let _ = write!(
-        page,
-        "</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
-    );
+        THINNED,
+        &[include_str!("page.js"), include_str!("motion.js")],
+    )
 }
 
 /// Anchor, heading, and what is under it.
 type Section = (&'static str, &'static str, fn(&mut String, &Report));
-
-pub(crate) fn none(page: &mut String, words: &str) {
-    let _ = writeln!(page, "<p class=\"none\">{words}</p>");
-}
-
-/// A unit with raised exponents.
-pub(crate) fn unit_html(unit: &str) -> String {
-    runs(unit)
-        .iter()
-        .map(|run| {
-            let text = escape(&run.text);
-            match run.height {
-                Height::Line => text,
-                Height::Raised => format!("<sup>{text}</sup>"),
-                Height::Lowered => format!("<sub>{text}</sub>"),
-            }
-        })
-        .collect()
-}
-
-/// The picture for wide and for narrow pages, with words under it.
-pub(crate) fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Picture, caption: &str) {
-    let wide = draw(Layout::Wide).inline(&format!("{id}-w"), "wide");
-    let narrow = draw(Layout::Narrow).inline(&format!("{id}-n"), "narrow");
-    let _ = write!(page, "<figure>\n{wide}{narrow}");
-    if !caption.is_empty() {
-        let _ = write!(page, "<figcaption>{caption}</figcaption>");
-    }
-    page.push_str("</figure>\n");
-}
 
 fn waveform(page: &mut String, report: &Report) {
     let series = &report.waveform.series;
@@ -286,11 +219,7 @@ fn envelope(page: &mut String, report: &Report) {
 
 fn damage(page: &mut String, report: &Report) {
     if let Some(why) = &report.undrawn_damage {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\"><strong>The bearing’s damage could not be drawn.</strong> {}</p>",
-            escape(why)
-        );
+        alert(page, "The bearing’s damage could not be drawn.", why);
         return;
     }
     if report.damage.is_empty() {
@@ -404,9 +333,6 @@ fn scenario(page: &mut String, report: &Report) {
     if report.scenario_toml.is_empty() {
         return none(page, "The scenario is not included.");
     }
-    let _ = writeln!(
-        page,
-        "<p>The run, complete: this file gives the same result again.</p>\n<pre><code>{}</code></pre>",
-        escape(&report.scenario_toml)
-    );
+    page.push_str("<p>The run, complete: this file gives the same result again.</p>\n");
+    code(page, &report.scenario_toml);
 }

@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
 use crate::data::Report;
-use crate::page::figure;
+use crate::frame::figure;
 use crate::picture::{Paint, Picture, ink};
 use crate::plots::{Layout, legend, time_unit};
 use crate::tables::fact_table;

@@ -2,13 +2,11 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::{Chart, Domain, Spec, range};
+use crate::chart::{Chart, Domain, SCALE_MARGIN, Shades, Spec, range};
 use crate::data::Report;
-use crate::number::{linear_ticks, tick_labels};
-use crate::page::{figure, none};
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, escape, ink};
+use crate::frame::{figure, none, unit_html};
+use crate::picture::{Anchor, Picture, Text, escape};
 use crate::plots::{Layout, time_unit};
-use crate::raster::{LEVELS, shade};
 
 /// Power spectral density over time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -103,7 +101,7 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
         y_unit: "Hz".into(),
         lanes: vec![],
         left: 0.0,
-        right: 6.4 * size.font,
+        right: SCALE_MARGIN * size.font,
         x_axis: true,
     });
     let (columns, levels) = view.levels(if layout == Layout::Wide { 400 } else { 200 });
@@ -117,50 +115,20 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
     let highest = (highest / 5.0).ceil() * 5.0;
     let floor = sorted.get(sorted.len() / 50).copied().unwrap_or(highest);
     let lowest = ((floor / 5.0).floor() * 5.0).clamp(highest - RANGE_DB, highest - 10.0);
-    let share = |level: f64| (level - lowest) / (highest - lowest);
-    let frame = chart.frame;
-    chart.picture.shapes.push(Shape::Image {
-        place: frame,
+    let bar = chart.shades(&Shades {
         columns,
-        pixels: levels.iter().map(|level| shade(share(*level))).collect(),
+        values: &levels,
+        range: (lowest, highest),
+        ticks: 6,
+        head: "dB",
     });
-
-    let font = size.font;
-    let bar = Rect {
-        left: frame.right + 0.9 * font,
-        right: frame.right + 1.9 * font,
-        top: frame.top + 2.0 * font,
-        ..frame
-    };
-    chart.picture.shapes.push(Shape::Image {
-        place: bar,
-        columns: 1,
-        pixels: (0..LEVELS)
-            .rev()
-            .map(|k| shade(k as f64 / (LEVELS - 1) as f64))
-            .collect(),
-    });
-    chart.picture.rect(bar, Paint::line(ink::FRAME, 1.0));
-    let ticks = linear_ticks(lowest, highest, 6);
-    for (value, label) in ticks.iter().zip(tick_labels(&ticks).0) {
-        let y = bar.bottom - share(*value) * bar.height() + 0.36 * font;
-        chart.picture.text(Text::new(
-            bar.right + 0.4 * font,
-            y,
-            font,
-            Anchor::Start,
-            &label,
-        ));
-    }
-    let head = Text::new(bar.left, frame.top + 1.1 * font, font, Anchor::Start, "dB");
-    chart.picture.text(head);
     if !view.unit.is_empty() {
         let words = format!("re 1 {}", view.unit);
         let middle = 0.5 * (bar.top + bar.bottom);
         let unit = Text::with_unit(
-            size.width - 0.4 * font,
+            size.width - 0.4 * size.font,
             middle,
-            font,
+            size.font,
             Anchor::Middle,
             &words,
         );
@@ -179,7 +147,7 @@ pub(crate) fn section(page: &mut String, report: &Report) {
     let _ = write!(
         caption,
         " Shades: power spectral density in dB re 1 {}.",
-        crate::page::unit_html(&view.unit)
+        unit_html(&view.unit)
     );
     figure(
         page,

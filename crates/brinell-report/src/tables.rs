@@ -3,9 +3,22 @@
 use std::fmt::Write as _;
 
 use crate::data::{Estimate, Fact, Report, Value};
+use crate::frame::{none, section, unit_html};
 use crate::number::{significant, with_interval};
-use crate::page::{none, unit_html};
 use crate::picture::escape;
+
+/// A table of words and numbers as they are to be read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Heading.
+    pub title: String,
+    /// Heads of the columns; one that begins with `#` is set as numbers.
+    pub columns: Vec<String>,
+    /// Rows, a cell for each column.
+    pub rows: Vec<Vec<String>>,
+    /// Under it; may be empty.
+    pub note: String,
+}
 
 pub(crate) fn facts(page: &mut String, facts: &[Fact]) {
     if facts.is_empty() {
@@ -169,4 +182,57 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
         );
     }
     page.push_str("</tbody></table></div>\n");
+}
+
+pub(crate) fn table(page: &mut String, table: &Table) {
+    let _ = write!(
+        page,
+        "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table><thead><tr>",
+        escape(&table.title)
+    );
+    let number = |i: usize| table.columns.get(i).is_some_and(|c| c.starts_with('#'));
+    let class = |i: usize| if number(i) { " class=\"number\"" } else { "" };
+    for (i, column) in table.columns.iter().enumerate() {
+        let _ = write!(
+            page,
+            "<th{}>{}</th>",
+            class(i),
+            escape(column.trim_start_matches('#'))
+        );
+    }
+    page.push_str("</tr></thead><tbody>\n");
+    for row in &table.rows {
+        page.push_str("<tr>");
+        for (i, cell) in row.iter().enumerate() {
+            let _ = write!(page, "<td{}>{}</td>", class(i), escape(cell));
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></div>\n");
+    if !table.note.is_empty() {
+        let _ = writeln!(page, "<p class=\"none\">{}</p>", escape(&table.note));
+    }
+    page.push_str("</section>\n");
+}
+
+/// What failed and why, a section of its own, where anything did. `each` is what one of them is called: "Point".
+pub(crate) fn failures(page: &mut String, title: &str, each: &str, all: &[(String, String)]) {
+    if all.is_empty() {
+        return;
+    }
+    section(page, "failures", title, |page| {
+        let _ = writeln!(
+            page,
+            "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>{each}</th><th>Why</th></tr></thead><tbody>"
+        );
+        for (name, reason) in all {
+            let _ = writeln!(
+                page,
+                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
+                escape(name),
+                escape(reason)
+            );
+        }
+        page.push_str("</tbody></table></div>\n");
+    });
 }

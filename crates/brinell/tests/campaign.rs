@@ -1,6 +1,6 @@
 //! Many runs as one piece of work: company changes nothing, names are known beforehand, and numbers say what findings say.
 
-use brinell::campaign::{self, Labelled, Unfinished};
+use brinell::campaign::{self, Unfinished};
 use brinell::document::read;
 use brinell::scenario::Scenario;
 use brinell::signal::Indicator;
@@ -19,11 +19,6 @@ fn scenario(settings: &[(&str, &str)]) -> Scenario {
     read(text, &overrides).expect("it is sound").scenario
 }
 
-fn labelled(label: &str, scenario: Scenario) -> Labelled {
-    let label = label.into();
-    Labelled { label, scenario }
-}
-
 fn go_on(_: usize, _: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
@@ -31,16 +26,16 @@ fn go_on(_: usize, _: f64) -> ControlFlow<()> {
 #[test]
 fn prop_runs_side_by_side_are_those_of_each_alone() {
     let list = [
-        labelled("full", scenario(&[])),
-        labelled("lumped", scenario(&[("simulation.model", "reference")])),
-        labelled("healthy", scenario(&[("defects", "[]")])),
+        scenario(&[]),
+        scenario(&[("simulation.model", "reference")]),
+        scenario(&[("defects", "[]")]),
     ];
     let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), go_on);
     let mut finished = Vec::new();
     for (one, result) in list.iter().zip(all) {
         let together = result.expect("it runs");
-        let alone = campaign::run(one.scenario.clone(), |_| ControlFlow::Continue(())).unwrap();
-        assert_eq!(together.quantities(), alone.quantities(), "{}", one.label);
+        let alone = campaign::run(one.clone(), |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(together.quantities(), alone.quantities());
         finished.push(together);
     }
     for run in &finished {
@@ -102,7 +97,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
 
 #[test]
 fn prop_a_run_that_is_broken_off_is_none() {
-    let list = [labelled("a", scenario(&[])), labelled("b", scenario(&[]))];
+    let list = [scenario(&[]), scenario(&[])];
     let stop_first = |k: usize, _: f64| match k {
         0 => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),

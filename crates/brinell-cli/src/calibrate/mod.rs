@@ -157,7 +157,7 @@ impl Plan {
         }
         let middle = source.load(&settings(&centre), false)?;
         let units = keys.iter().map(|key| {
-            let entry = middle.provenance.iter().find(|p| p.key == key.name);
+            let entry = middle.provenance_of(&key.name);
             entry.map_or("", |p| p.unit)
         });
         let units = units.collect();

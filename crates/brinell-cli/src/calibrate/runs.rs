@@ -6,10 +6,8 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::progress::Joint;
 use brinell::calibrate::{Answer, Key, Target, Unfit};
-use brinell::campaign::{Quantity, Row, digest, fingerprint};
+use brinell::campaign::{Finished, Quantity, Row, digest, fingerprint};
 use brinell::scenario::Scenario;
-use brinell::simulate::Simulation;
-use brinell_io::SignalWriter;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -60,22 +58,13 @@ impl Work for FromPoints<'_> {
         }
     }
 
-    fn signals(
-        &self,
-        _: &Task,
-        _: &Scenario,
-        _: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
-        Ok(None)
-    }
-
     fn hears(&self) -> Option<usize> {
         self.pattern.map(|pattern| pattern.axis)
     }
 
-    fn besides(&self, heard: &[f64]) -> Vec<Quantity> {
-        self.pattern
-            .map_or(Vec::new(), |pattern| pattern.quantities(heard))
+    fn finished(&self, _: &Task, _: &Finished, heard: &[f64]) -> Result<Vec<Quantity>, Failure> {
+        let own = |pattern: &Pattern| pattern.quantities(heard);
+        Ok(self.pattern.map_or(Vec::new(), own))
     }
 }
 

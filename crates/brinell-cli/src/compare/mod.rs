@@ -9,7 +9,7 @@ mod table;
 use crate::failure::Failure;
 use crate::files::{self, stem};
 use crate::progress::Joint;
-use crate::run::{make_folder, stop_flag, write_pictures};
+use crate::run::{make_folder, safe_name, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::campaign::{Compared, Finished, Unfinished, compare, run_all};
@@ -17,7 +17,7 @@ use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 use sides::Side;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::Ordering;
@@ -36,13 +36,14 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
     make_folder(&folder)?;
+    // Before the runs: a folder that takes no files is told of now, and what was compared is known whatever happens.
+    let mut written = scenarios(&sides, &folder)?;
     let Some(runs) = run(args, &sides)? else {
         return Ok(ExitCode::from(NOT_DONE));
     };
     let all: Vec<&Finished> = runs.iter().collect();
     let compared = compare(&all);
     let report = page::report(&sides, &all, &compared);
-    let mut written = Vec::new();
     let table = table::table(&sides, &compared);
     written.push(table.write_csv(folder.join("compare.csv"))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
@@ -69,10 +70,23 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Each scenario as a file that reproduces it, in the order of the table.
+fn scenarios(sides: &[Side], folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let folder = folder.join("scenarios");
+    make_folder(&folder)?;
+    let write = |(k, side): (usize, &Side)| {
+        let path = folder.join(format!("{}-{}.toml", k + 1, safe_name(&side.label)));
+        atomic_write(&path, side.loaded.to_toml().as_bytes())?;
+        Ok(path)
+    };
+    sides.iter().enumerate().map(write).collect()
+}
+
 /// All runs, or `None` with what went wrong told.
 fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Failure> {
     let stop = stop_flag()?;
-    let list: Vec<_> = sides.iter().map(Side::labelled).collect();
+    let scenario = |side: &Side| side.loaded.scenario.clone();
+    let list: Vec<_> = sides.iter().map(scenario).collect();
     let threads = brinell::many::threads(list.len());
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     let joint = Joint::new(list.len(), sides.iter().map(duration).sum(), args.quiet);
@@ -100,7 +114,9 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
         }
     }
     if stopped {
-        complain!("interrupted: nothing is written; the same command begins anew");
+        complain!(
+            "interrupted: nothing but the scenarios is written; the same command begins anew"
+        );
     }
     Ok((runs.len() == sides.len()).then_some(runs))
 }

@@ -4,7 +4,7 @@ use super::{CompareArgs, table};
 use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
-use brinell::campaign::{Labelled, split};
+use brinell::campaign::split;
 use brinell::document::Loaded;
 use std::path::Path;
 
@@ -15,15 +15,6 @@ const MOST: usize = 6;
 pub(super) struct Side {
     pub(super) label: String,
     pub(super) loaded: Loaded,
-}
-
-impl Side {
-    pub(super) fn labelled(&self) -> Labelled {
-        Labelled {
-            label: self.label.clone(),
-            scenario: self.loaded.scenario.clone(),
-        }
-    }
 }
 
 /// Every scenario and variant, read and checked.

@@ -7,8 +7,7 @@ use brinell::campaign::{Finished, Quantity, Spread, fingerprint};
 use brinell::document;
 use brinell::paper::{BASE, Case, Length, Numbers, entry_drop};
 use brinell::scenario::Scenario;
-use brinell::simulate::Simulation;
-use brinell_io::{SignalWriter, atomic_write};
+use brinell_io::atomic_write;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -95,16 +94,12 @@ impl Work for FromPaper {
         read(&task.settings)
     }
 
-    fn signals(
+    fn finished(
         &self,
-        _: &Task,
-        _: &Scenario,
-        _: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
-        Ok(None)
-    }
-
-    fn finished(&self, task: &Task, finished: &Finished) -> Result<Vec<Quantity>, Failure> {
+        task: &Task,
+        finished: &Finished,
+        _: &[f64],
+    ) -> Result<Vec<Quantity>, Failure> {
         if self.keep.contains(&task.fingerprint) {
             let path = self.path(&task.fingerprint);
             crate::run::make_folder(path.parent().unwrap_or(Path::new("")))?;

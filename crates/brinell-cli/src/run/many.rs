@@ -106,14 +106,7 @@ fn one(
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
     let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
-    execute(
-        args,
-        &task.loaded,
-        &simulation,
-        &task.folder,
-        progress,
-        stop,
-    )
+    execute(args, &task.loaded, simulation, &task.folder, progress, stop)
 }
 
 /// Each scenario's folder: `root` and the name of its file without ending.

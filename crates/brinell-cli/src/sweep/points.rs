@@ -142,7 +142,7 @@ impl Points {
 fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Failure> {
     let loaded = source.load(&settings, true)?;
     let unit = |(key, _): &(String, String)| {
-        let entry = loaded.provenance.iter().find(|p| p.key == *key)?;
+        let entry = loaded.provenance_of(key)?;
         Some((key.clone(), entry.unit))
     };
     Ok(Checked {

@@ -4,6 +4,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
 
 /// A scenario on every line of which a test may rely; 20 ms, so that a run takes a tenth of a second.
 pub(crate) const SHORT: &str = r#"name = "short"
@@ -124,6 +125,62 @@ pub(crate) fn files(folder: &Path) -> Vec<String> {
     walk(folder, folder, &mut names);
     names.sort();
     names
+}
+
+/// SHORT, four turns of the shaft long, so that there are blocks for intervals, as `name` in a folder of its own.
+pub(crate) fn with_blocks(name: &str) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = SHORT
+        .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
+        .replace("duration_s = 0.02", "duration_s = 0.1");
+    std::fs::write(folder.path().join(name), text).expect("it is written");
+    folder
+}
+
+/// Whole lines of a journal; 0 where there is none yet.
+pub(crate) fn lines(journal: &Path) -> usize {
+    std::fs::read_to_string(journal).map_or(0, |text| text.lines().count())
+}
+
+/// A call that gets Ctrl-C once its journal has so many lines.
+pub(crate) fn interrupted(folder: &Path, args: &[&str], journal: &Path, at: usize) -> Call {
+    let child = command(folder, args)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("brinell starts");
+    let begin = std::time::Instant::now();
+    while lines(journal) < at {
+        assert!(begin.elapsed().as_secs() < 60, "no point is finished");
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.expect("kill starts").success());
+    child.wait_with_output().expect("brinell ends").into()
+}
+
+/// Every file of the results but the journal, whose lines come in the order of completion.
+pub(crate) fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let names = files(folder).into_iter().filter(|n| n != "journal.jsonl");
+    names
+        .map(|name| {
+            let bytes = std::fs::read(folder.join(&name)).expect("it is readable");
+            (name, bytes)
+        })
+        .collect()
+}
+
+/// The results in both folders are the same, byte for byte.
+#[track_caller]
+pub(crate) fn same(a: &Path, b: &Path) {
+    let (a, b) = (results(a), results(b));
+    let names = |r: &[(String, Vec<u8>)]| r.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&a), names(&b));
+    for ((name, a), (_, b)) in a.iter().zip(&b) {
+        assert!(a == b, "{name} differs");
+    }
 }
 
 /// A CSV file of numbers: names and rows.

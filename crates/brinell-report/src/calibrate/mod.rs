@@ -4,12 +4,11 @@ mod plot;
 
 use std::fmt::Write as _;
 
-use crate::analysis::{Table, table};
 use crate::data::Fact;
-use crate::page::{figure, head, none};
+use crate::frame::{Opening, close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::tables::{fact_table, facts};
+use crate::tables::{Table, fact_table, facts, failures, table};
 pub use plot::{course_plot, key_plot};
 
 /// A run as the pictures show it.
@@ -91,80 +90,56 @@ fn sentences(page: &mut String, all: &[String]) {
 
 /// The self-contained page.
 pub fn calibration_html(report: &CalibrationReport) -> String {
-    let mut page = String::with_capacity(1 << 19);
-    head(&mut page, &report.title);
-    let _ = writeln!(
-        page,
-        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
-        escape(&report.subtitle),
-        escape(&report.version)
-    );
-    if !report.met {
-        page.push_str(
-            "<p class=\"partial\" role=\"alert\"><strong>The targets are not met within the bounds.</strong></p>\n",
-        );
-    }
-    page.push_str("</header>\n<main>\n");
+    let opening = Opening {
+        title: &report.title,
+        subtitle: &report.subtitle,
+        done: "Simulated",
+        version: &report.version,
+    };
+    let unmet = ("The targets are not met within the bounds.", "");
+    let alerts = [unmet];
+    let mut page = open(&opening, if report.met { &[] } else { &alerts });
+    page.push_str("<main>\n");
     facts(&mut page, &report.facts);
-    page.push_str("<section id=\"outcome\">\n<h2>Outcome</h2>\n");
-    sentences(&mut page, &report.verdict);
-    fact_table(&mut page, &report.found, "No key was fitted.");
-    page.push_str(
-        "</section>\n<section id=\"undetermined\">\n<h2>What the data do not determine</h2>\n",
-    );
-    sentences(&mut page, &report.undetermined);
-    page.push_str("</section>\n");
+    section(&mut page, "outcome", "Outcome", |page| {
+        sentences(page, &report.verdict);
+        fact_table(page, &report.found, "No key was fitted.");
+    });
+    let title = "What the data do not determine";
+    section(&mut page, "undetermined", title, |page| {
+        sentences(page, &report.undetermined);
+    });
     table(&mut page, &report.targets);
-    page.push_str("<section id=\"keys\">\n<h2>Misfit over each key</h2>\n");
-    none(
-        &mut page,
-        "Dots: all runs, whatever the other keys. Filled: runs that differ from the best in this key alone, joined. Shaded: the 95 % interval, \
-         where the data determine the key. Upright line: the best value. A floor without a hollow is a key that the data leave open.",
-    );
-    for (index, key) in report.keys.iter().enumerate() {
-        let _ = writeln!(page, "<h3><code>{}</code></h3>", escape(&key.name));
-        figure(
-            &mut page,
-            &format!("key{index}"),
-            |layout| key_plot(report, index, layout),
-            "",
+    section(&mut page, "keys", "Misfit over each key", |page| {
+        none(
+            page,
+            "Dots: all runs, whatever the other keys. Filled: runs that differ from the best in this key alone, joined. Shaded: the 95 % interval, \
+             where the data determine the key. Upright line: the best value. A floor without a hollow is a key that the data leave open.",
         );
-    }
-    page.push_str("</section>\n<section id=\"course\">\n<h2>Course of the search</h2>\n");
-    let caption = "Dots: each run in the order asked for. Line: the best so far.";
-    figure(
-        &mut page,
-        "course",
-        |layout| course_plot(report, layout),
-        caption,
-    );
-    page.push_str("</section>\n");
+        for (index, key) in report.keys.iter().enumerate() {
+            let _ = writeln!(page, "<h3><code>{}</code></h3>", escape(&key.name));
+            let draw = |layout| key_plot(report, index, layout);
+            figure(page, &format!("key{index}"), draw, "");
+        }
+    });
+    section(&mut page, "course", "Course of the search", |page| {
+        let caption = "Dots: each run in the order asked for. Line: the best so far.";
+        figure(
+            page,
+            "course",
+            |layout| course_plot(report, layout),
+            caption,
+        );
+    });
     table(&mut page, &report.directions);
     if report.keys.len() > 1 {
         table(&mut page, &report.correlation);
     }
-    if !report.failures.is_empty() {
-        page.push_str("<section id=\"failures\">\n<h2>Runs that failed</h2>\n<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Run</th><th>Why</th></tr></thead><tbody>\n");
-        for (run, reason) in &report.failures {
-            let _ = writeln!(
-                page,
-                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
-                escape(run),
-                escape(reason)
-            );
-        }
-        page.push_str("</tbody></table></div>\n</section>\n");
-    }
-    page.push_str("<section id=\"method\">\n<h2>Method</h2>\n");
-    sentences(&mut page, &report.method);
-    page.push_str("</section>\n");
-    if !report.scenario_toml.is_empty() {
-        let _ = writeln!(
-            page,
-            "<section id=\"scenario\">\n<h2>Best scenario</h2>\n<pre><code>{}</code></pre>\n</section>",
-            escape(&report.scenario_toml)
-        );
-    }
-    page.push_str("</main>\n<footer>All runs are in calibrate.csv, all numbers in calibrate.json; best.toml is the best scenario.</footer>\n</body>\n</html>\n");
-    page
+    failures(&mut page, "Runs that failed", "Run", &report.failures);
+    section(&mut page, "method", "Method", |page| {
+        sentences(page, &report.method);
+    });
+    scenario(&mut page, "Best scenario", &report.scenario_toml);
+    let footer = "All runs are in calibrate.csv, all numbers in calibrate.json; best.toml is the best scenario.";
+    close(page, footer, &[])
 }

@@ -3,12 +3,14 @@
 mod axis;
 mod curves;
 mod lanes;
+mod shades;
 
 use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, ink};
 pub(crate) use axis::{Domain, Scale, range};
 use axis::{axis_label, halves, ticks};
 pub(crate) use lanes::{LANE_HEIGHT, Lane, Mark};
+pub(crate) use shades::{SCALE_MARGIN, Shades};
 
 /// How large a picture is drawn. The page holds both, and shows the one that fits.
 #[derive(Clone, Copy, Debug, PartialEq)]

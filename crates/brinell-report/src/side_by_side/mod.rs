@@ -4,12 +4,11 @@ mod overlay;
 
 use std::fmt::Write as _;
 
-use crate::analysis::{Table, table};
 use crate::data::{Fact, Marker};
-use crate::page::{figure, head, none};
+use crate::frame::{Opening, THINNED, close, figure, none, open};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::tables::facts;
+use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
 
 /// Where the values of a curve stand.
@@ -127,22 +126,15 @@ pub fn side_by_side_pictures(report: &SideBySide) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn side_by_side_html(report: &SideBySide) -> String {
-    let mut page = String::with_capacity(1 << 20);
-    head(&mut page, &report.title);
-    let _ = writeln!(
-        page,
-        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
-        escape(&report.subtitle),
-        escape(&report.version)
-    );
-    for warning in &report.warnings {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\">{}</p>",
-            escape(warning)
-        );
-    }
-    page.push_str("</header>\n<main>\n");
+    let opening = Opening {
+        title: &report.title,
+        subtitle: &report.subtitle,
+        done: "Simulated",
+        version: &report.version,
+    };
+    let alerts: Vec<_> = report.warnings.iter().map(|w| ("", w.as_str())).collect();
+    let mut page = open(&opening, &alerts);
+    page.push_str("<main>\n");
     facts(&mut page, &report.facts);
     let mut count = 0;
     for part in &report.parts {
@@ -174,9 +166,5 @@ pub fn side_by_side_html(report: &SideBySide) -> String {
         }
         page.push_str("</section>\n");
     }
-    page.push_str(
-        "</main>\n<footer>Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its \
-         largest.</footer>\n</body>\n</html>\n",
-    );
-    page
+    close(page, THINNED, &[])
 }

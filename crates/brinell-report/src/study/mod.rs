@@ -2,14 +2,13 @@
 
 use std::fmt::Write as _;
 
-use crate::analysis::{Table, table};
 use crate::data::Fact;
-use crate::page::{figure, head, none};
+use crate::frame::{Opening, close, figure, none, open, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::side_by_side::{Overlay, overlay};
 use crate::sweep::{IndicatorPlot, indicator_plot};
-use crate::tables::facts;
+use crate::tables::{Table, facts, table};
 
 /// How a verdict is coloured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -137,22 +136,15 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
 
 /// The self-contained page.
 pub fn study_html(study: &Study) -> String {
-    let mut page = String::with_capacity(1 << 20);
-    head(&mut page, &study.title);
-    let _ = writeln!(
-        page,
-        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
-        escape(&study.subtitle),
-        escape(&study.version)
-    );
-    for warning in &study.warnings {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\">{}</p>",
-            escape(warning)
-        );
-    }
-    page.push_str("</header>\n<nav aria-label=\"Contents\"><ul>");
+    let opening = Opening {
+        title: &study.title,
+        subtitle: &study.subtitle,
+        done: "Simulated",
+        version: &study.version,
+    };
+    let alerts: Vec<_> = study.warnings.iter().map(|w| ("", w.as_str())).collect();
+    let mut page = open(&opening, &alerts);
+    page.push_str("<nav aria-label=\"Contents\"><ul>");
     for chapter in &study.chapters {
         let _ = write!(
             page,
@@ -165,24 +157,14 @@ pub fn study_html(study: &Study) -> String {
     facts(&mut page, &study.facts);
     let mut count = 0;
     for chapter in &study.chapters {
-        let _ = writeln!(
-            page,
-            "<section id=\"{}\">\n<h2>{}</h2>",
-            chapter.id,
-            escape(&chapter.title)
-        );
-        for piece in &chapter.pieces {
-            count += 1;
-            write_piece(&mut page, piece, count);
-        }
-        page.push_str("</section>\n");
+        section(&mut page, &chapter.id, &chapter.title, |page| {
+            for piece in &chapter.pieces {
+                count += 1;
+                write_piece(page, piece, count);
+            }
+        });
     }
-    let _ = writeln!(
-        page,
-        "</main>\n<footer>{}</footer>\n</body>\n</html>",
-        escape(&study.footer)
-    );
-    page
+    close(page, &study.footer, &[])
 }
 
 fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {

@@ -4,12 +4,11 @@ mod plot;
 
 use std::fmt::Write as _;
 
-use crate::analysis::{Table, table};
 use crate::data::Fact;
-use crate::page::{figure, head, none};
+use crate::frame::{Opening, close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::tables::facts;
+use crate::tables::{Table, facts, failures, table};
 pub use plot::indicator_plot;
 
 /// One point of a line.
@@ -86,59 +85,36 @@ pub fn sweep_pictures(report: &SweepReport) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn sweep_html(report: &SweepReport) -> String {
-    let mut page = String::with_capacity(1 << 19);
-    head(&mut page, &report.title);
-    let _ = writeln!(
-        page,
-        "<p class=\"subtitle\">{}</p>\n<p class=\"version\">Simulated by brinell {}</p>",
-        escape(&report.subtitle),
-        escape(&report.version)
-    );
-    if let Some(why) = &report.partial {
-        let _ = writeln!(
-            page,
-            "<p class=\"partial\" role=\"alert\"><strong>This sweep is not whole.</strong> {}</p>",
-            escape(why)
-        );
-    }
-    page.push_str("</header>\n<main>\n");
+    let opening = Opening {
+        title: &report.title,
+        subtitle: &report.subtitle,
+        done: "Simulated",
+        version: &report.version,
+    };
+    let partial = report.partial.as_deref();
+    let alerts: Vec<_> = partial
+        .map(|why| ("This sweep is not whole.", why))
+        .into_iter()
+        .collect();
+    let mut page = open(&opening, &alerts);
+    page.push_str("<main>\n");
     facts(&mut page, &report.facts);
-    page.push_str("<section id=\"indicators\">\n<h2>Indicators</h2>\n");
-    if report.plots.is_empty() {
-        none(&mut page, "No indicator was chosen, or no point has one.");
-    }
-    none(&mut page, &legend(&report.plots));
-    for (index, plot) in report.plots.iter().enumerate() {
-        let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
-        let draw = |layout| indicator_plot(plot, layout);
-        figure(&mut page, &format!("plot{index}"), draw, "");
-    }
-    page.push_str("</section>\n");
-    if !report.failures.is_empty() {
-        page.push_str("<section id=\"failures\">\n<h2>Points that failed</h2>\n");
-        page.push_str(
-            "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Point</th><th>Why</th></tr></thead><tbody>\n",
-        );
-        for (point, reason) in &report.failures {
-            let _ = writeln!(
-                page,
-                "<tr><th scope=\"row\">{}</th><td class=\"note\">{}</td></tr>",
-                escape(point),
-                escape(reason)
-            );
+    section(&mut page, "indicators", "Indicators", |page| {
+        if report.plots.is_empty() {
+            none(page, "No indicator was chosen, or no point has one.");
         }
-        page.push_str("</tbody></table></div>\n</section>\n");
-    }
+        none(page, &legend(&report.plots));
+        for (index, plot) in report.plots.iter().enumerate() {
+            let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
+            let draw = |layout| indicator_plot(plot, layout);
+            figure(page, &format!("plot{index}"), draw, "");
+        }
+    });
+    failures(&mut page, "Points that failed", "Point", &report.failures);
     table(&mut page, &report.table);
-    if !report.scenario_toml.is_empty() {
-        let _ = writeln!(
-            page,
-            "<section id=\"scenario\">\n<h2>Base scenario</h2>\n<pre><code>{}</code></pre>\n</section>",
-            escape(&report.scenario_toml)
-        );
-    }
-    page.push_str("</main>\n<footer>The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.</footer>\n</body>\n</html>\n");
-    page
+    scenario(&mut page, "Base scenario", &report.scenario_toml);
+    let footer = "The whole table, with every indicator, is in sweep.csv and sweep.parquet beside this page.";
+    close(page, footer, &[])
 }
 
 /// What the marks mean, of those that are there.

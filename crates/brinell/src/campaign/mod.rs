@@ -21,4 +21,4 @@ pub use impacts::{Impacts, impacts};
 pub use plan::{MOST_POINTS, Plan, PlanError};
 pub use quantities::{Quantity, Spread, indicator_name, names, quantities};
 pub use row::{Row, digest, fingerprint};
-pub use run::{Finished, Labelled, Unfinished, finish, run, run_all};
+pub use run::{Finished, Unfinished, finish, run, run_all};

@@ -44,15 +44,6 @@ pub enum Unfinished {
     Stopped,
 }
 
-/// A scenario by the name that tables and legends give it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Labelled {
-    /// The name.
-    pub label: String,
-    /// The scenario.
-    pub scenario: Scenario,
-}
-
 /// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may break it off.
 pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> Finished {
     let mut both = Both {
@@ -94,7 +85,7 @@ pub(super) fn whole(finished: Finished) -> Result<Finished, Unfinished> {
 /// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` is told which scenario
 /// has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for bit.
 pub fn run_all(
-    scenarios: &[Labelled],
+    scenarios: &[Scenario],
     threads: NonZeroUsize,
     progress: impl Fn(usize, f64) -> ControlFlow<()> + Sync,
 ) -> Vec<Result<Finished, Unfinished>> {
@@ -103,7 +94,7 @@ pub fn run_all(
     many::each(
         scenarios.len(),
         threads,
-        |k| run(scenarios[k].scenario.clone(), |t| progress(k, t)),
+        |k| run(scenarios[k].clone(), |t| progress(k, t)),
         |k, result| all[k] = Some(result),
     );
     all.into_iter()

@@ -71,6 +71,19 @@ pub fn read_bytes(bytes: &[u8], overrides: &[(String, String)]) -> Result<Loaded
 }
 
 impl Loaded {
+    /// Where the value at a path comes from; that of the whole list for one of its items, such as `operation.load_n.0`.
+    pub fn provenance_of(&self, key: &str) -> Option<&Provenance> {
+        let mut path = key;
+        loop {
+            if let Some(found) = self.provenance.iter().find(|p| p.key == path) {
+                return Some(found);
+            }
+            let (rest, item) = path.rsplit_once('.')?;
+            item.parse::<usize>().ok()?;
+            path = rest;
+        }
+    }
+
     /// Says of a defect whose shape was put in place of a file's name that it came from that file.
     pub fn read_from(&mut self, defect: usize, file: &str) {
         let name = match self.scenario.defects.get(defect).map(|d| &d.shape) {
