@@ -78,7 +78,7 @@ def signal(
 
 
 #: More passes than that are a blur.
-_MOST_SPANS = 200
+_MOST_SPANS = 40
 
 
 def _on_damage(result: Result, first: float, last: float) -> list[tuple[float, float]]:

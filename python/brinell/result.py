@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from brinell import _brinell, tables
 from brinell.scenario import Scenario
-from brinell.signals import Spectrum
+from brinell.signals import Analysis, Spectrum, analyze
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -147,6 +147,34 @@ class Result:
     def defects(self) -> list[dict[str, Any]]:
         """Where each defect lies, how often it is struck in pure rolling and as found."""
         return self._native().defects()
+
+    def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
+        """What ``brinell analyze`` says of this run, its start left out.
+
+        Parameters
+        ----------
+        channel : str, optional
+            The measured acceleration nearer to the load unless told.
+        **options
+            As of `brinell.analyze`; ``speed_rpm`` is needed where the scenario's varies.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.5})
+        >>> brinell.simulate(scenario).analyze().damage[0]
+        'outer_race'
+        """
+        if channel is None:
+            channel = "measured_ax" if self.spectrum is None else str(self.spectrum.channel)
+        speed = self.scenario["operation.speed_rpm"]
+        if "speed_rpm" not in options:
+            if isinstance(speed, list):
+                raise ValueError("speed_rpm: needed, for the scenario's varies")
+            options["speed_rpm"] = speed
+        first = round(self.summary["simulated"]["analysed_from_s"] * self.rate_hz)
+        settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario}
+        return analyze(self[channel][first:], **(settings | options))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The signals as a data frame; ``attrs["units"]`` has the units.
