@@ -55,6 +55,8 @@ pub(crate) enum Command {
     Reproduce(crate::reproduce::ReproduceArgs),
     /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
     Calibrate(Box<crate::calibrate::CalibrateArgs>),
+    /// Make a data set of thousands of labelled signals from a plan; merge and verify data sets
+    Dataset(Box<crate::dataset::DatasetArgs>),
     /// Print the JSON Schema of scenario files, for editors and generators
     Schema,
 }

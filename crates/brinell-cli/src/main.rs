@@ -9,6 +9,7 @@ mod campaign;
 mod check;
 mod compare;
 mod damage;
+mod dataset;
 mod defect;
 mod failure;
 mod files;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Calibrate(args) => calibrate::calibrate(&args),
         Command::Compare(args) => compare::side_by_side(&args),
         Command::Reproduce(args) => reproduce::reproduce(&args),
+        Command::Dataset(args) => dataset::dataset(&args),
         Command::Schema => look_up::schema(),
     };
     match result {

@@ -1,7 +1,7 @@
 //! The files of damage that a scenario's text names, told of with the text's lines.
 
 use crate::{Unresolved, resolve};
-use brinell::document::{Loaded, Place, Problem, Severity, locate};
+use brinell::document::{Loaded, Problem, locate};
 use std::path::Path;
 
 /// [`resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
@@ -26,7 +26,7 @@ pub fn resolve_loaded(
             // What an override gave stands nowhere in the text.
             let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
             let place = locate(text, &error.key).filter(|_| !given);
-            problem(error, place)
+            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
         };
         errors.into_iter().map(placed).collect::<Vec<_>>()
     })?;
@@ -36,19 +36,4 @@ pub fn resolve_loaded(
         }
     }
     Ok(warnings)
-}
-
-fn problem(error: Unresolved, place: Option<Place>) -> Problem {
-    Problem {
-        severity: Severity::Error,
-        key: error.key,
-        message: error.message,
-        value: Some(format!("\"{}\"", error.file)),
-        allowed: None,
-        unit: None,
-        line: place.as_ref().map(|p| p.line),
-        column: place.as_ref().map(|p| p.column),
-        span: place.map(|p| p.span),
-        also: Vec::new(),
-    }
 }

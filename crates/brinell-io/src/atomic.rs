@@ -184,6 +184,18 @@ fn sync_folder_of(path: &Path) {
     }
 }
 
+/// Copies a file; the copy appears whole or not at all.
+///
+/// # Errors
+/// Where the one cannot be read or the other not written.
+pub fn atomic_copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), IoError> {
+    let (from, to) = (from.as_ref(), to.as_ref());
+    let mut source = File::open(from).map_err(|e| IoError::reading(from, e))?;
+    let mut file = PartialFile::create(to)?;
+    io::copy(&mut source, &mut file).map_err(|e| IoError::writing(to, e))?;
+    file.commit().map(drop)
+}
+
 /// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name.
 pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(), IoError> {
     let mut file = PartialFile::create(path.as_ref())?;

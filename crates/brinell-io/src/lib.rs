@@ -40,11 +40,13 @@ mod csv;
 mod error;
 mod journal;
 mod read;
+#[cfg(feature = "parquet")]
+mod records;
 mod signals;
 mod table;
 mod write;
 
-pub use atomic::atomic_write;
+pub use atomic::{atomic_copy, atomic_write};
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 pub use journal::Journal;
@@ -54,6 +56,8 @@ pub use read::{
     Channel, Decimal, Delimiter, FileKind, MAX_VALUES, Rate, RateSource, SignalFile, TextFormat,
     open, open_as,
 };
+#[cfg(feature = "parquet")]
+pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
 pub use table::{Cells, Table};
 pub use write::mat::MatWriter;
@@ -61,5 +65,7 @@ pub use write::mat::MatWriter;
 pub use write::npz::NpzWriter;
 #[cfg(feature = "parquet-write")]
 pub use write::parquet::ParquetWriter;
+#[cfg(feature = "parquet")]
+pub use write::records::{RecordFacts, RecordWriter, Written, record_facts};
 pub use write::uff::UffWriter;
 pub use write::wav::WavWriter;

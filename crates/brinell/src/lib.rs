@@ -10,6 +10,7 @@ pub mod channel;
 pub mod contact;
 pub mod defect;
 pub mod derived;
+pub mod design;
 pub mod document;
 pub mod elementary;
 pub mod friction;

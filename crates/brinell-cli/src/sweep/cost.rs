@@ -2,6 +2,7 @@
 
 use crate::campaign::{Task, Work};
 use brinell::campaign::finish;
+use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation, SolverWork};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -26,9 +27,13 @@ pub(crate) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) 
     Some(per_second * simulated / at_once as f64)
 }
 
-/// Wall time of a simulated second, s.
+/// Wall time of a simulated second of a task, s.
 fn trial(task: &Task, work: &impl Work) -> Option<f64> {
-    let scenario = work.scenario(task).ok()?;
+    pace(work.scenario(task).ok()?)
+}
+
+/// Wall time of a simulated second, s; `None` where the scenario does not run.
+pub(crate) fn pace(scenario: Scenario) -> Option<f64> {
     let simulation = Simulation::new(&scenario).ok()?;
     let mut trial = Trial {
         begin: Instant::now(),

@@ -5,6 +5,8 @@ pub(crate) mod mat;
 pub(crate) mod npz;
 #[cfg(feature = "parquet-write")]
 pub(crate) mod parquet;
+#[cfg(feature = "parquet")]
+pub(crate) mod records;
 mod spool;
 pub(crate) mod uff;
 pub(crate) mod wav;

@@ -88,6 +88,12 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
     ""
 }
 
+/// The unit that a key's path carries in its name, an element of a list having its list's; empty where there is none.
+pub fn unit_of_key(path: &str) -> &'static str {
+    let named = |part: &&str| !part.bytes().all(|b| b.is_ascii_digit());
+    path.rsplit('.').find(named).map_or("", unit_of)
+}
+
 const fn ends_with(name: &[u8], suffix: &[u8]) -> bool {
     if name.len() < suffix.len() {
         return false;

@@ -16,7 +16,7 @@ pub(crate) struct Misfit {
 }
 
 impl Misfit {
-    pub(super) fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
+    pub(crate) fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
         Misfit {
             message: message.into(),
             allowed: allowed.into(),
@@ -24,7 +24,7 @@ impl Misfit {
         }
     }
 
-    pub(super) fn in_element(mut self, node: &Node) -> Misfit {
+    pub(crate) fn in_element(mut self, node: &Node) -> Misfit {
         self.element.get_or_insert_with(|| node.clone());
         self
     }

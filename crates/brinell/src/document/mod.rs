@@ -24,9 +24,19 @@ mod words;
 mod writer;
 
 pub use example::template;
+pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
 pub use pointed::pointed_out;
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
-pub use source::{float as toml_float, locate, quote as toml_quote};
+pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
+
+/// What another document than the scenario is read with.
+pub(crate) mod reading {
+    pub(crate) use super::checks::Finder;
+    pub(crate) use super::keys::{Fallback, Keys, Spec, key, stated};
+    pub(crate) use super::leaf::{Choice, Leaf, Misfit};
+    pub(crate) use super::reader::Reader;
+    pub(crate) use super::source::{Node, Value as Toml, key_text, parse, quote};
+}

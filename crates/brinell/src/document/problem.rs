@@ -94,6 +94,17 @@ impl Problem {
         Problem::new(Severity::Error, key, message)
     }
 
+    /// Of a file that a key names and that cannot be used.
+    pub fn of_file(key: &str, file: &str, message: &str) -> Problem {
+        Problem::error(key, message).value(super::source::quote(file))
+    }
+
+    /// At a place of the text.
+    #[must_use]
+    pub fn placed(self, place: Option<Place>) -> Problem {
+        self.at(place)
+    }
+
     pub(crate) fn value(mut self, value: impl Into<String>) -> Problem {
         self.value = Some(value.into());
         self

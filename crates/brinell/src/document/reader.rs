@@ -36,6 +36,8 @@ pub(crate) struct Reader<'a> {
     preset: Option<&'static catalogue::Entry>,
     /// A preset was asked for and is unknown: what it would have filled is not worth a word.
     preset_unknown: bool,
+    /// Section and name of every key there is, for hints on unknown ones.
+    vocabulary: &'a [(String, String)],
     pub(crate) problems: Vec<Problem>,
     pub(crate) provenance: Vec<Provenance>,
     pub(crate) found: HashMap<String, Found>,
@@ -50,7 +52,17 @@ fn join(path: &str, name: &str) -> String {
 }
 
 impl<'a> Reader<'a> {
+    /// Of a scenario.
     pub(crate) fn new(text: &'a str, root: &'a Table) -> Reader<'a> {
+        Reader::with_vocabulary(text, root, known_keys())
+    }
+
+    /// Of another document.
+    pub(crate) fn with_vocabulary(
+        text: &'a str,
+        root: &'a Table,
+        vocabulary: &'a [(String, String)],
+    ) -> Reader<'a> {
         let root = Frame {
             path: String::new(),
             table: Some(root),
@@ -63,6 +75,7 @@ impl<'a> Reader<'a> {
             frames: vec![root],
             preset: None,
             preset_unknown: false,
+            vocabulary,
             problems: Vec::new(),
             provenance: Vec::new(),
             found: HashMap::new(),
@@ -133,15 +146,15 @@ impl<'a> Reader<'a> {
             section => format!("[{section}]"),
         };
         let elsewhere = |wanted: &str| {
-            let sections = known_keys().iter().filter(|(_, name)| name == wanted);
+            let sections = self.vocabulary.iter().filter(|(_, name)| name == wanted);
             let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
             homes.join(" or ")
         };
-        let hint = if known_keys().iter().any(|(_, known)| known == name) {
+        let hint = if self.vocabulary.iter().any(|(_, known)| known == name) {
             format!("; it belongs in {}", elsewhere(name))
         } else if let Some(known) = nearest(name, frame.named.iter().copied()) {
             format!("; did you mean `{known}`?")
-        } else if let Some(known) = nearest(name, known_keys().iter().map(|(_, k)| k.as_str())) {
+        } else if let Some(known) = nearest(name, self.vocabulary.iter().map(|(_, k)| k.as_str())) {
             format!("; did you mean `{known}` in {}?", elsewhere(known))
         } else {
             String::new()

@@ -90,6 +90,18 @@ impl Node {
         }
     }
 
+    /// A table without a place.
+    pub(crate) fn table(table: Table) -> Node {
+        Node::unplaced(Value::Table(table))
+    }
+
+    /// The whole value as TOML, on one line.
+    pub(crate) fn text(&self) -> String {
+        let mut text = String::new();
+        self.render(&mut text, usize::MAX / 8);
+        text
+    }
+
     /// The value on one short line, for messages.
     pub(crate) fn brief(&self) -> String {
         const LONGEST: usize = 60;
@@ -124,7 +136,7 @@ impl Node {
                 out.push_str("{ ");
                 for (i, (name, entry)) in table.iter().enumerate() {
                     out.push_str(if i == 0 { "" } else { ", " });
-                    out.push_str(name);
+                    out.push_str(&key_text(name));
                     out.push_str(" = ");
                     entry.node.render(out, enough);
                 }
@@ -156,6 +168,16 @@ pub fn float(x: f64) -> String {
         format!("{x:e}")
     } else {
         format!("{x:?}")
+    }
+}
+
+/// A key as TOML writes it.
+pub(crate) fn key_text(name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.chars().all(bare) {
+        name.to_owned()
+    } else {
+        quote(name)
     }
 }
 
@@ -200,6 +222,14 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
         Value::Table(table) if problems.is_empty() => Ok(table),
         _ => Err(problems),
     }
+}
+
+/// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.
+///
+/// # Errors
+/// Where the text is no TOML.
+pub fn canonical(text: &str) -> Result<String, Vec<Problem>> {
+    Ok(Node::table(parse(text, &[])?).text())
 }
 
 /// Where a key stands in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.

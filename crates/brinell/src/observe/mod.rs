@@ -207,8 +207,7 @@ impl Watch {
     /// At each sample instant.
     pub fn sample(&mut self, frame: &Frame) {
         if self.started.is_none() {
-            let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
-            if (turned && frame.t >= self.ramp) || frame.t >= self.half_way {
+            if has_settled(frame, self.half_way) {
                 self.started = Some(frame.t);
                 self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
             }
@@ -292,6 +291,12 @@ impl Watch {
                 .collect(),
         }
     }
+}
+
+/// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way` (s) is reached.
+pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
+    let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
+    (turned && frame.t >= frame.model.load.ramp) || frame.t >= half_way
 }
 
 fn whole_turns(angle: f64) -> i64 {

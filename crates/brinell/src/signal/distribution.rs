@@ -82,6 +82,36 @@ pub fn chi_square_quantile(p: f64, freedom: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// P(standard normal > z).
+pub fn normal_tail(z: f64) -> f64 {
+    let outer = 0.5 * chi_square_tail(z * z, 1.0);
+    if z > 0.0 { outer } else { 1.0 - outer }
+}
+
+/// The value that the standard normal stays below with probability `p`; infinite for 0 and 1. Newton's method on the logarithm of the tail,
+/// which is concave: from the second step on it comes nearer from one side.
+pub fn normal_quantile(p: f64) -> f64 {
+    let tail = p.min(1.0 - p);
+    if tail <= 0.0 {
+        return if p < 0.5 {
+            f64::NEG_INFINITY
+        } else {
+            f64::INFINITY
+        };
+    }
+    let mut z = 0.0_f64;
+    for _ in 0..100 {
+        let here = normal_tail(z);
+        let density = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
+        let step = (here / tail).ln() * here / density;
+        z += step;
+        if step.abs() <= 1e-15 * z {
+            break;
+        }
+    }
+    if p < 0.5 { -z } else { z }
+}
+
 /// P(F > x) with `d1` and `d2` degrees of freedom: the chance that a power of `d1` degrees of freedom stands `x` times
 /// above its mean where that mean is itself estimated with `d2`.
 pub fn f_tail(x: f64, d1: f64, d2: f64) -> f64 {
@@ -151,6 +181,28 @@ mod tests {
             assert!((f_tail(x, 2.0, 30.0) / f - 1.0).abs() < 1e-11);
         }
         assert!((ln_gamma(0.5) - 0.5 * std::f64::consts::PI.ln()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn lit_normal_quantiles() {
+        // NIST/SEMATECH e-Handbook 1.3.6.7.1 to more digits, as SciPy 1.16 has them (scipy.stats.norm.ppf).
+        for (p, z) in [
+            (0.5, 0.0),
+            (0.75, 0.674_489_750_196_081_7),
+            (0.025, -1.959_963_984_540_054),
+            (0.999, 3.090_232_306_167_813),
+            (1e-6, -4.753_424_308_822_899),
+            (0.500_001, 2.506_628_274_566_559_5e-6),
+        ] {
+            let found = normal_quantile(p);
+            assert!(
+                (found - z).abs() <= 1e-9 * z.abs().max(1e-6),
+                "{p}: {found}"
+            );
+            assert!((normal_tail(-found) - p).abs() < 1e-12 * p.max(1e-3), "{p}");
+        }
+        assert_eq!(normal_quantile(0.0), f64::NEG_INFINITY);
+        assert_eq!(normal_quantile(1.0), f64::INFINITY);
     }
 
     #[test]

@@ -33,7 +33,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn place(&self, key: &str) -> Option<Place> {
+    pub(crate) fn place(&self, key: &str) -> Option<Place> {
         self.found.get(key)?.place.clone()
     }
 

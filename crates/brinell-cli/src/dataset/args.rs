@@ -1,0 +1,105 @@
+//! The command line of `brinell dataset`.
+
+use brinell_dataset::Shard;
+use clap::{Args, Subcommand};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "A plan names a base scenario, says which keys vary and how, and which classes there are:\n\n  \
+    base = \"machine.toml\"          # from the plan's folder\n  \
+    runs = 1000\n  \
+    seed = 7\n  \
+    design = \"sobol\"               # random | latin-hypercube | sobol\n  \
+    licence = \"CC-BY-4.0\"\n  \
+    [vary]\n  \
+    operation.speed_rpm = { uniform = [900, 3000] }\n  \
+    operation.load_n = [0, { choice = [-1000, -3000] }]\n  \
+    [[classes]]\n  \
+    name = \"healthy\"\n  \
+    defects = []\n  \
+    [[classes]]\n  \
+    name = \"outer\"\n  \
+    [[classes.defects]]\n  \
+    on = \"outer-raceway\"\n  \
+    depth_um = { log = [2, 50] }\n  \
+    shape.random = { length_mm = { uniform = [0.5, 4] }, width_mm = { uniform = [0.5, 6] } }\n\n\
+    Distributions: uniform = [LOW, HIGH], log = [LOW, HIGH], normal = [MEAN, DEVIATION] (with within or clip = [LOW, HIGH]), whole = [LEAST, \
+    LARGEST], choice = [...] (with weights = [...]), grid = [...] or \"FROM:TO:STEP\". Grids are crossed. Random spalls get a seed of their own in \
+    each run.\n\n\
+    In the folder:\n  \
+    runs/part-00000.parquet    one row a run: signals, parameters, labels, ground truth, solver's work\n  \
+    dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
+    held_out/                  labels of the runs that `held_out` sets apart\n  \
+    work/                      finished runs of unfinished files\n\n\
+    The same command goes on where it stopped, and changes nothing that is there. The files' bytes depend on the plan alone, not on --jobs, --shard or \
+    interruptions. In a Slurm array: --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT, counting from 1.\n\n\
+    Exit codes: 0 all of the shard is there, 1 Ctrl-C or a full disk stopped it (what is finished is kept), or `verify` or `merge` found something \
+    missing or wrong, 2 bad input. A run that fails is a row with its reason, and no failure of the command.\n\n\
+    Examples:\n  \
+    brinell dataset plan.toml --dry-run\n  \
+    brinell dataset plan.toml -o data\n  \
+    brinell dataset plan.toml -o data --shard 3/10\n  \
+    brinell dataset merge data-1 data-2 data-3 -o data\n  \
+    brinell dataset verify data"
+)]
+pub(crate) struct DatasetArgs {
+    #[command(subcommand)]
+    pub(crate) command: Option<DatasetCommand>,
+    /// The plan (TOML)
+    #[arg(required = true)]
+    pub(crate) plan: Option<PathBuf>,
+    /// Folder for the data set [default: out/NAME, NAME being the plan's]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Only this share of the files, I from 1 to N
+    #[arg(
+        long,
+        value_name = "I/N",
+        default_value = "1/1",
+        hide_default_value = true
+    )]
+    pub(crate) shard: Shard,
+    /// Runs at a time [default: one a core]
+    #[arg(short, long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Print what the plan means and what it costs; run nothing
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum DatasetCommand {
+    /// Join folders in which shards of one plan ran apart; each file's checksum is held against what was written
+    Merge(MergeArgs),
+    /// Check a data set: every file there, its checksum, its rows, one campaign and one version in all
+    Verify(VerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// The folders
+    #[arg(required = true, value_name = "FOLDER")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Where they are joined: a new folder, or one of them
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct VerifyArgs {
+    /// The data set's folder
+    pub(crate) folder: PathBuf,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

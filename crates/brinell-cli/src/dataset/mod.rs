@@ -1,0 +1,241 @@
+//! `brinell dataset`: a plan to thousands of labelled signals.
+
+mod args;
+mod plan;
+
+use crate::failure::Failure;
+use crate::progress::{Joint, Progress};
+use crate::run::{safe_name, stop_flag};
+use crate::say::{complain, say};
+use crate::sweep::plural;
+pub(crate) use args::DatasetArgs;
+use args::{DatasetCommand, MergeArgs, VerifyArgs};
+use brinell_dataset::{Campaign, DatasetError, Listener, RunListener, merge, run, verify};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Exit code where something is missing or wrong in what is there, or Ctrl-C stopped the work.
+const NOT_WHOLE: u8 = 1;
+/// Failed runs that are told.
+const SHOWN: usize = 10;
+
+impl From<DatasetError> for Failure {
+    fn from(error: DatasetError) -> Self {
+        match error {
+            DatasetError::Document {
+                name,
+                text,
+                problems,
+            } => Self::Scenario {
+                name,
+                text,
+                problems,
+            },
+            DatasetError::Refused(message) => Self::Usage(message),
+            DatasetError::Read { path, error } => Self::Read(path, error),
+            DatasetError::Io(error) => Self::Write(error),
+        }
+    }
+}
+
+pub(crate) fn dataset(args: &DatasetArgs) -> Result<ExitCode, Failure> {
+    match (&args.command, &args.plan) {
+        (Some(DatasetCommand::Merge(args)), _) => join(args),
+        (Some(DatasetCommand::Verify(args)), _) => check(args),
+        (None, Some(plan)) => make(args, plan),
+        (None, None) => Err(Failure::Usage(
+            "give a plan, for instance `brinell dataset plan.toml`".into(),
+        )),
+    }
+}
+
+fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
+    let begin = Instant::now();
+    let campaign = Campaign::open(path)?;
+    let name = safe_name(&campaign.plan().name);
+    let folder = args
+        .output
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join(name));
+    let parts = (0..campaign.parts()).filter(|part| args.shard.has(*part));
+    let runs: usize = parts.map(|part| campaign.runs_of(part).len()).sum();
+    let threads = args.jobs.unwrap_or(brinell::many::threads(runs));
+    // A folder that was begun has seen this plan looked over.
+    let begun = folder.join("work").join("campaign.json").exists();
+    if args.dry_run || !begun {
+        let survey = campaign.survey();
+        plan::tell(&campaign, &survey, runs, threads, args);
+        if !survey.is_sound(campaign.plan().out_of_range) {
+            return Err(plan::refuse(&campaign, &survey));
+        }
+    }
+    if args.dry_run {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let stop = stop_flag()?;
+    let duration = campaign
+        .scenario(0)
+        .map_or(1.0, |(l, _)| l.scenario.simulation.duration_s);
+    let terminal = Terminal {
+        stop: &stop,
+        duration,
+        joint: Mutex::new(Joint::new(runs, duration * runs as f64, args.quiet)),
+        failures: Mutex::new(Vec::new()),
+    };
+    let went = run(&campaign, &folder, args.shard, threads, &terminal);
+    let Terminal {
+        joint, failures, ..
+    } = terminal;
+    drop(joint);
+    let failures = failures
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner);
+    for (run, reason) in failures.iter().take(SHOWN) {
+        complain!("run {run} failed: {}", reason.lines().next().unwrap_or(""));
+    }
+    if failures.len() > SHOWN {
+        complain!(
+            "and {} more: see the column `reason`",
+            failures.len() - SHOWN
+        );
+    }
+    let went = went?;
+    let left = went.runs - went.done - went.before;
+    if !args.quiet {
+        let before = match went.before {
+            0 => String::new(),
+            n => format!(", {n} there before"),
+        };
+        say!(
+            "{} in {:.2} s{before}; {} of {} of this shard are there",
+            plural(went.done, "run"),
+            begin.elapsed().as_secs_f64(),
+            went.runs - left,
+            went.runs
+        );
+        if went.whole {
+            say!("  whole: {}", folder.join("dataset.json").display());
+        } else if left == 0 {
+            say!(
+                "  other shards are to come; `brinell dataset merge` joins folders, where they ran apart"
+            );
+        }
+    }
+    if went.interrupted {
+        complain!("interrupted: {left} to go; the same command goes on where this one stopped");
+        return Ok(ExitCode::from(NOT_WHOLE));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
+    let merged = merge(&args.folders, &args.output)?;
+    if !args.quiet {
+        say!(
+            "{}: {} brought, {} there before",
+            args.output.display(),
+            plural(merged.brought, "file"),
+            merged.before
+        );
+    }
+    if merged.missing.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let first: Vec<String> = merged
+        .missing
+        .iter()
+        .take(SHOWN)
+        .map(ToString::to_string)
+        .collect();
+    complain!(
+        "not whole: {} in none of the folders (part {}{}); run their shards again",
+        plural(merged.missing.len(), "file"),
+        first.join(", "),
+        if merged.missing.len() > SHOWN {
+            ", ..."
+        } else {
+            ""
+        }
+    );
+    Ok(ExitCode::from(NOT_WHOLE))
+}
+
+fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
+    let found = verify(&args.folder)?;
+    if !args.quiet {
+        say!(
+            "{}: {} of {} sound, {} with {} failed",
+            args.folder.display(),
+            found.files,
+            plural(found.of, "file"),
+            plural(found.rows as usize, "run"),
+            found.failed
+        );
+    }
+    for problem in &found.problems {
+        complain!("{problem}");
+    }
+    Ok(match found.problems.is_empty() {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(NOT_WHOLE),
+    })
+}
+
+/// Shows runs on one bar, and listens for Ctrl-C.
+struct Terminal<'a> {
+    stop: &'a AtomicBool,
+    /// Of a run, s.
+    duration: f64,
+    joint: Mutex<Joint>,
+    failures: Mutex<Vec<(usize, String)>>,
+}
+
+impl Listener for Terminal<'_> {
+    fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
+        let joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
+        Box::new(Shown {
+            stop: self.stop,
+            progress: Joint::part(&joint.bar(), duration_s),
+        })
+    }
+
+    fn before(&self, runs: usize) {
+        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
+        (0..runs).for_each(|_| joint.done_before(self.duration));
+    }
+
+    fn ended(&self, run: usize, failed: Option<&str>) {
+        if let Some(reason) = failed {
+            let mut all = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
+            all.push((run, reason.to_owned()));
+        }
+        let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
+        joint.ended(&[], Path::new(""));
+    }
+}
+
+struct Shown<'a> {
+    stop: &'a AtomicBool,
+    progress: Progress,
+}
+
+impl RunListener for Shown<'_> {
+    fn at(&mut self, t: f64) -> ControlFlow<()> {
+        self.progress.at(t);
+        match self.stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        self.progress.finish();
+    }
+}

@@ -1,0 +1,189 @@
+//! What a plan means and costs, in words; and why it is refused.
+
+use super::DatasetArgs;
+use crate::failure::Failure;
+use crate::say::{complain, say, short};
+use crate::sweep::cost::pace;
+use crate::sweep::{duration, plural};
+use brinell::design::{Misses, OutOfRange, Survey, problem_places};
+use brinell_dataset::Campaign;
+use std::num::NonZeroUsize;
+
+/// Runs that are tried for a moment, to see what they cost.
+const TRIED: usize = 5;
+/// Share of a 32-bit float that is left after compression, about: the low mantissa bytes are noise.
+const COMPRESSED: f64 = 0.9;
+/// Bytes of a row beside its signals, about.
+const BESIDES: f64 = 12e3;
+
+/// The plan, to standard output; warnings to standard error.
+pub(super) fn tell(
+    campaign: &Campaign,
+    survey: &Survey,
+    runs: usize,
+    threads: NonZeroUsize,
+    args: &DatasetArgs,
+) {
+    let (plan, draws) = (campaign.plan(), campaign.draws());
+    for Misses {
+        problem,
+        run,
+        count,
+    } in &survey.warnings
+    {
+        complain!(
+            "{problem}\n  (in {count} of {} looked at, the first of them run {run})",
+            plural(survey.runs, "run")
+        );
+    }
+    for note in draws.notes() {
+        complain!("warning: {note}");
+    }
+    if args.quiet {
+        return;
+    }
+    say!(
+        "{}: {} in {}, design {}, seed {}",
+        plan.name,
+        plural(draws.runs(), "run"),
+        plural(campaign.parts(), "file"),
+        plan.design.word(),
+        plan.seed
+    );
+    for (label, class) in plan.classes.iter().enumerate() {
+        say!(
+            "  {label} {}: {}",
+            class.name,
+            plural(draws.runs_of(label), "run")
+        );
+    }
+    let names: Vec<&str> = draws.parameters().iter().map(|p| p.key.as_str()).collect();
+    say!(
+        "  varies: {}",
+        if names.is_empty() {
+            "nothing".into()
+        } else {
+            names.join(", ")
+        }
+    );
+    let signals: Vec<&str> = campaign.signals().iter().map(|s| s.name.as_str()).collect();
+    say!("  signals: {}", signals.join(", "));
+    if plan.holds_out() {
+        let apart = (0..draws.runs())
+            .filter(|run| draws.is_held_out(*run))
+            .count();
+        say!("  labels of {} in held_out/", plural(apart, "run"));
+    }
+    let looked = survey.runs.max(1) as f64;
+    if survey.unfit > 0 {
+        let then = match plan.out_of_range {
+            OutOfRange::Refuse => "refused",
+            OutOfRange::Redraw => "drawn again",
+            OutOfRange::Fail => "kept as failed",
+        };
+        say!(
+            "  {} of {} looked at draw values that make no scenario: {then}",
+            survey.unfit,
+            plural(survey.runs, "run")
+        );
+        tell_misses(survey);
+    }
+    let good = (survey.runs - survey.hopeless).max(1) as f64;
+    let seconds = survey.simulated / good * runs as f64;
+    let values = survey.samples / good * draws.runs() as f64 * signals.len() as f64;
+    let bytes = 4.0 * COMPRESSED * values
+        + BESIDES * draws.runs() as f64 * (1.0 - survey.hopeless as f64 / looked);
+    let cost = cost(campaign, seconds, runs, threads)
+        .map_or(String::new(), |s| format!(", about {}", duration(s)));
+    say!(
+        "  about {}; {} of this shard: {} s simulated, {} at a time{cost}",
+        size(bytes),
+        plural(runs, "run"),
+        short(seconds, 3),
+        threads.get().min(runs.max(1))
+    );
+}
+
+fn tell_misses(survey: &Survey) {
+    for Misses {
+        problem,
+        run,
+        count,
+    } in &survey.errors
+    {
+        let value = problem
+            .value
+            .as_deref()
+            .map_or(String::new(), |v| format!(" = {v}"));
+        let allowed = problem
+            .allowed
+            .as_deref()
+            .map_or(String::new(), |a| format!("; allowed: {a}"));
+        complain!(
+            "  {}: {count} of {}, such as run {run}{value}: {}{allowed}",
+            problem.key,
+            plural(survey.runs, "run"),
+            problem.message
+        );
+    }
+}
+
+/// The refusal of a plan whose runs cannot all be made: each kind of problem once, at the plan's line, and how often.
+pub(super) fn refuse(campaign: &Campaign, survey: &Survey) -> Failure {
+    let (path, text) = campaign.plan_file();
+    let asked = campaign.plan().out_of_range == OutOfRange::Redraw;
+    let problems = survey.errors.iter().map(
+        |Misses {
+             problem,
+             run,
+             count,
+         }| {
+            let mut problem = problem.clone();
+            problem.message = format!(
+                "{} in {count} of {}, such as run {run}{}",
+                problem.message,
+                plural(survey.runs, "run"),
+                if asked {
+                    ", and 1000 further draws did not fit either"
+                } else {
+                    ""
+                }
+            );
+            // A key that the plan sets is found there; what the base gives has its line there already.
+            let place = problem_places(campaign.draws(), text, *run, &problem);
+            (problem.line, problem.column, problem.span) = (None, None, None);
+            problem.placed(place)
+        },
+    );
+    let mut problems: Vec<_> = problems.collect();
+    if let (false, Some(last)) = (asked, problems.last_mut()) {
+        last.message += "; give narrower distributions, or `out_of_range = \"redraw\"` (draw such runs again) or \"fail\" (keep them as failed rows)";
+    }
+    Failure::Scenario {
+        name: path.display().to_string(),
+        text: text.to_owned(),
+        problems,
+    }
+}
+
+/// Wall time of so many simulated seconds, s; `None` where no trial ran.
+fn cost(campaign: &Campaign, seconds: f64, runs: usize, threads: NonZeroUsize) -> Option<f64> {
+    let all = campaign.draws().runs();
+    let tried = all.min(TRIED);
+    let chosen = (0..tried).map(|k| k * (all - 1) / (tried - 1).max(1));
+    let scenarios = chosen.filter_map(|run| Some(campaign.scenario(run).ok()?.0.scenario));
+    let paces: Vec<f64> = scenarios.filter_map(pace).collect();
+    if paces.is_empty() {
+        return None;
+    }
+    let pace = paces.iter().sum::<f64>() / paces.len() as f64;
+    Some(pace * seconds / threads.get().min(runs.max(1)) as f64)
+}
+
+fn size(bytes: f64) -> String {
+    match bytes {
+        b if b < 1e6 => format!("{} kB", (b / 1e3).ceil()),
+        b if b < 1e9 => format!("{} MB", (b / 1e6).ceil()),
+        b => format!("{:.1} GB", b / 1e9),
+    }
+}

@@ -1,0 +1,437 @@
+//! One run: from its draw to a row of the data set.
+
+use crate::campaign::Campaign;
+use crate::columns::{HEAD, KNOWN, TRUTH};
+use crate::run::Listener;
+use crate::truth::{Instant, Truth};
+use brinell::campaign::{digest, fingerprint};
+use brinell::defect::{Defect, Shape};
+use brinell::design::{Draw, Value};
+use brinell::scenario::{self, Accuracy, Scenario, Speed, Surface};
+use brinell::simulate::{End, Outcome, Simulation};
+use brinell_io::{Cell, Kind};
+use serde_json::{Map, Value as Json};
+use std::collections::HashMap;
+
+/// A row, or nothing where the run was broken off.
+pub(crate) type Made = Option<Row>;
+
+/// A finished run.
+pub(crate) struct Row {
+    pub(crate) cells: Vec<Cell>,
+    /// Why it failed.
+    pub(crate) failed: Option<String>,
+}
+
+/// Cells by the names of their columns; what is not there is empty.
+type Cells = HashMap<&'static str, Cell>;
+
+/// Runs `run` and makes its row. A run that cannot be is a row with its reason.
+pub(crate) fn make(campaign: &Campaign, run: usize, listener: &dyn Listener) -> Made {
+    let mut cells = Cells::new();
+    let (loaded, draw) = match campaign.try_scenario(run) {
+        Ok(made) => made,
+        Err((problems, draw)) => {
+            let reason: Vec<String> = problems
+                .iter()
+                .map(|p| p.to_string().replace("\n  ", "; "))
+                .collect();
+            return Some(row(
+                campaign,
+                run,
+                cells,
+                draw,
+                Vec::new(),
+                Some(reason.join("; ")),
+            ));
+        }
+    };
+    let scenario = &loaded.scenario;
+    about(scenario, &mut cells);
+    let simulation = match Simulation::new(scenario) {
+        Ok(simulation) => simulation,
+        Err(error) => {
+            return Some(row(
+                campaign,
+                run,
+                cells,
+                Some(draw),
+                Vec::new(),
+                Some(error.to_string()),
+            ));
+        }
+    };
+    let signals = campaign.signals();
+    let strange = simulation
+        .channels()
+        .iter()
+        .find(|c| signals.iter().all(|s| s.name != c.name));
+    if let Some(channel) = strange {
+        let reason = format!(
+            "its channel {} is not among the data set's signals; name signals without *",
+            channel.name
+        );
+        return Some(row(
+            campaign,
+            run,
+            cells,
+            Some(draw),
+            Vec::new(),
+            Some(reason),
+        ));
+    }
+    known(scenario, &simulation, &mut cells);
+    let mut listener = listener.begin(run, scenario.simulation.duration_s);
+    let mut truth = Truth::new(scenario, &simulation, signals, listener.as_mut());
+    let outcome = simulation.run(&mut truth);
+    let failed = match &outcome.end {
+        End::Stopped => return None,
+        End::Failed(error) => Some(error.to_string()),
+        End::Complete => None,
+    };
+    work(scenario, &simulation, &outcome, &mut cells);
+    let mut heard = Vec::new();
+    if failed.is_none() {
+        heard = (0..signals.len())
+            .map(|k| truth.signal(k).map_or(Cell::Empty, Cell::Signal))
+            .collect();
+        gathered(&simulation, &truth, &mut cells);
+    }
+    Some(row(campaign, run, cells, Some(draw), heard, failed))
+}
+
+/// The cells in the order of the columns.
+fn row(
+    campaign: &Campaign,
+    run: usize,
+    mut cells: Cells,
+    draw: Option<Draw>,
+    signals: Vec<Cell>,
+    failed: Option<String>,
+) -> Row {
+    let draws = campaign.draws();
+    let class = draws.class(run);
+    let split = if draws.is_held_out(run) {
+        "held-out"
+    } else {
+        "open"
+    };
+    let status = if failed.is_some() {
+        "failed"
+    } else {
+        "complete"
+    };
+    cells.insert("run", Cell::Whole(run as i64));
+    cells.insert("split", words(split));
+    cells.insert("status", words(status));
+    cells.insert("class", words(&campaign.plan().classes[class].name));
+    cells.insert("label", Cell::Whole(class as i64));
+    if let Some(reason) = &failed {
+        cells.insert("reason", words(reason));
+    }
+    let mut values = Vec::new();
+    if let Some(draw) = draw {
+        let settings: Map<String, Json> = draw
+            .settings
+            .iter()
+            .map(|(key, value)| (key.clone(), value.as_str().into()))
+            .collect();
+        cells.insert("settings", Cell::Words(Json::from(settings).to_string()));
+        cells.insert("redrawn", Cell::Whole(draw.redrawn as i64));
+        values = draw.values;
+    }
+    values.resize(draws.parameters().len(), None);
+    let parameter = |(p, value): (&brinell::design::Parameter, Option<Value>)| match value {
+        None => Cell::Empty,
+        Some(value) if p.numeric => Cell::number(value.number),
+        Some(value) => words(value.words()),
+    };
+    let mut take = |name: &str| cells.remove(name).unwrap_or(Cell::Empty);
+    let mut all: Vec<Cell> = HEAD.iter().map(|c| take(c.0)).collect();
+    let heard = signals.len();
+    all.extend(signals);
+    all.extend((heard..campaign.signals().len()).map(|_| Cell::Empty));
+    all.extend(KNOWN.iter().map(|c| take(c.0)));
+    all.extend(draws.parameters().iter().zip(values).map(parameter));
+    all.extend(TRUTH.iter().map(|c| take(c.0)));
+    Row { cells: all, failed }
+}
+
+fn words(text: &str) -> Cell {
+    Cell::Words(text.to_owned())
+}
+
+/// What the scenario itself says.
+fn about(scenario: &Scenario, cells: &mut Cells) {
+    let s = &scenario.simulation;
+    cells.insert("sample_rate_hz", Cell::Number(s.sample_rate_hz));
+    cells.insert("duration_s", Cell::Number(s.duration_s));
+    if let Some(preset) = &scenario.bearing.preset {
+        cells.insert("bearing", words(preset));
+    }
+    cells.insert("rows", Cell::Whole(scenario.bearing.rows as i64));
+    cells.insert(
+        "rollers_per_row",
+        Cell::Whole(scenario.bearing.rollers_per_row as i64),
+    );
+    if let Speed::Constant(rpm) = scenario.operation.speed_rpm {
+        cells.insert("speed_rpm", Cell::Number(rpm));
+    }
+    cells.insert("load_n", Cell::Numbers(scenario.operation.load_n.to_vec()));
+    cells.insert(
+        "accuracy",
+        words(match s.accuracy {
+            Accuracy::Standard => "standard",
+            Accuracy::Reference => "reference",
+        }),
+    );
+    cells.insert("scenario", Cell::Words(scenario.to_toml()));
+    cells.insert("scenario_sha256", Cell::Words(fingerprint(scenario)));
+    debug_assert_eq!(fingerprint(scenario), digest(&scenario.to_toml()));
+}
+
+/// What follows from it before anything moves.
+fn known(scenario: &Scenario, simulation: &Simulation, cells: &mut Cells) {
+    let model = simulation.model();
+    let kinematics = match scenario.operation.speed_rpm {
+        Speed::Constant(_) => Some(model.kinematics(model.rotation.at(0.0).0)),
+        Speed::Profile(_) => None,
+    };
+    if let Some(k) = &kinematics {
+        for (name, hz) in [
+            ("ftf_hz", k.ftf),
+            ("bpfo_hz", k.bpfo),
+            ("bpfi_hz", k.bpfi),
+            ("bsf_hz", k.bsf),
+        ] {
+            cells.insert(name, Cell::number(Some(hz)));
+        }
+    }
+    let pairs: Vec<_> = scenario.defects.iter().zip(&model.defects).collect();
+    let numbers = |of: &dyn Fn(&scenario::Defect, &Defect) -> f64| {
+        Cell::Numbers(
+            pairs
+                .iter()
+                .map(|(written, defect)| of(written, defect))
+                .collect(),
+        )
+    };
+    let wholes = |of: &dyn Fn(&scenario::Defect) -> usize| {
+        Cell::Wholes(
+            pairs
+                .iter()
+                .map(|(written, _)| of(written) as i64)
+                .collect(),
+        )
+    };
+    let list = |of: &dyn Fn(&scenario::Defect) -> &'static str| {
+        Cell::WordsList(
+            pairs
+                .iter()
+                .map(|(written, _)| of(written).to_owned())
+                .collect(),
+        )
+    };
+    cells.insert(
+        "defect_on",
+        list(&|d| match d.on {
+            Surface::OuterRaceway => "outer-raceway",
+            Surface::InnerRaceway => "inner-raceway",
+            Surface::Roller(_) => "roller",
+        }),
+    );
+    cells.insert("defect_row", wholes(&|d| d.row));
+    cells.insert(
+        "defect_roller",
+        wholes(&|d| match d.on {
+            Surface::Roller(number) => number,
+            _ => 0,
+        }),
+    );
+    cells.insert("defect_shape", list(&|d| kind_of(&d.shape)));
+    cells.insert("defect_center_deg", numbers(&|d, _| d.center_deg));
+    cells.insert(
+        "defect_length_mm",
+        numbers(&|_, d| {
+            let (first, last) = d.shape.arc();
+            1e3 * (last - first)
+        }),
+    );
+    cells.insert(
+        "defect_width_mm",
+        numbers(&|_, d| 1e3 * largest(d, |s| d.damaged_length(s))),
+    );
+    cells.insert(
+        "defect_depth_um",
+        numbers(&|_, d| match &d.shape {
+            Shape::DepthMap(grid) => 1e6 * grid.extremes().0.max(grid.extremes().1),
+            _ => 1e6 * largest(d, |s| d.depth_at(s)),
+        }),
+    );
+    cells.insert("defect_area_mm2", numbers(&|_, d| 1e6 * d.shape.area()));
+    if let Some(k) = &kinematics {
+        cells.insert("defect_frequency_hz", numbers(&|d, _| k.struck_by(d.on).1));
+    }
+}
+
+/// Largest value along a defect's arc, at 2001 points.
+fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
+    const PARTS: u32 = 2000;
+    let (first, last) = defect.shape.arc();
+    let at =
+        |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
+    (0..=PARTS).map(at).fold(0.0, f64::max)
+}
+
+fn kind_of(shape: &scenario::Shape) -> &'static str {
+    use scenario::Shape as S;
+    match shape {
+        S::Rectangle { .. } => "rectangle",
+        S::Circle { .. } => "circle",
+        S::Profile { .. } => "profile",
+        S::Li2023Irregular { .. } => "li2023_irregular",
+        S::Outline { .. } => "outline",
+        S::DepthMap { .. } => "depth_map",
+        S::Grown { .. } => "grown",
+        S::Random { .. } => "random",
+        S::Image(_) => "image",
+        S::Svg(_) => "svg",
+        S::Scan(_) => "depth_map",
+    }
+}
+
+/// What the solver did.
+fn work(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, cells: &mut Cells) {
+    let w = &outcome.work;
+    let rate = simulation.sample_rate();
+    for (name, count) in [
+        ("samples", outcome.rows),
+        ("solver_steps", w.solver.steps),
+        ("solver_rejections", w.solver.rejections),
+        (
+            "solver_right_hand_sides",
+            w.solver.evaluations + w.sample_evaluations,
+        ),
+        ("contact_switches", w.contact_switches),
+        ("pocket_switches", w.pocket_switches),
+        ("damage_switches", w.damage_switches),
+    ] {
+        cells.insert(name, Cell::Whole(count as i64));
+    }
+    let energy = &outcome.energy;
+    let turnover = energy.turnover();
+    let reached = outcome.rows.saturating_sub(1) as f64 / rate;
+    for (name, value) in [
+        ("energy_residual_j", Some(energy.residual())),
+        (
+            "energy_residual_over_turnover",
+            (turnover > 0.0).then(|| energy.residual() / turnover),
+        ),
+        ("energy_parametric_j", Some(energy.parametric)),
+        ("momentum_imbalance", outcome.momentum_imbalance),
+        (
+            "reached_s",
+            Some(reached.min(scenario.simulation.duration_s)),
+        ),
+    ] {
+        cells.insert(name, Cell::number(value));
+    }
+}
+
+/// What happened in a run that came to its end.
+fn gathered(simulation: &Simulation, truth: &Truth, cells: &mut Cells) {
+    let layout = &simulation.model().layout;
+    for (enters, names) in [
+        (
+            true,
+            [
+                "entry_t_s",
+                "entry_defect",
+                "entry_row",
+                "entry_roller",
+                "entry_side",
+                "entry_force_n",
+            ],
+        ),
+        (
+            false,
+            [
+                "exit_t_s",
+                "exit_defect",
+                "exit_row",
+                "exit_roller",
+                "exit_side",
+                "exit_force_n",
+            ],
+        ),
+    ] {
+        let these: Vec<&Instant> = truth
+            .instants
+            .iter()
+            .filter(|i| i.event.enters == enters)
+            .collect();
+        let numbers =
+            |of: fn(&Instant) -> f64| Cell::Numbers(these.iter().map(|i| of(i)).collect());
+        let wholes = |of: &dyn Fn(&Instant) -> usize| {
+            Cell::Wholes(these.iter().map(|i| of(i) as i64 + 1).collect())
+        };
+        let side = |i: &&Instant| format!("{:?}", i.event.side).to_lowercase();
+        let [t, defect, row, roller, contact, force] = names;
+        cells.insert(t, numbers(|i| i.event.t));
+        cells.insert(defect, wholes(&|i| i.event.defect));
+        cells.insert(row, wholes(&|i| layout.row(i.event.slot)));
+        cells.insert(roller, wholes(&|i| layout.roller(i.event.slot)));
+        cells.insert(contact, Cell::WordsList(these.iter().map(side).collect()));
+        cells.insert(force, numbers(|i| i.force));
+    }
+    cells.insert("analysed_from_s", Cell::number(truth.from));
+    cells.insert("largest_contact_force_n", Cell::Number(truth.largest));
+    let samples = truth.samples.max(1) as f64;
+    let outer = &truth.outer;
+    cells.insert(
+        "roller_mean_outer_force_n",
+        Cell::Numbers(outer.iter().map(|(sum, _)| sum / samples).collect()),
+    );
+    cells.insert(
+        "roller_largest_outer_force_n",
+        Cell::Numbers(outer.iter().map(|(_, most)| *most).collect()),
+    );
+    let zones = &truth.load_zone.rows;
+    cells.insert(
+        "load_zone_mean_n",
+        Cell::Numbers(zones.iter().flat_map(|z| z.mean()).collect()),
+    );
+    cells.insert(
+        "load_zone_largest_n",
+        Cell::Numbers(zones.iter().flat_map(|z| z.max.clone()).collect()),
+    );
+    let rows = &truth.slip.rows;
+    for (name, of) in [
+        (
+            "cage_slip",
+            rows.iter().map(|r| r.cage()).collect::<Option<Vec<f64>>>(),
+        ),
+        (
+            "loaded_orbit_slip",
+            rows.iter().map(|r| r.loaded_orbit()).collect(),
+        ),
+        (
+            "unloaded_orbit_slip",
+            rows.iter().map(|r| r.unloaded_orbit()).collect(),
+        ),
+        (
+            "loaded_surface_slip",
+            rows.iter().map(|r| r.loaded_surface()).collect(),
+        ),
+    ] {
+        cells.insert(name, of.map_or(Cell::Empty, Cell::Numbers));
+    }
+}
+
+/// Whether a row's file of its own says that the run failed.
+pub(crate) fn is_failed(cells: &[Cell]) -> bool {
+    let status = HEAD
+        .iter()
+        .position(|c| c.0 == "status" && c.2 == Kind::Words);
+    status.and_then(|k| cells.get(k)) == Some(&Cell::Words("failed".into()))
+}

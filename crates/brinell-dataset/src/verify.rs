@@ -1,0 +1,164 @@
+//! A data set's folder held against what it says of itself.
+
+use crate::error::DatasetError;
+use crate::folder::{CAMPAIGN, Folder, PART, file_name};
+use brinell_io::{keys, record_facts, sha256_of};
+use serde_json::Value;
+use std::path::Path;
+
+/// What was found.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Verified {
+    /// Files that are there and sound.
+    pub files: usize,
+    /// Their rows.
+    pub rows: u64,
+    /// Of them, failed runs.
+    pub failed: u64,
+    /// Files that the campaign has altogether.
+    pub of: usize,
+    /// Everything that is not as it should be, one line each.
+    pub problems: Vec<String>,
+}
+
+/// Checks every file: that it is there, its checksum, its rows, and that campaign, version and columns are the same in all.
+///
+/// # Errors
+/// Where there is no data set, or it cannot be read at all.
+pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
+    let folder = Folder::new(path.as_ref());
+    let sidecar = match std::fs::read(folder.sidecar()) {
+        Ok(bytes) => serde_json::from_slice::<Value>(&bytes).map_err(|error| {
+            DatasetError::Refused(format!("{}: {error}", folder.sidecar().display()))
+        })?,
+        Err(_) => Value::Null,
+    };
+    let about = match folder.about()? {
+        Some(about) => about,
+        None if sidecar.is_object() => sidecar.clone(),
+        None => {
+            return Err(DatasetError::Refused(format!(
+                "{}: no data set is here (neither dataset.json nor work/campaign.json)",
+                folder.root.display()
+            )));
+        }
+    };
+    let listed = sidecar["files"].as_array();
+    let mut found = Verified {
+        of: listed.map_or(about["files"].as_u64().unwrap_or(0) as usize, Vec::len),
+        ..Verified::default()
+    };
+    if !sidecar.is_object() {
+        found
+            .problems
+            .push("dataset.json is missing: the data set is not finished".into());
+    } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"] {
+        found
+            .problems
+            .push("dataset.json is of another campaign or version than work/campaign.json".into());
+    }
+    let columns: Vec<&str> = about["columns"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|c| c["name"].as_str())
+        .collect();
+    let runs = about["runs"]
+        .as_u64()
+        .or(about["runs"]["total"].as_u64())
+        .unwrap_or(0);
+    let each = about["runs_per_file"].as_u64().unwrap_or(1).max(1);
+    for part in 0..found.of {
+        let path = folder.part(part);
+        let name = format!("runs/{}", file_name(part));
+        if !path.exists() {
+            found.problems.push(format!("{name} is missing"));
+            continue;
+        }
+        let before = found.problems.len();
+        let facts = match record_facts(&path) {
+            Ok(facts) => facts,
+            Err(error) => {
+                found.problems.push(error.to_string());
+                continue;
+            }
+        };
+        let mut say = |wrong: bool, what: &str| {
+            if wrong {
+                found.problems.push(format!("{name}: {what}"));
+            }
+        };
+        let get = |key: &str| facts.metadata.get(key);
+        let version = about["brinell"].as_str();
+        say(
+            get(CAMPAIGN) != about["campaign"].as_str(),
+            "of another campaign",
+        );
+        let theirs = get(keys::VERSION);
+        say(
+            theirs != version,
+            &format!(
+                "of brinell {}, the others of {}",
+                theirs.unwrap_or("?"),
+                version.unwrap_or("?")
+            ),
+        );
+        say(
+            get(PART) != Some(part.to_string().as_str()),
+            "another file under this name",
+        );
+        say(
+            facts.columns != columns,
+            "other columns than the data set's",
+        );
+        let expected = each.min(runs.saturating_sub(part as u64 * each));
+        say(
+            facts.rows != expected,
+            &format!("{} rows instead of {expected}", facts.rows),
+        );
+        let told = match listed {
+            Some(files) => files.get(part).cloned(),
+            None => std::fs::read(folder.facts(part))
+                .ok()
+                .and_then(|b| serde_json::from_slice::<Value>(&b).ok())
+                .map(|f| f["runs"].clone()),
+        };
+        if let Some(told) = told {
+            say(
+                Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str(),
+                "its checksum is another than when it was written",
+            );
+            found.failed += told["failed"].as_u64().unwrap_or(0);
+        }
+        found.rows += facts.rows;
+        found.files += usize::from(found.problems.len() == before);
+    }
+    for path in folder.parts_there()? {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if !(0..found.of).any(|part| name == file_name(part)) {
+            found
+                .problems
+                .push(format!("runs/{name}: no file of this data set"));
+        }
+    }
+    // The labels may have been taken elsewhere: those that are here are checked.
+    for (part, told) in sidecar["held_out"]["files"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .enumerate()
+    {
+        let path = folder.held_out(part);
+        if path.exists() && Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str() {
+            found.problems.push(format!(
+                "held_out/{}: its checksum is another than when it was written",
+                file_name(part)
+            ));
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,392 @@
+//! What each run of a plan draws.
+
+use super::distribution::{Distribution, Value};
+use super::plan::{Design, OutOfRange, Plan};
+use super::sequence::{Sequence, Sobol};
+use super::stream::{bits, seed, unit, word};
+use crate::document::reading::{Node, Toml, parse, quote};
+use crate::document::{Loaded, Problem, read};
+
+/// Times that a run is drawn before its class counts as impossible.
+const MOST_ATTEMPTS: u64 = 1000;
+
+/// Keys that every run has a seed of its own for, where the plan does not set them: the table that holds the seed (`*` is any element of a
+/// list), and its name there. A run whose scenario has no such table has no such seed.
+const SEEDED_PER_RUN: [(&str, &str); 2] = [("defects.*.shape.random", "seed"), ("sensor", "seed")];
+
+/// One run's settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draw {
+    /// Index of the class.
+    pub class: usize,
+    /// Overrides for [`crate::document::read`], seeds included.
+    pub settings: Vec<(String, String)>,
+    /// What was drawn, a value for each of [`Draws::parameters`]; `None` where the class does not draw it.
+    pub values: Vec<Option<Value>>,
+    /// How often it was drawn before, because its values did not fit.
+    pub redrawn: u64,
+}
+
+/// A key that is drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its path; elements of lists by number.
+    pub key: String,
+    /// Whether every value is a number.
+    pub numeric: bool,
+    /// Whether all classes draw it from `[vary]`, so that it says nothing of the class.
+    pub common: bool,
+}
+
+struct Axis {
+    parameter: usize,
+    distribution: Distribution,
+}
+
+struct Drawn {
+    runs: usize,
+    axes: Vec<Axis>,
+    sequence: Sequence,
+    /// Settings of all grids together.
+    combinations: usize,
+}
+
+/// The runs of a plan.
+pub struct Draws {
+    plan: Plan,
+    classes: Vec<Drawn>,
+    /// Class of each run, and its number within the class.
+    places: Vec<(u32, u32)>,
+    parameters: Vec<Parameter>,
+}
+
+impl Draws {
+    /// Of a plan.
+    ///
+    /// # Errors
+    /// Where the plan cannot be: fewer runs than combinations of its grids, more distributions than a Sobol sequence has dimensions.
+    pub fn new(plan: Plan) -> Result<Self, Vec<Problem>> {
+        let places = places(&plan);
+        let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
+        for (c, class) in plan.classes.iter().enumerate() {
+            let runs = places
+                .iter()
+                .filter(|(class, _)| *class as usize == c)
+                .count();
+            let mut found = Vec::new();
+            plan.vary.distributions("", &mut found);
+            let common = found.len();
+            class.vary.distributions("", &mut found);
+            if let Some(defects) = &class.defects {
+                defects.distributions("defects", &mut found);
+            }
+            let axes: Vec<Axis> = found
+                .into_iter()
+                .enumerate()
+                .map(|(k, (key, distribution))| Axis {
+                    parameter: parameter(&mut parameters, &key, distribution, k < common),
+                    distribution: distribution.clone(),
+                })
+                .collect();
+            let combinations =
+                axes.iter()
+                    .fold(1_usize, |product, axis| match &axis.distribution {
+                        Distribution::Grid { values } => product.saturating_mul(values.len()),
+                        _ => product,
+                    });
+            if combinations > runs && runs > 0 {
+                let message = format!(
+                    "class {:?} has {runs} of the plan's {} runs, and its grids have {combinations} combinations",
+                    class.name, plan.runs
+                );
+                problems.push(
+                    Problem::error("runs", message)
+                        .value(plan.runs.to_string())
+                        .allowed(format!(
+                            "a run for each combination: about {} runs, or shorter grids",
+                            combinations.saturating_mul(plan.runs).div_ceil(runs.max(1))
+                        )),
+                );
+            }
+            let dimensions = axes.len();
+            let own = bits(&[plan.seed, word("design"), c as u64]);
+            let sequence = match plan.design {
+                Design::Random => Sequence::Random,
+                Design::LatinHypercube => Sequence::latin(own, dimensions, runs),
+                Design::Sobol if dimensions > Sobol::MOST => {
+                    let message = format!("class {:?} draws {dimensions} keys", class.name);
+                    let allowed = format!(
+                        "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
+                        Sobol::MOST
+                    );
+                    problems.push(
+                        Problem::error("design", message)
+                            .value("\"sobol\"")
+                            .allowed(allowed),
+                    );
+                    Sequence::Random
+                }
+                Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
+            };
+            classes.push(Drawn {
+                runs,
+                axes,
+                sequence,
+                combinations,
+            });
+        }
+        if problems.is_empty() {
+            Ok(Self {
+                plan,
+                classes,
+                places,
+                parameters,
+            })
+        } else {
+            Err(problems)
+        }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// How many runs.
+    pub fn runs(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Class of a run, from 0.
+    pub fn class(&self, run: usize) -> usize {
+        self.places[run].0 as usize
+    }
+
+    /// Runs of a class.
+    pub fn runs_of(&self, class: usize) -> usize {
+        self.classes[class].runs
+    }
+
+    /// Every key that some class draws.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Whether a run's labels are held out.
+    pub fn is_held_out(&self, run: usize) -> bool {
+        unit(bits(&[self.plan.seed, word("held_out"), run as u64])) < self.plan.held_out
+    }
+
+    /// What the author should know: grids whose combinations come unequally often.
+    pub fn notes(&self) -> Vec<String> {
+        let uneven = |(class, drawn): (&super::Class, &Drawn)| {
+            (drawn.runs % drawn.combinations != 0).then(|| {
+                format!(
+                    "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",
+                    class.name, drawn.runs, drawn.combinations
+                )
+            })
+        };
+        self.plan
+            .classes
+            .iter()
+            .zip(&self.classes)
+            .filter_map(uneven)
+            .collect()
+    }
+
+    /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
+    fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
+        let (c, n) = self.places[run];
+        let class = &self.classes[c as usize];
+        // Grids are walked through in order, the last one changing from run to run; whatever the attempt.
+        let mut rest = n as usize % class.combinations;
+        let mut of_grid = vec![0; class.axes.len()];
+        for (k, axis) in class.axes.iter().enumerate().rev() {
+            if let Distribution::Grid { values } = &axis.distribution {
+                of_grid[k] = rest % values.len();
+                rest /= values.len();
+            }
+        }
+        let value = |(k, axis): (usize, &Axis)| {
+            if let Distribution::Grid { values } = &axis.distribution {
+                return values[of_grid[k]].clone();
+            }
+            let key = &self.parameters[axis.parameter].key;
+            let own = [self.plan.seed, run as u64, attempt, word(key)];
+            axis.distribution.value(match attempt {
+                0 => class.sequence.place(n as usize, k, &own),
+                // A second draw has no place in the design.
+                _ => unit(bits(&own)),
+            })
+        };
+        class.axes.iter().enumerate().map(value).collect()
+    }
+
+    /// What run `run` draws at its `attempt`-th time, over the base scenario's text.
+    fn draw(&self, base: &str, run: usize, attempt: u64) -> Result<Draw, Vec<Problem>> {
+        let c = self.class(run);
+        let class = &self.plan.classes[c];
+        let drawn = self.values(run, attempt);
+        let mut next = drawn.iter();
+        let record: Vec<String> = self.plan.signals.iter().map(|name| quote(name)).collect();
+        let record = format!("[{}]", record.join(", "));
+        let mut settings = vec![("simulation.record".to_owned(), record)];
+        for template in [&self.plan.vary, &class.vary] {
+            for (path, template) in template.settings() {
+                settings.push((path, template.toml(&mut next)));
+            }
+        }
+        if let Some(defects) = &class.defects {
+            settings.push(("defects".into(), defects.toml(&mut next)));
+        }
+        let seeds = self.seeds(base, &settings, run)?;
+        settings.extend(seeds);
+        let mut values = vec![None; self.parameters.len()];
+        for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
+            values[axis.parameter] = Some(value);
+        }
+        Ok(Draw {
+            class: c,
+            settings,
+            values,
+            redrawn: attempt,
+        })
+    }
+
+    /// Seeds of the keys in [`SEEDED_PER_RUN`].
+    fn seeds(
+        &self,
+        base: &str,
+        settings: &[(String, String)],
+        run: usize,
+    ) -> Result<Vec<(String, String)>, Vec<Problem>> {
+        let root = Node::table(parse(base, settings)?);
+        let class = &self.plan.classes[self.class(run)];
+        let mut seeds = Vec::new();
+        for (table, name) in SEEDED_PER_RUN {
+            let mut holders = Vec::new();
+            holding(&root, table, "", &mut holders);
+            for holder in holders {
+                let key = format!("{holder}.{name}");
+                let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
+                let set = self.plan.vary.sets(&key)
+                    || class.vary.sets(&key)
+                    || in_class.is_some_and(|(rest, defects)| defects.sets(rest));
+                if !set {
+                    let own = seed(bits(&[self.plan.seed, run as u64, word(&key)]));
+                    seeds.push((key, own.to_string()));
+                }
+            }
+        }
+        Ok(seeds)
+    }
+
+    /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says so.
+    ///
+    /// # Errors
+    /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where there is one.
+    #[expect(clippy::type_complexity, reason = "a failed run has a draw too")]
+    pub fn scenario(
+        &self,
+        base: &str,
+        run: usize,
+    ) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
+        let attempts = match self.plan.out_of_range {
+            OutOfRange::Redraw => MOST_ATTEMPTS,
+            OutOfRange::Refuse | OutOfRange::Fail => 1,
+        };
+        let mut first = None;
+        for attempt in 0..attempts {
+            let draw = self
+                .draw(base, run, attempt)
+                .map_err(|problems| (problems, None))?;
+            match read(base, &draw.settings) {
+                Ok(loaded) => return Ok((loaded, draw)),
+                Err(problems) => {
+                    first.get_or_insert((problems, Some(draw)));
+                }
+            }
+        }
+        Err(first.unwrap_or_default())
+    }
+
+    /// The first draw of a run, whether or not it fits.
+    ///
+    /// # Errors
+    /// Where the base is no TOML, or has no place for what the plan sets.
+    pub fn first(&self, base: &str, run: usize) -> Result<Draw, Vec<Problem>> {
+        self.draw(base, run, 0)
+    }
+}
+
+/// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
+/// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
+fn places(plan: &Plan) -> Vec<(u32, u32)> {
+    let total: f64 = plan.classes.iter().map(|class| class.share).sum();
+    let mut counts = vec![0_u32; plan.classes.len()];
+    (0..plan.runs)
+        .map(|run| {
+            let behind =
+                |c: usize| plan.classes[c].share / total * (run + 1) as f64 - f64::from(counts[c]);
+            let next = (0..counts.len())
+                .fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
+            let place = (next as u32, counts[next]);
+            counts[next] += 1;
+            place
+        })
+        .collect()
+}
+
+/// The parameter of that key, made where there is none yet.
+fn parameter(
+    all: &mut Vec<Parameter>,
+    key: &str,
+    distribution: &Distribution,
+    common: bool,
+) -> usize {
+    let numeric = distribution.is_numeric();
+    if let Some(k) = all.iter().position(|p| p.key == key) {
+        all[k].numeric &= numeric;
+        return k;
+    }
+    all.push(Parameter {
+        key: key.into(),
+        numeric,
+        common,
+    });
+    all.len() - 1
+}
+
+/// Paths of the tables that a pattern names.
+fn holding(node: &Node, pattern: &str, path: &str, all: &mut Vec<String>) {
+    let join = |name: &str| {
+        if path.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{path}.{name}")
+        }
+    };
+    let Some((head, rest)) = pattern
+        .split_once('.')
+        .or((!pattern.is_empty()).then_some((pattern, "")))
+    else {
+        if matches!(node.value, Toml::Table(_)) {
+            all.push(path.to_owned());
+        }
+        return;
+    };
+    match &node.value {
+        Toml::Array(items) if head == "*" => {
+            for (k, item) in items.iter().enumerate() {
+                holding(item, rest, &join(&k.to_string()), all);
+            }
+        }
+        Toml::Table(table) => {
+            if let Some(entry) = table.get(head) {
+                holding(&entry.node, rest, &join(head), all);
+            }
+        }
+        _ => {}
+    }
+}
