@@ -2,6 +2,7 @@
 //! users see. Python's lock is given up while anything is computed.
 
 mod convert;
+mod dataset;
 mod errors;
 mod look_up;
 mod read;
@@ -17,6 +18,8 @@ use pyo3::prelude::*;
 mod _brinell {
     use super::*;
 
+    #[pymodule_export]
+    use dataset::{Campaign, merge, verify};
     #[pymodule_export]
     use look_up::{derived, frequencies, statics};
     #[pymodule_export]
