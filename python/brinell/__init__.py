@@ -21,6 +21,7 @@ Examples
 
 from brinell._brinell import ReadError, RunError, ScenarioError, SignalError, __version__
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
+from brinell.datasets import DataSet, Plan
 from brinell.result import Result
 from brinell.runs import simulate, simulate_many
 from brinell.scenario import Scenario, ScenarioWarning, bearings, schema, template
@@ -45,8 +46,10 @@ from brinell.sweeps import Table, sweep
 
 __all__ = [
     "Analysis",
+    "DataSet",
     "Kurtogram",
     "LoadZone",
+    "Plan",
     "ReadError",
     "Result",
     "RunError",

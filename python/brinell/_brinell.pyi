@@ -10,6 +10,7 @@ _Band = tuple[float, float] | None
 _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
 __all__ = [
+    "Campaign",
     "ReadError",
     "Run",
     "RunError",
@@ -25,6 +26,7 @@ __all__ = [
     "frequencies",
     "indicators",
     "kurtogram",
+    "merge",
     "psd",
     "read_signal",
     "schema",
@@ -34,6 +36,7 @@ __all__ = [
     "statics",
     "sweep",
     "template",
+    "verify",
 ]
 __version__: str
 
@@ -95,6 +98,32 @@ class Run:
     def passes(self) -> list[dict[str, Any]]: ...
     def defects(self) -> list[dict[str, Any]]: ...
 
+@final
+class Campaign:
+    @staticmethod
+    def open(path: str | PathLike[str], check: bool) -> Campaign: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def runs(self) -> int: ...
+    @property
+    def parts(self) -> int: ...
+    @property
+    def identity(self) -> str: ...
+    def runs_of(self, part: int) -> int: ...
+    def columns(self) -> list[tuple[str, str, str]]: ...
+    def run(self, index: int) -> tuple[str, str]: ...
+    def files(self) -> list[str]: ...
+    def make(
+        self,
+        folder: str | PathLike[str],
+        shard: tuple[int, int],
+        jobs: int | None,
+        progress: Callable[[int, int], object] | None,
+    ) -> dict[str, Any]: ...
+
+def merge(folders: Sequence[str | PathLike[str]], into: str | PathLike[str]) -> tuple[int, int, list[int]]: ...
+def verify(folder: str | PathLike[str]) -> tuple[int, int, int, int, list[str]]: ...
 def bearings() -> list[tuple[str, str]]: ...
 def schema() -> str: ...
 def template() -> str: ...

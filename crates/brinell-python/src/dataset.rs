@@ -96,6 +96,11 @@ impl Campaign {
         self.0.parts()
     }
 
+    /// How many runs a file has.
+    fn runs_of(&self, part: usize) -> usize {
+        self.0.runs_of(part).len()
+    }
+
     /// What tells this campaign from others.
     #[getter]
     fn identity(&self) -> &str {
@@ -179,7 +184,7 @@ impl Campaign {
                     // The thread that waits is there as long as this one.
                     let _ = ended.send(went);
                 });
-                let (mut heard, mut told) = (Ok(()), 0);
+                let (mut heard, mut told): (PyResult<()>, usize) = (Ok(()), 0);
                 loop {
                     let went = over.recv_timeout(BEAT);
                     let now = watch.over.load(Ordering::Relaxed);
