@@ -15,9 +15,9 @@ import atexit
 import os
 import shutil
 import tempfile
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -42,9 +42,21 @@ def _parcel(plan: Plan) -> _Parcel:
     return os.path.relpath(paths[0], root).replace(os.sep, "/"), tuple(files.items())
 
 
-@lru_cache(maxsize=2)
+#: The plan that this process was last at, and the lock of threads that come for it.
+_last: tuple[_Parcel, Plan] | None = None
+_coming = threading.Lock()
+
+
 def _unpacked(parcel: _Parcel) -> Plan:
-    """The plan of a parcel, once a process."""
+    """The plan of a parcel, opened once a process."""
+    global _last
+    with _coming:
+        if _last is None or _last[0] != parcel:
+            _last = parcel, _opened(parcel)
+        return _last[1]
+
+
+def _opened(parcel: _Parcel) -> Plan:
     name, files = parcel
     folder = tempfile.mkdtemp(prefix="brinell-plan-")
     # Files of damage are read again for each run.
@@ -145,7 +157,7 @@ def _join(data: DataSet, incoming: Path) -> None:
 
 
 class _Dask:
-    def __init__(self, client: distributed.Client, parcel: _Parcel, retries: int) -> None:
+    def __init__(self, client: Any, parcel: _Parcel, retries: int) -> None:
         library = tables.need("distributed", "dask")
         self.client, self.parcel, self.retries = client, parcel, retries
         self.ready = library.as_completed()
@@ -166,7 +178,8 @@ class _Dask:
 
     def places(self) -> int:
         # Twice what runs at once, so that no worker waits for this process.
-        return max(2, 2 * sum(self.client.nthreads().values()))
+        threads: int = sum(self.client.nthreads().values())
+        return max(2, 2 * threads)
 
 
 def on_dask(
