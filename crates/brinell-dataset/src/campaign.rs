@@ -2,9 +2,8 @@
 
 use crate::columns::{DataColumn, columns};
 use crate::error::DatasetError;
-use crate::run::{Listener, RunListener};
 use brinell::campaign::{digest, fingerprint};
-use brinell::design::{Draw, Draws, Plan, Survey, problem_places};
+use brinell::design::{Draw, Draws, Plan, Survey, place_in_plan};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
@@ -12,7 +11,6 @@ use brinell_io::Column;
 use std::collections::HashSet;
 use std::io::Read;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Largest plan or scenario read, bytes: nobody writes longer ones, and a device file never ends.
@@ -252,7 +250,7 @@ impl Sources {
     /// Problems of a run, said of the plan where that sets what is wrong, and of the base elsewhere.
     fn problems(&self, run: usize, problems: Vec<Problem>) -> DatasetError {
         let plan = &self.plan;
-        let place = |p: &Problem| problem_places(&self.draws, &plan.text, run, p);
+        let place = |p: &Problem| place_in_plan(&self.draws, &plan.text, run, p);
         let is_placed = problems
             .iter()
             .any(|p| p.line.is_none() && place(p).is_some());
@@ -295,25 +293,4 @@ impl Sources {
 fn draws_problem(problem: Problem, text: &str) -> Problem {
     let place = locate(text, &problem.key);
     problem.placed(place)
-}
-
-/// Hears nothing, and lets everything run to its end.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Silent;
-
-/// For those who do not listen.
-pub const NO_LISTENER: Silent = Silent;
-
-impl Listener for Silent {
-    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
-        Box::new(Silent)
-    }
-
-    fn ended(&self, _: usize, _: Option<&str>) {}
-}
-
-impl RunListener for Silent {
-    fn at(&mut self, _: f64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
 }

@@ -41,9 +41,9 @@ impl Folder {
         self.root.join("held_out").join(file_name(part))
     }
 
-    /// What belongs to the labels: plan and base, from which anybody could make them.
+    /// What belongs to the labels: plan and base, from which anybody could make them. Readers of a folder of Parquet pass over names with `_`.
     pub(crate) fn secret(&self) -> PathBuf {
-        self.root.join("held_out").join("plan.json")
+        self.root.join("held_out").join("_plan.json")
     }
 
     pub(crate) fn campaign(&self) -> PathBuf {

@@ -26,9 +26,9 @@ mod sidecar;
 mod truth;
 mod verify;
 
-pub use campaign::{Campaign, NO_LISTENER, Silent};
+pub use campaign::Campaign;
 pub use columns::DataColumn;
 pub use error::DatasetError;
 pub use merge::{Merged, merge};
-pub use run::{Listener, RunListener, Shard, Went, run};
+pub use run::{Listener, RunListener, Shard, Silent, Went, run};
 pub use verify::{Verified, verify};

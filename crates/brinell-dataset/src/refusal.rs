@@ -2,7 +2,7 @@
 
 use crate::campaign::Campaign;
 use crate::error::DatasetError;
-use brinell::design::{Misses, OutOfRange, Survey, problem_places};
+use brinell::design::{Misses, OutOfRange, Survey, place_in_plan};
 
 impl Campaign {
     /// That the plan may be run, by what a survey found.
@@ -34,7 +34,7 @@ impl Campaign {
                     }
                 );
                 // A key that the plan sets is found there; what the base gives has its line there already.
-                let place = problem_places(self.draws(), text, *run, &problem);
+                let place = place_in_plan(self.draws(), text, *run, &problem);
                 (problem.line, problem.column, problem.span) = (None, None, None);
                 problem.placed(place)
             },

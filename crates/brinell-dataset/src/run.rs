@@ -70,6 +70,24 @@ pub trait RunListener {
     fn at(&mut self, t: f64) -> ControlFlow<()>;
 }
 
+/// Hears nothing, and lets everything run to its end.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Silent;
+
+impl Listener for Silent {
+    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
+        Box::new(Silent)
+    }
+
+    fn ended(&self, _: usize, _: Option<&str>) {}
+}
+
+impl RunListener for Silent {
+    fn at(&mut self, _: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
 /// How a shard went.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Went {

@@ -4,7 +4,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use brinell::signal::{Band, Blocks, Decimator, EnvelopeWelch, LineSearch, LineTracker, Welch};
+use brinell::signal::{Band, Blocks, Decimator, LineSearch, StreamSpectra};
 
 struct Counting;
 
@@ -34,9 +34,7 @@ fn prop_pushing_samples_allocates_nothing() {
     let band = Band::above(2000.0);
     let mut decimator = Decimator::new(2);
     let mut blocks = Blocks::new();
-    let mut welch = Welch::new(fs, 1000);
-    let mut envelope = EnvelopeWelch::new(fs, 1024, band);
-    let mut tracker = LineTracker::new(fs, 4096, LineSearch::new(250.0, band));
+    let mut spectra = StreamSpectra::new(fs, 4096, band, &[LineSearch::new(250.0)]);
 
     let before = ALLOCATIONS.load(Ordering::Relaxed);
     let mut last = 0.0;
@@ -49,15 +47,14 @@ fn prop_pushing_samples_allocates_nothing() {
         if i % 853 == 0 {
             blocks.end_block();
         }
-        welch.push(x);
-        envelope.push(x);
-        tracker.push(x);
+        spectra.push(x);
     }
     black_box(last);
     assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
 
     // The count does count, and the work was done.
-    assert!(welch.finish().is_some() && envelope.finish().is_some() && tracker.finish().is_some());
+    let spectra = spectra.finish();
+    assert!(spectra.spectrum.is_some() && spectra.envelope.is_some() && spectra.lines[0].is_some());
     assert!(ALLOCATIONS.load(Ordering::Relaxed) > before);
     assert_eq!(blocks.whole().count(), 400_000);
 }

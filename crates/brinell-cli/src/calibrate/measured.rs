@@ -168,7 +168,7 @@ fn targets(
         if nominal <= 0.0 || nominal >= 0.4 * rate || !enough {
             continue;
         }
-        if let Some(line) = line_frequency(&measured.x, rate, &LineSearch::new(nominal, band)) {
+        if let Some(line) = line_frequency(&measured.x, rate, band, &LineSearch::new(nominal)) {
             targets.push(Target {
                 name: format!("defect{}.frequency", k + 1),
                 value: line.frequency,

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::say::{complain, say, short};
 use crate::sweep::cost::pace;
 use crate::sweep::{duration, plural};
-use brinell::design::{Misses, OutOfRange, Survey, problem_places};
+use brinell::design::{Misses, OutOfRange, Survey, place_in_plan};
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 

@@ -132,8 +132,8 @@ fn lines(
         for n in 1..=HARMONICS {
             let at = frequency * n as f64;
             let envelope = findings.envelope.as_ref().filter(|_| constant && at > 0.0);
-            let peak = envelope.and_then(|(e, band)| {
-                let tolerance = LineSearch::new(frequency, *band).tolerance;
+            let peak = envelope.and_then(|(e, _)| {
+                let tolerance = LineSearch::new(frequency).tolerance;
                 peak_near(&e.spectrum, at, tolerance * at)
             });
             names.push(match n {

@@ -141,7 +141,7 @@ fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) 
 }
 
 /// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not: the base does.
-pub fn problem_places(
+pub fn place_in_plan(
     draws: &Draws,
     plan_text: &str,
     run: usize,

@@ -10,11 +10,10 @@ pub mod time_frequency;
 pub mod waveform;
 
 use crate::channel::Frame;
-use crate::scenario::{Scenario, Speed};
-use crate::signal::spectrum::LONGEST_SEGMENT;
+use crate::scenario::{Defect, Scenario, Speed};
+use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, EnvelopeWelch, LineFrequency, LineSearch, LineTracker,
-    Spectrogram, Spectrum, Welch,
+    Band, Blocks, EnvelopeSpectrum, LineFrequency, LineSearch, Spectrogram, Spectrum, StreamSpectra,
 };
 use crate::simulate::Simulation;
 use load_zone::LoadZone;
@@ -123,9 +122,10 @@ pub struct Watch {
     passes: Passes,
     waveform: Waveform,
     spectrogram: TimeFrequency,
-    spectrum: Welch,
-    envelope: (EnvelopeWelch, Band),
-    trackers: Vec<(DefectLine, Option<LineTracker>)>,
+    spectra: StreamSpectra,
+    band: Band,
+    /// In the order of the searches.
+    lines: Vec<DefectLine>,
 }
 
 /// The envelope's band begins at this many times the highest defect frequency, if that leaves room.
@@ -176,6 +176,9 @@ impl Watch {
         // One segment where the run is short, for resolution; the longest allowed otherwise.
         let expected = (0.75 * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
         let segment = (expected / 2 * 2).max(8);
+        let lines = defect_lines(scenario, simulation);
+        let search = |line: &DefectLine| LineSearch::new(line.nominal);
+        let searches: Vec<LineSearch> = lines.iter().map(search).collect();
         Self {
             sample_rate,
             half_way: 0.5 * duration,
@@ -193,9 +196,9 @@ impl Watch {
             passes: Passes::new(model),
             waveform: Waveform::new(),
             spectrogram: TimeFrequency::new(sample_rate, simulation.samples()),
-            spectrum: Welch::new(sample_rate, segment),
-            envelope: (EnvelopeWelch::new(sample_rate, segment, band), band),
-            trackers: trackers(scenario, simulation, segment, band),
+            spectra: StreamSpectra::new(sample_rate, segment, band, &searches),
+            band,
+            lines,
         }
     }
 
@@ -240,13 +243,7 @@ impl Watch {
             }
             channel.blocks.push(*value);
         }
-        self.spectrum.push(measured);
-        self.envelope.0.push(measured);
-        for (_, tracker) in &mut self.trackers {
-            if let Some(tracker) = tracker {
-                tracker.push(measured);
-            }
-        }
+        self.spectra.push(measured);
     }
 
     /// What came together.
@@ -267,6 +264,10 @@ impl Watch {
                 || !names.contains(&c.name.as_str())
                 || !c.name.starts_with("measured_")
         });
+        let spectra = self.spectra.finish();
+        for (line, found) in self.lines.iter_mut().zip(spectra.lines) {
+            line.found = found;
+        }
         Findings {
             from: self.started.unwrap_or(0.0),
             axis: self.axis,
@@ -279,16 +280,9 @@ impl Watch {
             passes: self.passes,
             waveform: self.waveform,
             spectrogram: self.spectrogram.finish(),
-            spectrum: self.spectrum.finish(),
-            envelope: self.envelope.0.finish().map(|e| (e, self.envelope.1)),
-            lines: self
-                .trackers
-                .into_iter()
-                .map(|(line, tracker)| DefectLine {
-                    found: tracker.and_then(LineTracker::finish),
-                    ..line
-                })
-                .collect(),
+            spectrum: spectra.spectrum,
+            envelope: spectra.envelope.map(|envelope| (envelope, self.band)),
+            lines: self.lines,
         }
     }
 }
@@ -303,37 +297,21 @@ fn whole_turns(angle: f64) -> i64 {
     (angle / TAU).floor() as i64
 }
 
-/// One tracker for each defect, at constant speed; without one where a segment is too short to tell.
-fn trackers(
-    scenario: &Scenario,
-    simulation: &Simulation,
-    segment: usize,
-    band: Band,
-) -> Vec<(DefectLine, Option<LineTracker>)> {
+/// One for each defect, at constant speed; not yet found.
+fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine> {
     let Speed::Constant(_) = scenario.operation.speed_rpm else {
         return Vec::new();
     };
     let model = simulation.model();
     let k = model.kinematics(model.rotation.at(0.0).0);
-    let rate = simulation.sample_rate();
-    scenario
-        .defects
-        .iter()
-        .enumerate()
-        .map(|(defect, d)| {
-            let (name, nominal) = k.struck_by(d.on);
-            let enough = segment as f64 / rate * nominal >= 24.0 && nominal < 0.4 * rate;
-            let tracker =
-                enough.then(|| LineTracker::new(rate, segment, LineSearch::new(nominal, band)));
-            (
-                DefectLine {
-                    defect,
-                    name,
-                    nominal,
-                    found: None,
-                },
-                tracker,
-            )
-        })
-        .collect()
+    let line = |(defect, d): (usize, &Defect)| {
+        let (name, nominal) = k.struck_by(d.on);
+        DefectLine {
+            defect,
+            name,
+            nominal,
+            found: None,
+        }
+    };
+    scenario.defects.iter().enumerate().map(line).collect()
 }

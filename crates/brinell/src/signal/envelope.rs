@@ -10,12 +10,13 @@
 
 use std::sync::Arc;
 
+use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
 
 use super::error::{SignalError, check, require};
 use super::psd::{Detrend, Segments, psd};
-use super::spectrum::{FEWEST_SAMPLES, PowerAverage, Segmenter, Spectrum, hann};
+use super::spectrum::{FEWEST_SAMPLES, Spectrum};
 
 /// A frequency band, Hz; bins on its edges belong to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,9 +51,7 @@ pub fn envelope(x: &[f64], fs: f64, band: Band) -> Option<Vec<f64>> {
     if x.len() < FEWEST_SAMPLES {
         return None;
     }
-    let mut demodulator = Demodulator::new(fs, x.len(), band);
-    demodulator.envelope(x);
-    Some(demodulator.in_phase)
+    Some(demodulated(x, fs, band))
 }
 
 /// An averaged envelope spectrum.
@@ -82,8 +81,7 @@ pub fn envelope_spectrum(
         band.low,
         "0 to below the upper edge and half the sampling rate",
     )?;
-    let mut demodulator = Demodulator::new(fs, x.len(), band);
-    let envelope = demodulator.envelope(x);
+    let mut envelope = demodulated(x, fs, band);
     let mean = envelope.iter().sum::<f64>() / envelope.len() as f64;
     envelope.iter_mut().for_each(|e| *e -= mean);
     let segments = Segments {
@@ -94,88 +92,9 @@ pub fn envelope_spectrum(
         ..*segments
     };
     Ok(EnvelopeSpectrum {
-        spectrum: psd(envelope, fs, &segments)?,
+        spectrum: psd(&envelope, fs, &segments)?,
         mean,
     })
-}
-
-/// Envelope spectrum of a stream: segments overlapping by half, each demodulated by itself, their Hann-windowed
-/// power spectra averaged as in [`Welch`](super::Welch), with the same rules for incomplete segments and short runs.
-///
-/// The mean removed is the window-weighted one, so that bin 0 is zero and its skirt does not hide slow lines.
-pub struct EnvelopeWelch {
-    fs: f64,
-    band: Band,
-    segmenter: Segmenter,
-    average: EnvelopeAverage,
-}
-
-impl EnvelopeWelch {
-    /// For samples at `fs` Hz in segments of `segment_length` samples (even, 8 to 65536).
-    ///
-    /// # Panics
-    /// Where `segment_length` is odd or out of range, or the band does not satisfy 0 <= low < high and low < fs / 2.
-    pub fn new(fs: f64, segment_length: usize, band: Band) -> Self {
-        EnvelopeWelch {
-            fs,
-            band,
-            segmenter: Segmenter::new(segment_length),
-            average: EnvelopeAverage::new(fs, segment_length, band),
-        }
-    }
-
-    /// Takes one sample.
-    pub fn push(&mut self, x: f64) {
-        if let Some(segment) = self.segmenter.push(x) {
-            self.average.add(segment);
-        }
-    }
-
-    /// The spectrum of what was pushed; `None` with fewer than 8 samples.
-    pub fn finish(self) -> Option<EnvelopeSpectrum> {
-        if self.average.power.segments > 0 {
-            return Some(self.average.finish(self.fs));
-        }
-        let rest = self.segmenter.rest();
-        if rest.len() < FEWEST_SAMPLES {
-            return None;
-        }
-        let mut average = EnvelopeAverage::new(self.fs, rest.len(), self.band);
-        average.add(rest);
-        Some(average.finish(self.fs))
-    }
-}
-
-struct EnvelopeAverage {
-    demodulator: Demodulator,
-    window: Vec<f64>,
-    power: PowerAverage,
-    sum_of_means: f64,
-}
-
-impl EnvelopeAverage {
-    fn new(fs: f64, length: usize, band: Band) -> Self {
-        EnvelopeAverage {
-            demodulator: Demodulator::new(fs, length, band),
-            window: hann(length),
-            power: PowerAverage::new(length),
-            sum_of_means: 0.0,
-        }
-    }
-
-    fn add(&mut self, segment: &[f64]) {
-        let envelope = self.demodulator.envelope(segment);
-        self.sum_of_means += remove_weighted_mean(envelope, &self.window);
-        self.power.add(envelope);
-    }
-
-    fn finish(self, fs: f64) -> EnvelopeSpectrum {
-        let mean = self.sum_of_means / self.power.segments as f64;
-        EnvelopeSpectrum {
-            spectrum: self.power.finish(fs),
-            mean,
-        }
-    }
 }
 
 /// Subtracts the window-weighted mean, and gives it.
@@ -186,18 +105,15 @@ pub(super) fn remove_weighted_mean(x: &mut [f64], window: &[f64]) -> f64 {
     mean
 }
 
-/// Band-pass and Hilbert transform of segments of one length.
+/// Band-pass and Hilbert transform of segments of one length: from their transform to their envelope.
 pub(super) struct Demodulator {
     /// First bin of the band and the one after its last.
     bins: (usize, usize),
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
-    forward_scratch: Vec<Complex<f64>>,
-    inverse_scratch: Vec<Complex<f64>>,
-    spectrum: Vec<Complex<f64>>,
-    work: Vec<Complex<f64>>,
-    in_phase: Vec<f64>,
-    quadrature: Vec<f64>,
+    /// Backward.
+    pub(super) fft: Arc<dyn Fft<f64>>,
+    /// A value a sample; between calls, room for whoever needs some.
+    pub(super) values: Vec<Complex<f64>>,
+    pub(super) scratch: Vec<Complex<f64>>,
 }
 
 impl Demodulator {
@@ -208,9 +124,7 @@ impl Demodulator {
             band.low,
             band.high
         );
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(length);
-        let inverse = planner.plan_fft_inverse(length);
+        let fft = FftPlanner::new().plan_fft_inverse(length);
         // Zero frequency and half the sampling rate have no quadrature: they never belong to the band.
         let most = length.div_ceil(2);
         let step = fs / length as f64;
@@ -220,73 +134,46 @@ impl Demodulator {
             .clamp(first, most);
         Demodulator {
             bins: (first, end),
-            forward_scratch: forward.make_scratch_vec(),
-            inverse_scratch: inverse.make_scratch_vec(),
-            spectrum: forward.make_output_vec(),
-            work: forward.make_output_vec(),
-            in_phase: vec![0.0; length],
-            quadrature: vec![0.0; length],
-            forward,
-            inverse,
+            values: vec![Complex::ZERO; length],
+            scratch: vec![Complex::ZERO; fft.get_inplace_scratch_len()],
+            fft,
         }
     }
 
-    /// The envelope of a segment.
-    pub(super) fn envelope(&mut self, segment: &[f64]) -> &mut [f64] {
-        const MADE: &str = "buffers were made by the plan";
-        self.in_phase.copy_from_slice(segment);
-        self.forward
-            .process_with_scratch(
-                &mut self.in_phase,
-                &mut self.spectrum,
-                &mut self.forward_scratch,
-            )
-            .expect(MADE);
-        let scale = 1.0 / segment.len() as f64;
+    /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's positive frequencies
+    /// twice and nothing else.
+    pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
+        let twice = 2.0 / envelope.len() as f64;
         let (first, end) = self.bins;
-        let zero = Complex::new(0.0, 0.0);
-
-        self.work.fill(zero);
-        for (work, value) in self.work[first..end]
-            .iter_mut()
-            .zip(&self.spectrum[first..end])
-        {
-            *work = value * scale;
+        self.values.fill(Complex::ZERO);
+        let band = self.values[first..end].iter_mut();
+        for (value, bin) in band.zip(&transform[first..end]) {
+            *value = bin * twice;
         }
-        self.inverse
-            .process_with_scratch(
-                &mut self.work,
-                &mut self.in_phase,
-                &mut self.inverse_scratch,
-            )
-            .expect(MADE);
-
-        self.work.fill(zero);
-        for (work, value) in self.work[first..end]
-            .iter_mut()
-            .zip(&self.spectrum[first..end])
-        {
-            *work = Complex::new(value.im, -value.re) * scale;
+        self.fft
+            .process_with_scratch(&mut self.values, &mut self.scratch);
+        for (e, value) in envelope.iter_mut().zip(&self.values) {
+            *e = value.re.hypot(value.im);
         }
-        self.inverse
-            .process_with_scratch(
-                &mut self.work,
-                &mut self.quadrature,
-                &mut self.inverse_scratch,
-            )
-            .expect(MADE);
-
-        for (x, y) in self.in_phase.iter_mut().zip(&self.quadrature) {
-            *x = x.hypot(*y);
-        }
-        &mut self.in_phase
     }
+}
+
+/// The envelope of a whole signal.
+pub(super) fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
+    let mut demodulator = Demodulator::new(fs, x.len(), band);
+    let fft = RealFftPlanner::new().plan_fft_forward(x.len());
+    let (mut envelope, mut transform) = (x.to_vec(), fft.make_output_vec());
+    fft.process(&mut envelope, &mut transform)
+        .expect("buffers were made by the plan");
+    demodulator.envelope(&transform, &mut envelope);
+    envelope
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::StreamSpectra;
     use super::super::spectrum::peak_near;
     use super::super::test_signals::{ImpactTrain, cosine, integer_sequence};
     use super::*;
@@ -294,9 +181,8 @@ mod tests {
     const FS: f64 = 25_600.0;
 
     fn envelope_spectrum(x: &[f64], length: usize, band: Band) -> EnvelopeSpectrum {
-        let mut welch = EnvelopeWelch::new(FS, length, band);
-        x.iter().for_each(|&v| welch.push(v));
-        welch.finish().unwrap()
+        let spectra = StreamSpectra::of(x, FS, length, band, &[]);
+        spectra.envelope.unwrap()
     }
 
     /// 2 (1 + depth cos 2 pi f t) cos 2 pi 6000.3 t.
@@ -440,6 +326,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "band from 13000 to inf Hz")]
     fn prop_band_above_half_the_rate_is_refused() {
-        EnvelopeWelch::new(FS, 1024, Band::above(13_000.0));
+        StreamSpectra::new(FS, 1024, Band::above(13_000.0), &[]);
     }
 }

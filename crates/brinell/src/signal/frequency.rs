@@ -23,16 +23,15 @@
 //! window and white noise the formula is the Cramer-Rao bound 24 sigma^2 / (A^2 n^3).
 
 use std::f64::consts::{LN_2, TAU};
-use std::sync::Arc;
 
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 
-use super::envelope::{Band, Demodulator, remove_weighted_mean};
+use super::envelope::{Band, Demodulator};
 use super::indicators::Moments;
-use super::spectrum::{FEWEST_SAMPLES, Segmenter, hann};
+use super::spectrum::FEWEST_SAMPLES;
+use super::stream::SegmentSpectra;
 
-/// Points of the padded spectrum for each bin of the segment, at least.
+/// Points of the padded spectrum for each bin of the segment; even.
 const PADDING: usize = 8;
 /// Half-width of the band around a harmonic from which its noise is taken, in bins of the segment; in short records
 /// less, so as to stay clear of the next harmonic.
@@ -41,6 +40,8 @@ const NOISE_BINS: usize = 48;
 const LINE_BINS: usize = 3;
 /// Shortest record, in periods of the nominal frequency: below it too little is left between the lines of a comb.
 const FEWEST_PERIODS: f64 = 24.0;
+/// Highest nominal frequency, as a share of the sampling rate.
+const HIGHEST_NOMINAL: f64 = 0.4;
 /// Lowest noise that a line is weighed against, as a share of the strongest power: the round-off and leakage that a
 /// noiseless signal still has.
 const NOISE_FLOOR: f64 = 1e-9;
@@ -61,19 +62,22 @@ pub struct LineSearch {
     pub tolerance: f64,
     /// Harmonics of the comb, the fundamental included; those above half the sampling rate are left out.
     pub harmonics: usize,
-    /// Band whose envelope is taken, Hz: one that holds the resonances the impacts ring.
-    pub band: Band,
 }
 
 impl LineSearch {
-    /// A comb of eight harmonics within 2 % of `nominal` (Hz) in the envelope of a band.
-    pub fn new(nominal: f64, band: Band) -> Self {
+    /// A comb of eight harmonics within 2 % of `nominal` (Hz).
+    pub fn new(nominal: f64) -> Self {
         LineSearch {
             nominal,
             tolerance: 0.02,
             harmonics: 8,
-            band,
         }
+    }
+
+    /// Whether so many samples at `fs` Hz hold what the search needs: 24 periods of the nominal frequency, and that below 0.4 `fs`.
+    pub fn fits(&self, samples: usize, fs: f64) -> bool {
+        let fewest = (FEWEST_PERIODS * fs / self.nominal).max(FEWEST_SAMPLES as f64);
+        samples as f64 >= fewest && self.nominal < HIGHEST_NOMINAL * fs
     }
 }
 
@@ -96,80 +100,52 @@ pub struct LineFrequency {
     pub segments: usize,
 }
 
-/// The repetition frequency in a whole signal sampled at `fs` Hz, taken as one segment; `None` where the signal lasts
-/// fewer than 24 periods of the nominal frequency, or no comb inside the range stands clear of the noise (chance
-/// below 1e-4). Holds the signal's padded transform in memory; for a long run use [`LineTracker`].
+/// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz, is to hold the
+/// resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal frequency, or no comb inside the
+/// range stands clear of the noise (chance below 1e-4). For a long run use [`StreamSpectra`](super::StreamSpectra).
 ///
 /// # Panics
 /// Where the search is out of range (see [`LineSearch`] and [`Band`]).
-pub fn line_frequency(x: &[f64], fs: f64, search: &LineSearch) -> Option<LineFrequency> {
-    if (x.len() as f64) < (FEWEST_PERIODS * fs / search.nominal).max(FEWEST_SAMPLES as f64) {
-        return None;
-    }
-    Comb::new(fs, x.len(), search).estimate(x)
+pub fn line_frequency(
+    x: &[f64],
+    fs: f64,
+    band: Band,
+    search: &LineSearch,
+) -> Option<LineFrequency> {
+    search.fits(x.len(), fs).then(|| {
+        let mut spectra = SegmentSpectra::new(fs, x.len(), band, &[*search]);
+        spectra.add(x);
+        spectra.finish().lines[0]
+    })?
 }
 
-/// The repetition frequency of a stream: segments overlapping by half, each estimated by itself, then averaged.
+/// The mean of estimates from segments that overlap by half.
 ///
-/// Segments in which no comb stands clear are passed over; an incomplete last segment is dropped, but a run shorter
-/// than one segment is taken whole.
-pub struct LineTracker {
-    fs: f64,
-    search: LineSearch,
-    segmenter: Segmenter,
-    comb: Comb,
-    whole_segments: u64,
+/// The uncertainty counts two overlapping segments as one, which is on the safe side, and never falls below a
+/// thousandth of a bin: the interpolation's error is the same in every segment of a steady signal.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LineAverage {
     frequencies: Moments,
     sum_of_variances: f64,
     worst_false_alarm: f64,
+    latest: Option<LineFrequency>,
 }
 
-impl LineTracker {
-    /// For samples at `fs` Hz in segments of `segment_length` samples (even, 8 to 65536).
-    ///
-    /// # Panics
-    /// Where the segment or the search is out of range, or a segment lasts fewer than 24 nominal periods.
-    pub fn new(fs: f64, segment_length: usize, search: LineSearch) -> Self {
-        let periods = segment_length as f64 / fs * search.nominal;
-        assert!(
-            periods >= FEWEST_PERIODS,
-            "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}"
-        );
-        LineTracker {
-            fs,
-            search,
-            segmenter: Segmenter::new(segment_length),
-            comb: Comb::new(fs, segment_length, &search),
-            whole_segments: 0,
-            frequencies: Moments::new(),
-            sum_of_variances: 0.0,
-            worst_false_alarm: 0.0,
-        }
+impl LineAverage {
+    pub(super) fn add(&mut self, found: Option<LineFrequency>) {
+        let Some(found) = found else { return };
+        self.frequencies.push(found.frequency);
+        self.sum_of_variances += found.uncertainty * found.uncertainty;
+        self.worst_false_alarm = self.worst_false_alarm.max(found.false_alarm);
+        self.latest = Some(found);
     }
 
-    /// Takes one sample.
-    pub fn push(&mut self, x: f64) {
-        if let Some(segment) = self.segmenter.push(x) {
-            self.whole_segments += 1;
-            if let Some(found) = self.comb.estimate(segment) {
-                self.frequencies.push(found.frequency);
-                self.sum_of_variances += found.uncertainty * found.uncertainty;
-                self.worst_false_alarm = self.worst_false_alarm.max(found.false_alarm);
-            }
-        }
-    }
-
-    /// The mean frequency of what was pushed; `None` where no segment showed the line.
-    ///
-    /// The uncertainty counts two overlapping segments as one, which is on the safe side, and never falls below a
-    /// thousandth of a bin: the interpolation's error is the same in every segment of a steady signal.
-    pub fn finish(self) -> Option<LineFrequency> {
-        if self.whole_segments == 0 {
-            return line_frequency(self.segmenter.rest(), self.fs, &self.search);
-        }
+    /// `None` where no segment showed the line.
+    pub(super) fn finish(&self) -> Option<LineFrequency> {
+        let latest = self.latest?;
         let count = self.frequencies.count();
-        if count == 0 {
-            return None;
+        if count == 1 {
+            return Some(latest);
         }
         let n = count as f64;
         let variance = if count >= 3 {
@@ -181,29 +157,93 @@ impl LineTracker {
             frequency: self.frequencies.mean(),
             uncertainty: (variance / (0.5 * (n + 1.0)))
                 .sqrt()
-                .hypot(INTERPOLATION_ERROR * 0.5 * self.comb.resolution()),
-            resolution: self.comb.resolution(),
-            harmonics: self.comb.noise.len(),
+                .hypot(INTERPOLATION_ERROR * 0.5 * latest.resolution),
             false_alarm: self.worst_false_alarm,
             segments: count as usize,
+            ..latest
         })
     }
 }
 
-/// The estimate for segments of one length.
-struct Comb {
+/// Transforms of the windowed, mean-free envelope of segments of one length, interpolated by zero padding, below a highest frequency.
+pub(super) struct Padded {
     fs: f64,
+    length: usize,
+    /// E: padded bin m stands for frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so that it is smooth.
+    values: Vec<Complex<f64>>,
+}
+
+impl Padded {
+    /// For whatever the combs look at.
+    pub(super) fn new(fs: f64, length: usize, combs: &[Comb]) -> Self {
+        let highest = combs.iter().map(Comb::highest).fold(0.0, f64::max);
+        // The cubic takes a point below and two above.
+        let count = (highest / fs * (PADDING * length) as f64) as usize + 4;
+        Padded {
+            fs,
+            length,
+            values: vec![Complex::ZERO; count.min(PADDING * length / 2 + 1)],
+        }
+    }
+
+    /// Of an envelope less its mean, `window` not yet applied. The transform padded to PADDING times the length is that of the values turned
+    /// by r / PADDING of a bin, r = 0, 1, ..., bin by bin; as they are real, the turn by r has that by -r in its negative frequencies. The
+    /// demodulator lends its backward plan, which gives the complex conjugate.
+    pub(super) fn transform(&mut self, envelope: &[f64], window: &[f64], room: &mut Demodulator) {
+        let n = self.length;
+        let turn = TAU / (PADDING * n) as f64;
+        for r in 0..=PADDING / 2 {
+            for (t, (value, (e, w))) in (room.values.iter_mut())
+                .zip(envelope.iter().zip(window))
+                .enumerate()
+            {
+                let (sin, cos) = (turn * (r * t) as f64).sin_cos();
+                *value = Complex::new(e * w * cos, e * w * sin);
+            }
+            room.fft
+                .process_with_scratch(&mut room.values, &mut room.scratch);
+            for k in 0..=n / 2 {
+                let above = PADDING * k + r;
+                if let Some(place) = self.values.get_mut(above) {
+                    *place = room.values[k].conj();
+                }
+                if k > 0
+                    && r > 0
+                    && let Some(place) = self.values.get_mut(PADDING * k - r)
+                {
+                    *place = room.values[n - k];
+                }
+            }
+        }
+        let half = (n / 2) as u64;
+        let period = (PADDING * n) as u64;
+        for (m, value) in self.values.iter_mut().enumerate() {
+            let (sin, cos) = (turn * (m as u64 * half % period) as f64).sin_cos();
+            *value *= Complex::new(cos, sin);
+        }
+    }
+
+    /// E at a frequency, by the cubic through the four points around it.
+    fn at(&self, f: f64) -> Complex<f64> {
+        let position = f / self.fs * (PADDING * self.length) as f64;
+        let at = (position as usize).clamp(1, self.values.len() - 3);
+        let t = position - at as f64;
+        let e = &self.values[at - 1..at + 3];
+        e[0] * (-t * (t - 1.0) * (t - 2.0) / 6.0) + e[1] * ((t * t - 1.0) * (t - 2.0) / 2.0)
+            - e[2] * (t * (t + 1.0) * (t - 2.0) / 2.0)
+            + e[3] * (t * (t * t - 1.0) / 6.0)
+    }
+}
+
+/// The estimate for segments of one length.
+pub(super) struct Comb {
+    fs: f64,
+    length: usize,
     search: LineSearch,
-    demodulator: Demodulator,
-    window: Vec<f64>,
     /// W0 / W2 (V / W1)^(1/2), in Hz: the factor between noise and uncertainty.
     spread: f64,
     /// Offsets from a harmonic, in bins of the segment, where its noise is looked for: to this one.
     farthest: usize,
-    fft: Arc<dyn RealToComplex<f64>>,
-    input: Vec<f64>,
-    output: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
     /// N_h of each harmonic.
     noise: Vec<f64>,
     /// Room for medians.
@@ -211,7 +251,8 @@ struct Comb {
 }
 
 impl Comb {
-    fn new(fs: f64, length: usize, search: &LineSearch) -> Self {
+    pub(super) fn new(fs: f64, window: &[f64], search: &LineSearch) -> Self {
+        let length = window.len();
         assert!(
             search.nominal > 0.0 && search.nominal.is_finite(),
             "nominal frequency {} Hz is not positive",
@@ -222,6 +263,11 @@ impl Comb {
             "tolerance {} is not above 0 and at most 0.3",
             search.tolerance
         );
+        let periods = length as f64 * search.nominal / fs;
+        assert!(
+            search.fits(length, fs),
+            "a segment lasts {periods} nominal periods, fewer than {FEWEST_PERIODS}"
+        );
         let highest = (0.5 * fs / (search.nominal * (1.0 + search.tolerance))).ceil() as usize;
         let harmonics = search.harmonics.min(highest.saturating_sub(1));
         assert!(
@@ -230,8 +276,6 @@ impl Comb {
             search.nominal
         );
 
-        let periods = length as f64 * search.nominal / fs;
-        let window = hann(length);
         let (mut w0, mut w1, mut w2, mut v) = (0.0, 0.0, 0.0, 0.0);
         for (i, w) in window.iter().enumerate() {
             // The periodic Hann window is symmetric about length / 2.
@@ -241,33 +285,37 @@ impl Comb {
             w2 += n * n * w;
             v += n * n * w * w;
         }
-        let fft = RealFftPlanner::new().plan_fft_forward((PADDING * length).next_power_of_two());
         Comb {
             fs,
+            length,
             search: *search,
-            demodulator: Demodulator::new(fs, length, search.band),
-            window,
             spread: fs / TAU * w0 / w2 * (v / w1).sqrt(),
             farthest: NOISE_BINS.min((0.5 * periods) as usize - LINE_BINS),
-            input: fft.make_input_vec(),
-            output: fft.make_output_vec(),
-            scratch: fft.make_scratch_vec(),
             noise: vec![0.0; harmonics],
             values: Vec::with_capacity(2 * NOISE_BINS + 1),
-            fft,
         }
     }
 
-    fn resolution(&self) -> f64 {
-        2.0 * self.fs / self.window.len() as f64
+    /// Distance between bins of a segment, Hz.
+    fn bin(&self) -> f64 {
+        self.fs / self.length as f64
     }
 
-    fn estimate(&mut self, x: &[f64]) -> Option<LineFrequency> {
-        self.transform(x);
-        self.measure_noise();
+    /// Highest frequency that it looks at, Hz.
+    fn highest(&self) -> f64 {
+        let harmonic = self.noise.len() as f64 * self.search.nominal;
+        harmonic * (1.0 + self.search.tolerance) + self.farthest as f64 * self.bin()
+    }
+
+    fn resolution(&self) -> f64 {
+        2.0 * self.bin()
+    }
+
+    pub(super) fn estimate(&mut self, e: &Padded) -> Option<LineFrequency> {
+        self.measure_noise(e);
 
         let harmonics = self.noise.len() as f64;
-        let bin = self.fs / self.window.len() as f64;
+        let bin = self.bin();
         let half_range = self.search.tolerance * self.search.nominal;
         let half_steps = (half_range * harmonics * PADDING as f64 / bin)
             .ceil()
@@ -275,7 +323,7 @@ impl Comb {
         let step = half_range / half_steps;
         let start = self.search.nominal - half_range;
         let steps = 2 * half_steps as usize;
-        let comb = |i: usize| self.height(start + step * i as f64);
+        let comb = |i: usize| self.height(e, start + step * i as f64);
 
         let (mut top, mut highest) = (0, comb(0));
         for i in 1..=steps {
@@ -296,7 +344,7 @@ impl Comb {
         if false_alarm > FALSE_ALARM_LIMIT {
             return None;
         }
-        let uncertainty = self.uncertainty(frequency);
+        let uncertainty = self.uncertainty(e, frequency);
         Some(LineFrequency {
             frequency,
             uncertainty,
@@ -307,60 +355,38 @@ impl Comb {
         })
     }
 
-    /// E: transform of the windowed envelope, padded with zeros, with its middle at time zero so that it is smooth.
-    fn transform(&mut self, x: &[f64]) {
-        let envelope = self.demodulator.envelope(x);
-        remove_weighted_mean(envelope, &self.window);
-        self.input.fill(0.0);
-        let half = self.window.len() / 2;
-        for (i, (e, w)) in envelope.iter().zip(&self.window).enumerate() {
-            let at = if i < half {
-                self.input.len() + i - half
-            } else {
-                i - half
-            };
-            self.input[at] = e * w;
-        }
-        self.fft
-            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
-            .expect("buffers were made by the plan");
-    }
-
     /// N_h: the median power around a harmonic, over ln 2 (exponentially distributed powers). The median passes over
     /// the line itself and its sidebands.
-    fn measure_noise(&mut self) {
-        let bin = self.fft.len() as f64 / self.window.len() as f64;
-        let strongest = self
-            .output
-            .iter()
-            .fold(0.0, |m: f64, e| m.max(e.norm_sqr()));
+    fn measure_noise(&mut self, e: &Padded) {
+        let powers = e.values.iter().map(|e| e.norm_sqr());
+        let strongest = powers.fold(0.0, f64::max);
+        let points = (PADDING * self.length) as f64;
         for (h, noise) in self.noise.iter_mut().enumerate() {
-            let center = (h + 1) as f64 * self.search.nominal / self.fs * self.fft.len() as f64;
+            let center = (h + 1) as f64 * self.search.nominal / self.fs * points;
             let reach = self.farthest as isize;
             self.values.clear();
             for offset in -reach..=reach {
-                let at = (center + offset as f64 * bin) as usize;
-                self.values
-                    .extend(self.output.get(at).map(|e| e.norm_sqr()));
+                let at = (center + (offset * PADDING as isize) as f64) as usize;
+                self.values.extend(e.values.get(at).map(|e| e.norm_sqr()));
             }
             *noise = (median(&mut self.values) / LN_2).max(NOISE_FLOOR * strongest);
         }
     }
 
     /// J(f).
-    fn height(&self, f: f64) -> f64 {
+    fn height(&self, e: &Padded, f: f64) -> f64 {
         (self.noise.iter().enumerate())
-            .map(|(h, noise)| self.value_at((h + 1) as f64 * f).norm_sqr() / noise)
+            .map(|(h, noise)| e.at((h + 1) as f64 * f).norm_sqr() / noise)
             .sum()
     }
 
     /// Standard uncertainty of a maximum of J, Hz (see the module).
-    fn uncertainty(&mut self, f: f64) -> f64 {
-        let bin = self.fs / self.window.len() as f64;
+    fn uncertainty(&mut self, e: &Padded, f: f64) -> f64 {
+        let bin = self.bin();
         let (mut information, mut highest_order) = (0.0, 1.0);
         for (h, noise) in self.noise.iter().enumerate() {
             let order = (h + 1) as f64;
-            let ratio = self.value_at(order * f).norm_sqr() / noise;
+            let ratio = e.at(order * f).norm_sqr() / noise;
             if ratio > 2.0 {
                 highest_order = order;
             }
@@ -373,9 +399,9 @@ impl Comb {
             let mut quadrature = Complex::new(0.0, 0.0);
             for (h, noise) in self.noise.iter().enumerate() {
                 let order = (h + 1) as f64;
-                let line = self.value_at(order * f);
-                let above = line.conj() * self.value_at(order * f + offset);
-                let below = line * self.value_at(order * f - offset).conj();
+                let line = e.at(order * f);
+                let above = line.conj() * e.at(order * f + offset);
+                let below = line * e.at(order * f - offset).conj();
                 quadrature += (above - below) * (0.5 * order / noise);
             }
             values.push(quadrature.norm_sqr());
@@ -383,17 +409,6 @@ impl Comb {
         let noise = (median(&mut values) / LN_2).sqrt();
         self.values = values;
         (self.spread * noise / information).hypot(INTERPOLATION_ERROR * bin / highest_order)
-    }
-
-    /// E at a frequency, by the cubic through the four points around it.
-    fn value_at(&self, f: f64) -> Complex<f64> {
-        let position = f / self.fs * self.fft.len() as f64;
-        let at = (position as usize).clamp(1, self.output.len() - 3);
-        let t = position - at as f64;
-        let e = &self.output[at - 1..at + 3];
-        e[0] * (-t * (t - 1.0) * (t - 2.0) / 6.0) + e[1] * ((t * t - 1.0) * (t - 2.0) / 2.0)
-            - e[2] * (t * (t + 1.0) * (t - 2.0) / 2.0)
-            + e[3] * (t * (t * t - 1.0) / 6.0)
     }
 }
 
@@ -416,6 +431,7 @@ fn gamma_tail(count: usize, s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::StreamSpectra;
     use super::super::test_signals::{ImpactTrain, Noise, cosine};
     use super::*;
 
@@ -433,15 +449,29 @@ mod tests {
         }
     }
 
+    const BAND: Band = Band {
+        low: 2000.0,
+        high: f64::INFINITY,
+    };
+
     fn search() -> LineSearch {
-        LineSearch::new(250.102, Band::above(2000.0))
+        LineSearch::new(250.102)
+    }
+
+    fn tracked(x: &[f64], length: usize) -> Option<LineFrequency> {
+        StreamSpectra::of(x, FS, length, BAND, &[search()]).lines[0]
     }
 
     #[test]
     fn analytic_clean_train() {
         for rate in [246.31, 249.6, 250.102, 254.7] {
-            let found =
-                line_frequency(&train(rate, 0.0, 0.0).generate(12_800, 1), FS, &search()).unwrap();
+            let found = line_frequency(
+                &train(rate, 0.0, 0.0).generate(12_800, 1),
+                FS,
+                BAND,
+                &search(),
+            )
+            .unwrap();
             assert!((found.frequency - rate).abs() < 5e-3, "{rate}: {found:?}");
             assert_eq!((found.harmonics, found.resolution), (8, 4.0));
         }
@@ -454,7 +484,7 @@ mod tests {
         for (i, rate) in [248.0, 249.6, 250.39, 252.0].into_iter().enumerate() {
             for seed in 0..25 {
                 let x = train(rate, 0.01, 0.1).generate(12_800, 100 * i as u64 + seed);
-                let found = line_frequency(&x, FS, &search()).unwrap();
+                let found = line_frequency(&x, FS, BAND, &search()).unwrap();
                 worst = worst.max((found.frequency / rate - 1.0).abs());
             }
         }
@@ -467,7 +497,7 @@ mod tests {
             let (mut scores, trials) = (Moments::new(), 300);
             for seed in 0..trials {
                 let x = train(249.6, jitter, noise).generate(12_800, 7000 + seed);
-                let found = line_frequency(&x, FS, &search()).unwrap();
+                let found = line_frequency(&x, FS, BAND, &search()).unwrap();
                 scores.push((found.frequency - 249.6) / found.uncertainty);
             }
             let rms = scores.rms();
@@ -482,7 +512,8 @@ mod tests {
     fn analytic_variance_of_one_line_follows_the_formula() {
         // One harmonic of an amplitude-modulated carrier in white noise.
         let (n, trials) = (6400, 300);
-        let mut one = LineSearch::new(250.0, Band::between(5000.0, 7000.0));
+        let band = Band::between(5000.0, 7000.0);
+        let mut one = LineSearch::new(250.0);
         one.harmonics = 1;
         let mut noise = Noise::new(21);
         let carrier = cosine(n, FS, 6000.0, 1.0, 0.0);
@@ -492,7 +523,7 @@ mod tests {
             let x: Vec<f64> = (0..n)
                 .map(|i| carrier[i] * (1.0 + modulation[i]) + 0.5 * noise.normal())
                 .collect();
-            let found = line_frequency(&x, FS, &one).unwrap();
+            let found = line_frequency(&x, FS, band, &one).unwrap();
             errors.push(found.frequency - 250.0);
             predicted.push(found.uncertainty);
         }
@@ -505,7 +536,7 @@ mod tests {
         let mut alarms = 0;
         for seed in 0..600 {
             let x = Noise::new(9000 + seed).normals(12_800);
-            alarms += u32::from(line_frequency(&x, FS, &search()).is_some());
+            alarms += u32::from(line_frequency(&x, FS, BAND, &search()).is_some());
         }
         assert!(alarms <= 1, "{alarms} of 600");
     }
@@ -514,29 +545,38 @@ mod tests {
     fn prop_line_outside_the_range_is_not_found_at_its_edge() {
         let mut narrow = search();
         narrow.tolerance = 0.004;
-        let found = line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, &narrow);
+        let found = line_frequency(
+            &train(252.5, 0.0, 0.05).generate(12_800, 3),
+            FS,
+            BAND,
+            &narrow,
+        );
         assert_eq!(found, None);
         narrow.tolerance = 0.012;
         assert!(
-            line_frequency(&train(252.5, 0.0, 0.05).generate(12_800, 3), FS, &narrow).is_some()
+            line_frequency(
+                &train(252.5, 0.0, 0.05).generate(12_800, 3),
+                FS,
+                BAND,
+                &narrow
+            )
+            .is_some()
         );
     }
 
     #[test]
     fn prop_too_short_a_record_is_refused() {
         let x = train(250.0, 0.0, 0.0).generate(2457, 1);
-        assert_eq!(line_frequency(&x[..2456], FS, &search()), None);
-        assert!(line_frequency(&x, FS, &search()).is_some());
-        assert_eq!(line_frequency(&[], FS, &search()), None);
+        assert_eq!(line_frequency(&x[..2456], FS, BAND, &search()), None);
+        assert!(line_frequency(&x, FS, BAND, &search()).is_some());
+        assert_eq!(line_frequency(&[], FS, BAND, &search()), None);
     }
 
     #[test]
     fn analytic_tracker_averages_a_long_run() {
         let rate = 249.6;
         let x = train(rate, 0.01, 0.3).generate(256_000, 5);
-        let mut tracker = LineTracker::new(FS, 16_384, search());
-        x.iter().for_each(|&v| tracker.push(v));
-        let found = tracker.finish().unwrap();
+        let found = tracked(&x, 16_384).unwrap();
         assert_eq!(found.segments, 30);
         assert!(found.uncertainty < 0.03, "{found:?}");
         assert!(
@@ -548,11 +588,9 @@ mod tests {
     #[test]
     fn analytic_tracker_owns_its_interpolation_error() {
         // Exactly periodic: all segments agree to round-off, so their scatter says nothing.
-        let mut tracker = LineTracker::new(FS, 16_384, search());
-        for i in 0..131_072 {
-            tracker.push((-0.05 * f64::from(i % 103)).exp() * f64::from(i % 103 % 7));
-        }
-        let found = tracker.finish().unwrap();
+        let one = |i| (-0.05 * f64::from(i % 103)).exp() * f64::from(i % 103 % 7);
+        let x: Vec<f64> = (0..131_072).map(one).collect();
+        let found = tracked(&x, 16_384).unwrap();
         let error = (found.frequency - FS / 103.0).abs();
         assert!(
             found.uncertainty < 2e-3 && error < found.uncertainty,
@@ -563,11 +601,9 @@ mod tests {
     #[test]
     fn prop_tracker_takes_a_short_run_whole() {
         let x = train(249.6, 0.01, 0.1).generate(12_801, 5);
-        let mut tracker = LineTracker::new(FS, 65_536, search());
-        x.iter().for_each(|&v| tracker.push(v));
-        let found = tracker.finish();
+        let found = tracked(&x, 65_536);
         assert!(found.is_some());
-        assert_eq!(found, line_frequency(&x, FS, &search()));
+        assert_eq!(found, line_frequency(&x, FS, BAND, &search()));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Signals: what a data logger would hold, and what an analyst reads off it.
 //!
 //! Following a run, sample by sample: [`mod@decimate`] is the anti-alias chain of the measured channels, [`indicators`]
-//! the condition indicators with their scatter, [`mod@ratio`] how those of two runs compare, [`spectrum`] amplitude spectra and power spectral densities,
-//! [`mod@envelope`] the envelope spectrum, and [`frequency`] the precise repetition frequency of a train of impacts.
+//! the condition indicators with their scatter, [`mod@ratio`] how those of two runs compare, and [`stream`] the spectra: [`spectrum`] amplitudes and
+//! power spectral densities, [`mod@envelope`] the envelope's, and [`frequency`] the precise repetition frequency of a train of impacts.
 //! These hold a bounded amount of memory, however long the run is; nothing is allocated per sample.
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
@@ -34,6 +34,7 @@ pub mod psd;
 pub mod ratio;
 pub mod spectrogram;
 pub mod spectrum;
+pub mod stream;
 pub mod velocity_bands;
 pub mod whiten;
 pub mod window;
@@ -48,11 +49,11 @@ pub use diagnosis::{
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
-pub use envelope::{Band, EnvelopeSpectrum, EnvelopeWelch, envelope, envelope_spectrum};
+pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband};
 pub use fir::{convolve, fir};
-pub use frequency::{LineFrequency, LineSearch, LineTracker, line_frequency};
+pub use frequency::{LineFrequency, LineSearch, line_frequency};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
 pub use integrate::{velocity, velocity_trapezoid};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
@@ -60,7 +61,8 @@ pub use lines::{Line, LineSet, harmonics, sidebands};
 pub use order::{Angular, Rotation, order_spectrum, resample};
 pub use psd::{Detrend, Segments, density_interval, psd};
 pub use spectrogram::{Spectrogram, spectrogram};
-pub use spectrum::{Peak, Spectrum, Welch, amplitude_spectrum, peak_near};
+pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
+pub use stream::{Spectra, StreamSpectra};
 pub use velocity_bands::{VelocityBands, velocity_bands};
 pub use whiten::whitened;
 pub use window::Window;

@@ -1,11 +1,11 @@
 //! Spectra of a slice by Welch's method, with any window, overlap and detrending.
 //!
 //! The scaling is that of [`spectrum`](super::spectrum): amplitudes are peak values of a sine at the bin, densities
-//! unit^2/Hz, both one-sided. [`Welch`](super::Welch) is the same for a stream, with Hann's window and half overlap.
+//! unit^2/Hz, both one-sided. [`StreamSpectra`](super::StreamSpectra) has the same for a stream, with Hann's window and half overlap.
 
 use super::distribution::chi_square_quantile;
 use super::error::{SignalError, check, require};
-use super::spectrum::{FEWEST_SAMPLES, PowerAverage, Spectrum};
+use super::spectrum::{FEWEST_SAMPLES, PowerAverage, SegmentTransform, Spectrum};
 use super::window::Window;
 
 /// What is taken off each segment before its window.
@@ -95,14 +95,14 @@ impl Segments {
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or segments out of range.
 pub fn psd(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrum, SignalError> {
     let (length, step) = segments.plan(x, fs)?;
-    let mut average = PowerAverage::with_window(segments.window.periodic(length), step);
-    let mut buffer = vec![0.0; length];
+    let mut transform = SegmentTransform::new(segments.window.periodic(length));
+    let mut average = PowerAverage::new(length);
     for segment in x.windows(length).step_by(step) {
-        buffer.copy_from_slice(segment);
-        segments.detrend.apply(&mut buffer);
-        average.add(&buffer);
+        transform.input.copy_from_slice(segment);
+        segments.detrend.apply(&mut transform.input);
+        average.add(transform.windowed_input());
     }
-    Ok(average.finish(fs))
+    Ok(average.finish(fs, &transform.window, step))
 }
 
 /// Factors by which a bin's density is to be multiplied for the ends of its confidence interval, from chi-square with the

@@ -19,9 +19,6 @@ use super::window::Window;
 /// Fewest samples that make a spectrum.
 pub const FEWEST_SAMPLES: usize = 8;
 
-/// Longest segment of the streaming estimates.
-pub const LONGEST_SEGMENT: usize = 65_536;
-
 /// A one-sided spectrum: bin k stands for frequency k `frequency_step`, from zero to half the sampling rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
@@ -109,154 +106,107 @@ fn interpolate(magnitudes: [f64; 3]) -> (f64, f64) {
 }
 
 /// Amplitude spectrum and density of a whole signal as one Hann-windowed segment, sampled at `fs` Hz; `None` with
-/// fewer than [`FEWEST_SAMPLES`] samples. Holds the signal's transform in memory; for a run use [`Welch`].
+/// fewer than [`FEWEST_SAMPLES`] samples. Holds the signal's transform in memory; for a run use [`StreamSpectra`](super::StreamSpectra).
 pub fn amplitude_spectrum(x: &[f64], fs: f64) -> Option<Spectrum> {
     if x.len() < FEWEST_SAMPLES {
         return None;
     }
+    let mut transform = SegmentTransform::new(hann(x.len()));
     let mut average = PowerAverage::new(x.len());
-    average.add(x);
-    Some(average.finish(fs))
+    average.add(transform.windowed(x));
+    Some(average.finish(fs, &transform.window, x.len()))
 }
 
-/// Averaged spectrum of a stream, by Welch's method.
-///
-/// Segments overlap by half; an incomplete last segment is dropped. A run shorter than one segment is taken whole,
-/// as one segment of its own length (and so with a coarser `frequency_step`), not padded with zeros.
-pub struct Welch {
-    fs: f64,
-    segmenter: Segmenter,
-    average: PowerAverage,
-}
-
-impl Welch {
-    /// For samples at `fs` Hz in segments of `segment_length` samples (even, [`FEWEST_SAMPLES`] to
-    /// [`LONGEST_SEGMENT`]); the bins lie `fs / segment_length` apart.
-    ///
-    /// # Panics
-    /// Where `segment_length` is odd or out of range.
-    pub fn new(fs: f64, segment_length: usize) -> Self {
-        Welch {
-            fs,
-            segmenter: Segmenter::new(segment_length),
-            average: PowerAverage::new(segment_length),
-        }
-    }
-
-    /// Takes one sample.
-    pub fn push(&mut self, x: f64) {
-        if let Some(segment) = self.segmenter.push(x) {
-            self.average.add(segment);
-        }
-    }
-
-    /// The spectrum of what was pushed; `None` with fewer than [`FEWEST_SAMPLES`] samples.
-    pub fn finish(self) -> Option<Spectrum> {
-        if self.average.segments > 0 {
-            return Some(self.average.finish(self.fs));
-        }
-        amplitude_spectrum(self.segmenter.rest(), self.fs)
-    }
-}
-
-/// Cuts a stream into segments that overlap by half.
-pub(super) struct Segmenter {
-    buffer: Vec<f64>,
-    fill: usize,
-}
-
-impl Segmenter {
-    pub(super) fn new(length: usize) -> Self {
-        assert!(
-            (FEWEST_SAMPLES..=LONGEST_SEGMENT).contains(&length) && length.is_multiple_of(2),
-            "segment of {length} samples: must be even, {FEWEST_SAMPLES} to {LONGEST_SEGMENT}"
-        );
-        Segmenter {
-            buffer: vec![0.0; length],
-            fill: 0,
-        }
-    }
-
-    /// Takes a sample; gives a segment whenever one is full.
-    pub(super) fn push(&mut self, x: f64) -> Option<&[f64]> {
-        let length = self.buffer.len();
-        if self.fill == length {
-            self.buffer.copy_within(length / 2.., 0);
-            self.fill = length / 2;
-        }
-        self.buffer[self.fill] = x;
-        self.fill += 1;
-        (self.fill == length).then_some(&self.buffer)
-    }
-
-    /// What has arrived since the start of the current segment.
-    pub(super) fn rest(&self) -> &[f64] {
-        &self.buffer[..self.fill]
-    }
-}
-
-/// Mean of the windowed power spectra of segments.
-pub(super) struct PowerAverage {
-    window: Vec<f64>,
-    /// Samples from one segment to the next.
-    step: usize,
+/// The transform of segments of one length.
+pub(super) struct SegmentTransform {
+    pub(super) window: Vec<f64>,
     fft: Arc<dyn RealToComplex<f64>>,
-    input: Vec<f64>,
-    output: Vec<Complex<f64>>,
+    /// What is transformed; after that, room for whoever needs some.
+    pub(super) input: Vec<f64>,
+    pub(super) output: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
+}
+
+impl SegmentTransform {
+    pub(super) fn new(window: Vec<f64>) -> Self {
+        let fft = RealFftPlanner::new().plan_fft_forward(window.len());
+        SegmentTransform {
+            window,
+            input: fft.make_input_vec(),
+            output: fft.make_output_vec(),
+            scratch: fft.make_scratch_vec(),
+            fft,
+        }
+    }
+
+    /// Of a segment as it is, to `output`.
+    pub(super) fn plain(&mut self, segment: &[f64]) -> &[Complex<f64>] {
+        self.input.copy_from_slice(segment);
+        self.transform()
+    }
+
+    /// Of a segment under the window, to `output`.
+    pub(super) fn windowed(&mut self, segment: &[f64]) -> &[Complex<f64>] {
+        self.input.copy_from_slice(segment);
+        self.windowed_input()
+    }
+
+    /// Of what stands in `input`, under the window, to `output`.
+    pub(super) fn windowed_input(&mut self) -> &[Complex<f64>] {
+        for (input, w) in self.input.iter_mut().zip(&self.window) {
+            *input *= w;
+        }
+        self.transform()
+    }
+
+    fn transform(&mut self) -> &[Complex<f64>] {
+        self.fft
+            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
+            .expect("buffers were made by the plan");
+        &self.output
+    }
+}
+
+/// Mean of the power spectra of segments.
+pub(super) struct PowerAverage {
     power: Vec<f64>,
     pub(super) segments: usize,
 }
 
 impl PowerAverage {
-    /// Hann's window, half overlap.
+    /// For segments of `length` samples.
     pub(super) fn new(length: usize) -> Self {
-        Self::with_window(hann(length), length / 2)
-    }
-
-    pub(super) fn with_window(window: Vec<f64>, step: usize) -> Self {
-        let length = window.len();
-        let fft = RealFftPlanner::new().plan_fft_forward(length);
         PowerAverage {
-            window,
-            step,
-            input: fft.make_input_vec(),
-            output: fft.make_output_vec(),
-            scratch: fft.make_scratch_vec(),
             power: vec![0.0; length / 2 + 1],
             segments: 0,
-            fft,
         }
     }
 
-    pub(super) fn add(&mut self, segment: &[f64]) {
-        for ((input, x), w) in self.input.iter_mut().zip(segment).zip(&self.window) {
-            *input = x * w;
-        }
-        self.fft
-            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
-            .expect("buffers were made by the plan");
-        for (power, value) in self.power.iter_mut().zip(&self.output) {
+    /// Takes the transform of a segment under its window.
+    pub(super) fn add(&mut self, transform: &[Complex<f64>]) {
+        for (power, value) in self.power.iter_mut().zip(transform) {
             *power += value.norm_sqr();
         }
         self.segments += 1;
     }
 
-    fn degrees_of_freedom(&self) -> f64 {
-        let (w, count) = (&self.window, self.segments as f64);
+    /// Of segments under the window `w` that begin `step` samples apart.
+    fn degrees_of_freedom(&self, w: &[f64], step: usize) -> f64 {
+        let count = self.segments as f64;
         let energy: f64 = w.iter().map(|w| w * w).sum();
         let mut correlated = 0.0;
-        for j in 1..self.segments.min(w.len().div_ceil(self.step.max(1))) {
-            let shared: f64 = w.iter().zip(&w[j * self.step..]).map(|(a, b)| a * b).sum();
+        for j in 1..self.segments.min(w.len().div_ceil(step.max(1))) {
+            let shared: f64 = w.iter().zip(&w[j * step..]).map(|(a, b)| a * b).sum();
             correlated += (1.0 - j as f64 / count) * (shared / energy).powi(2);
         }
         2.0 * count / (1.0 + 2.0 * correlated)
     }
 
-    pub(super) fn finish(self, fs: f64) -> Spectrum {
-        let length = self.window.len();
-        let sum: f64 = self.window.iter().sum();
-        let sum_of_squares: f64 = self.window.iter().map(|w| w * w).sum();
+    /// The spectrum of what was sampled at `fs` Hz, cut into segments `step` samples apart, each under the window `w`.
+    pub(super) fn finish(&self, fs: f64, w: &[f64], step: usize) -> Spectrum {
+        let length = w.len();
+        let sum: f64 = w.iter().sum();
+        let sum_of_squares: f64 = w.iter().map(|w| w * w).sum();
         let count = self.segments as f64;
         let alone = |k: usize| k == 0 || 2 * k == length;
         let scaled = |scale: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
@@ -271,7 +221,7 @@ impl PowerAverage {
             segment_length: length,
             segments: self.segments,
             noise_bandwidth: fs * sum_of_squares / (sum * sum),
-            degrees_of_freedom: self.degrees_of_freedom(),
+            degrees_of_freedom: self.degrees_of_freedom(w, step),
         }
     }
 }
@@ -284,14 +234,14 @@ pub(super) fn hann(length: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::test_signals::{Noise, cosine, integer_sequence};
+    use super::super::{Band, StreamSpectra};
     use super::*;
 
     const FS: f64 = 25_600.0;
 
     fn welch(x: &[f64], length: usize) -> Spectrum {
-        let mut welch = Welch::new(FS, length);
-        x.iter().for_each(|&v| welch.push(v));
-        welch.finish().unwrap()
+        let spectra = StreamSpectra::of(x, FS, length, Band::above(0.0), &[]);
+        spectra.spectrum.unwrap()
     }
 
     #[test]
@@ -373,9 +323,9 @@ mod tests {
     fn xval_scipy_welch() {
         // SciPy 1.17.1: welch(x, fs=1000, window='hann', nperseg=128, noverlap=64, detrend=False), as density and
         // as spectrum; SciPy's spectrum is a mean square, half our amplitude squared except at the ends.
-        let mut welch = Welch::new(1000.0, 128);
-        integer_sequence(600).iter().for_each(|&v| welch.push(v));
-        let spectrum = welch.finish().unwrap();
+        let x = integer_sequence(600);
+        let spectra = StreamSpectra::of(&x, 1000.0, 128, Band::above(0.0), &[]);
+        let spectrum = spectra.spectrum.unwrap();
         assert_eq!(spectrum.segments, 8);
         for (k, density, mean_square) in [
             (0, 0.0001375471242959763, 0.001611880362843471),
@@ -417,6 +367,7 @@ mod tests {
         // An incomplete last segment changes nothing.
         assert_eq!(welch(&x[..999], 400), welch(&x[..800], 400));
         assert_ne!(welch(&x, 400), welch(&x[..800], 400));
-        assert!(Welch::new(FS, 64).finish().is_none());
+        let none = StreamSpectra::of(&[], FS, 64, Band::above(0.0), &[]);
+        assert!(none.spectrum.is_none() && none.envelope.is_none());
     }
 }

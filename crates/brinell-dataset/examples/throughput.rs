@@ -1,0 +1,97 @@
+//! How fast a data set is made, against the bare solver on the same scenarios:
+//!
+//!     cargo run --release -p brinell-dataset --example throughput -- [PLAN] [RUNS] [ROUNDS]
+//!
+//! Each round runs the first RUNS of the plan on one thread with nobody listening, then as data sets of 1, 8 and RUNS runs a file, and on two threads.
+//! Rounds alternate, and medians are told, so that what else the machine does weighs on all alike.
+
+use brinell::simulate::{Observer, Simulation};
+use brinell_dataset::{Campaign, Shard, Silent, run};
+use std::error::Error;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+struct Nobody;
+
+impl Observer for Nobody {
+    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments
+        .next()
+        .unwrap_or("examples/plans/nu206.toml".into());
+    let runs: usize = arguments.next().map_or(Ok(8), |text| text.parse())?;
+    let rounds: usize = arguments.next().map_or(Ok(5), |text| text.parse())?;
+    let here = Path::new(&path).parent().unwrap_or(Path::new(""));
+    let folder = tempfile::tempdir_in(here)?;
+    // The same plan with fewer runs, beside the old one so that it finds its base.
+    let text = std::fs::read_to_string(&path)?;
+    let campaign = |each: usize| -> Result<Campaign, Box<dyn Error>> {
+        let keep = |line: &&str| !line.starts_with("runs") && !line.starts_with("base");
+        let lines: Vec<&str> = text.lines().filter(keep).collect();
+        let base = text
+            .lines()
+            .find_map(|l| l.strip_prefix("base = \"")?.strip_suffix('"'));
+        let base = base.ok_or("the plan has no line base = \"...\"")?;
+        let text = format!(
+            "base = \"../{base}\"\nruns = {runs}\nruns_per_file = {each}\n{}",
+            lines.join("\n")
+        );
+        let plan = folder.path().join("plan.toml");
+        std::fs::write(&plan, text)?;
+        Ok(Campaign::open(plan)?)
+    };
+    let whole = campaign(runs)?;
+    let scenarios: Result<Vec<_>, _> = (0..runs)
+        .map(|k| Ok::<_, Box<dyn Error>>(whole.scenario(k)?.0.scenario))
+        .collect();
+    let scenarios = scenarios?;
+    let simulated: f64 = scenarios.iter().map(|s| s.simulation.duration_s).sum();
+    let kinds = [(1, 1), (8.min(runs), 1), (runs, 1), (runs, 2)];
+    let mut times = vec![Vec::new(); 1 + kinds.len()];
+    for round in 0..rounds {
+        let begin = Instant::now();
+        for scenario in &scenarios {
+            Simulation::new(scenario)?.run(&mut Nobody);
+        }
+        times[0].push(begin.elapsed().as_secs_f64());
+        for (k, (each, threads)) in kinds.iter().enumerate() {
+            let campaign = campaign(*each)?;
+            let out = folder.path().join(format!("{round}-{k}"));
+            let threads = NonZeroUsize::new(*threads).ok_or("no threads")?;
+            let begin = Instant::now();
+            let went = run(&campaign, &out, Shard::WHOLE, threads, &Silent)?;
+            times[1 + k].push(begin.elapsed().as_secs_f64());
+            assert!(went.whole && went.done == runs && went.failed == 0);
+            std::fs::remove_dir_all(out)?;
+        }
+    }
+    let median = |times: &[f64]| {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted[sorted.len() / 2]
+    };
+    // Round by round, so that a slow stretch of the machine is in both.
+    let against = |times: &[f64], bare: &[f64]| {
+        let ratios: Vec<f64> = times.iter().zip(bare).map(|(t, b)| b / t).collect();
+        median(&ratios)
+    };
+    let bare = times[0].clone();
+    println!("{path}: {runs} runs of {simulated} s together, {rounds} rounds, medians");
+    println!("  bare solver, 1 thread: {:.2} s", median(&bare));
+    for ((each, threads), times) in kinds.iter().zip(&times[1..]) {
+        println!(
+            "  data set, {threads} thread(s), {each} runs a file: {:.2} s, {:.3} of the bare solver's throughput a thread, {:.0} runs an hour",
+            median(times),
+            against(times, &bare) / *threads as f64,
+            3600.0 * runs as f64 / median(times)
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,51 @@
+"""A data set of `brinell dataset`, read by pandas and pyarrow: python check_dataset.py FOLDER"""
+
+import hashlib
+import json
+import pathlib
+import sys
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+folder = pathlib.Path(sys.argv[1])
+about = json.loads((folder / "dataset.json").read_text())
+for entry in about["files"] + about.get("held_out", {}).get("files", []):
+    data = (folder / entry["path"]).read_bytes()
+    assert hashlib.sha256(data).hexdigest() == entry["sha256"], entry
+    assert len(data) == entry["bytes"], entry
+
+table = pq.read_table(folder / "runs")
+types = {
+    "bool": pa.bool_(), "int64": pa.int64(), "double": pa.float64(), "string": pa.string(),
+    "list<float>": pa.list_(pa.float32()), "list<int64>": pa.list_(pa.int64()),
+    "list<double>": pa.list_(pa.float64()), "list<string>": pa.list_(pa.string()),
+}
+assert [c["name"] for c in about["columns"]] == table.column_names
+for column in about["columns"]:
+    found, expected = table.schema.field(column["name"]).type, types[column["type"]]
+    same = found == expected or (pa.types.is_list(found) and found.value_type == expected.value_type)
+    assert same, (column, found)
+
+runs = pd.read_parquet(folder / "runs")
+assert runs.run.tolist() == list(range(about["runs"]["total"]))
+held = runs.split == "held-out"
+labels = pd.read_parquet(folder / "held_out")
+assert labels.run.tolist() == runs.run[held].tolist() and 0 < held.sum() < len(runs)
+assert runs["class"][held].isna().all() and runs["class"][~held].notna().all()
+for _, run in runs.iterrows():
+    expected = round(run.duration_s * run.sample_rate_hz) + 1
+    for signal in ["measured_ax", "measured_ay"]:
+        x = run[signal]
+        assert x.dtype == np.float32 and x.shape == (expected,) and np.isfinite(x).all() and x.std() > 0
+whole = runs.set_index("run").combine_first(labels.set_index("run")).reset_index()
+names = {c["label"]: c["name"] for c in about["classes"]}
+assert [names[label] for label in whole.label] == whole["class"].tolist()
+for _, run in whole.iterrows():
+    assert (len(run.entry_t_s) > 0) == (run["class"] == "outer")
+    assert len(run.entry_t_s) == len(run.entry_force_n) == len(run.entry_side)
+some = pq.read_table(folder / "runs", columns=["operation.speed_rpm", "measured_ax"])
+assert some.column_names == ["operation.speed_rpm", "measured_ax"] and some.num_rows == len(runs)
+print(f"{folder}: {len(runs)} runs, {held.sum()} of them with labels apart, as dataset.json says")
