@@ -1,11 +1,10 @@
 //! What a plan means and costs, in words; and why it is refused.
 
 use super::DatasetArgs;
-use crate::failure::Failure;
 use crate::say::{complain, say, short};
 use crate::sweep::cost::pace;
 use crate::sweep::{duration, plural};
-use brinell::design::{Misses, OutOfRange, Survey, place_in_plan};
+use brinell::design::{Misses, OutOfRange, Survey};
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 
