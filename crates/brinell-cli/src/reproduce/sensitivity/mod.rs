@@ -8,13 +8,14 @@ use crate::failure::Failure;
 use brinell::calibrate::{Settings, Unfit, fit, least_budget};
 use brinell::paper::{
     Aspect, CASES, Claim, Distance, Draw, Judged, Length, Numbers, SEARCHED, VARIANTS, Variant,
-    Verdict, answers, axes, case, claims, distance, draw, judge, targets,
+    Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
 };
 
 /// The search is a fixed one.
 const SEED: u64 = 2023;
-/// Sets that are looked at on all cases.
-const BEST: usize = 3;
+/// Sets that are looked at on all cases, and how far apart they lie at least along some axis of the cube.
+const BEST: usize = 5;
+const APART: f64 = 0.15;
 
 /// An assumption that turns a verdict.
 #[derive(Debug, Clone, Copy)]
@@ -159,12 +160,15 @@ impl Plan {
             .filter_map(|(k, one)| Some((score(&read(one, ledger))?, k)))
             .collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // Neighbours that the four digits of a setting make the same are one set.
+        // Neighbours would say the same of the other cases.
         let mut best: Vec<&Draw> = Vec::new();
         for (_, k) in scored {
             let one = &drawn[k].0;
-            let same = |d: &&Draw| d.settings == one.settings && d.filtered == one.filtered;
-            if best.len() < BEST && !best.iter().any(same) {
+            let near = |d: &&Draw| {
+                let far = d.place.iter().zip(&one.place).map(|(a, b)| (a - b).abs());
+                far.fold(0.0, f64::max) < APART
+            };
+            if best.len() < BEST && !best.iter().any(near) {
                 best.push(one);
             }
         }
@@ -243,17 +247,9 @@ fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
     settings.iter().map(own).collect()
 }
 
-/// Share of the statements that do not hold, of those that the searched cases decide, plus the distance from the paper's RMS values.
+/// Share of the statements about the searched cases that do not hold, plus the distance from the paper's RMS values.
 fn score(numbers: &Numbers) -> Option<f64> {
-    let distance = distance(numbers)?;
-    let searched = |claim: &&Claim| claim.cases().iter().all(|case| SEARCHED.contains(case));
-    let verdicts: Vec<Verdict> = claims()
-        .filter(searched)
-        .flat_map(|claim| judge(claim, numbers).statements)
-        .map(|(verdict, _)| verdict)
-        .collect();
-    let off = verdicts.iter().filter(|v| **v != Verdict::Holds).count();
-    Some(off as f64 / verdicts.len().max(1) as f64 + distance.rms)
+    Some(1.0 - held(numbers) + distance(numbers)?.rms)
 }
 
 impl Sensitivity {

@@ -115,8 +115,8 @@ impl Sensitivity {
     fn search(&self) -> Vec<StudyPiece> {
         let mut pieces = vec![StudyPiece::Words(format!(
             "{} sets of assumptions, looked for as `brinell calibrate` does (a Latin hypercube over the ranges below, a swarm, then downhill; \
-             seed {SEED}) to meet the paper's three RMS values and its defect frequency, the outer ring seen with or without the anti-alias \
-             filter. Each was run in three cases: the full model with the irregular and with the simplified defect, the reference model with the \
+             seed {SEED}) to meet the paper's three RMS values, its defect frequency and the statements about three cases, the outer ring seen with or without the anti-alias \
+             filter. The cases: the full model with the irregular and with the simplified defect, the reference model with the \
              simplified one. All were then scored by the share of statements about these cases that do not hold, plus the root mean square of \
              ln(ours/paper's) over the three RMS values. The best {BEST} were run in all cases.",
             self.drawn
