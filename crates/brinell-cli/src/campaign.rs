@@ -19,12 +19,52 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Name of the journal within its folder.
 pub(crate) const JOURNAL: &str = "journal.jsonl";
 
-/// A folder's journal and the points that are finished.
-pub(crate) struct Ledger {
-    journal: Journal,
+/// The points that a journal holds.
+#[derive(Default)]
+pub(crate) struct Kept {
     rows: HashMap<String, Row>,
     /// Scenarios that another version of this program finished.
     outdated: HashSet<String>,
+}
+
+impl Kept {
+    /// What is in a folder's journal, which stays as it is; nothing where there is none.
+    pub(crate) fn look(folder: &Path) -> Result<Self, Failure> {
+        Ok(Self::of(&Journal::read(folder.join(JOURNAL))?))
+    }
+
+    fn of(lines: &[Value]) -> Self {
+        let mut kept = Self::default();
+        for row in lines.iter().filter_map(Row::from_json) {
+            if row.version == brinell::VERSION {
+                kept.rows.insert(row.scenario.clone(), row);
+            } else {
+                kept.outdated.insert(row.scenario);
+            }
+        }
+        kept
+    }
+
+    /// The row of a scenario that is finished.
+    pub(crate) fn row(&self, fingerprint: &str) -> Option<&Row> {
+        self.rows.get(fingerprint)
+    }
+
+    /// Scenarios that are finished.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether a scenario is finished, but by another version of this program.
+    pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
+        self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
+    }
+}
+
+/// A folder's journal, open for more, and the points that are finished.
+pub(crate) struct Ledger {
+    journal: Journal,
+    pub(crate) kept: Kept,
 }
 
 impl Ledger {
@@ -50,39 +90,13 @@ impl Ledger {
             None if !lines.is_empty() => return Err(Failure::Usage(words(&Value::Null))),
             _ => journal.append(header)?,
         }
-        let (mut rows, mut outdated) = (HashMap::new(), HashSet::new());
-        for row in lines.iter().filter_map(Row::from_json) {
-            if row.version == brinell::VERSION {
-                rows.insert(row.scenario.clone(), row);
-            } else {
-                outdated.insert(row.scenario);
-            }
-        }
-        Ok(Self {
-            journal,
-            rows,
-            outdated,
-        })
-    }
-
-    /// The row of a scenario that is finished.
-    pub(crate) fn row(&self, fingerprint: &str) -> Option<&Row> {
-        self.rows.get(fingerprint)
-    }
-
-    /// Scenarios that are finished.
-    pub(crate) fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Whether a scenario is finished, but by another version of this program.
-    pub(crate) fn is_outdated(&self, fingerprint: &str) -> bool {
-        self.outdated.contains(fingerprint) && !self.rows.contains_key(fingerprint)
+        let kept = Kept::of(&lines);
+        Ok(Self { journal, kept })
     }
 
     fn add(&mut self, row: Row) -> Result<(), Failure> {
         self.journal.append(&row.to_json())?;
-        self.rows.insert(row.scenario.clone(), row);
+        self.kept.rows.insert(row.scenario.clone(), row);
         Ok(())
     }
 }

@@ -315,6 +315,11 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     let out = folder.path().join("out");
     assert!(files(&out).contains(&"plots/measured_ax.rms.svg".to_owned()));
     assert!(!out.join("signals").exists());
+    let journal = fs::read(out.join("journal.jsonl")).unwrap();
+    brinell(folder.path(), &args(&["--dry-run"]))
+        .exits(0)
+        .says(&["2 points finished before"]);
+    assert!(journal == fs::read(out.join("journal.jsonl")).unwrap());
     // Signals were not kept: asked for now, the points run again.
     brinell(folder.path(), &args(&["--keep-signals"]))
         .exits(0)

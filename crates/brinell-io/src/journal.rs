@@ -8,7 +8,7 @@ use crate::IoError;
 use crate::atomic::lock;
 use serde_json::Value;
 use std::fs::{File, OpenOptions};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// A journal that is open for more.
@@ -52,6 +52,19 @@ impl Journal {
             failed: false,
         };
         Ok((journal, lines))
+    }
+
+    /// The lines that are in a journal, which stays as it is, whoever has it open; none where there is no file.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or a line that has its end is no JSON.
+    pub fn read(path: impl AsRef<Path>) -> Result<Vec<Value>, IoError> {
+        let path = path.as_ref();
+        match std::fs::read(path) {
+            Ok(bytes) => Ok(whole_lines(path, &bytes)?.0),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+            Err(error) => Err(IoError::reading(path, error)),
+        }
     }
 
     /// Adds one line and forces it to the disk.

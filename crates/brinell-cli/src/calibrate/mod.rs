@@ -263,7 +263,7 @@ impl Plan {
             short(simulated, 3),
             threads
         );
-        let kept = ledger.map_or(0, Ledger::len);
+        let kept = ledger.map_or(0, |l| l.kept.len());
         if kept > 0 {
             say!(
                 "  {} in the journal, not to be run again",

@@ -90,7 +90,7 @@ impl Runs<'_> {
             places.iter().map(|place| self.points.task(place)).collect();
         let mut tasks: Vec<Task> = Vec::new();
         for task in wanted.iter().flatten() {
-            if self.ledger.row(&task.fingerprint).is_some() {
+            if self.ledger.kept.row(&task.fingerprint).is_some() {
                 self.before += 1;
                 self.joint.done_before(task.duration_s);
             } else if !tasks.iter().any(|t| t.fingerprint == task.fingerprint) {
@@ -115,7 +115,7 @@ impl Runs<'_> {
             }
         }
         let answer = |task: &Result<Task, String>| {
-            let row = self.ledger.row(&task.as_ref().ok()?.fingerprint)?;
+            let row = self.ledger.kept.row(&task.as_ref().ok()?.fingerprint)?;
             answers(row, self.targets)
         };
         Ok(wanted.iter().map(answer).collect())
@@ -124,7 +124,7 @@ impl Runs<'_> {
     /// The row of a point, or why it has none.
     pub(super) fn row(&self, place: &[f64]) -> Result<&Row, String> {
         let task = self.points.task(place)?;
-        let row = self.ledger.row(&task.fingerprint).ok_or("not run")?;
+        let row = self.ledger.kept.row(&task.fingerprint).ok_or("not run")?;
         match &row.result {
             Ok(_) => Ok(row),
             Err(reason) => Err(reason.clone()),

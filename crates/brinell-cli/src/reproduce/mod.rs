@@ -122,11 +122,21 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let mut interrupted = runner.run(first.chain(second), &mut ledger)?;
     let mut sensitivity = None;
     if let (Some(plan), false) = (&plan, interrupted) {
-        let finalists = plan.finalists(&ledger)?;
-        let tasks = finalists.iter().flat_map(|f| &f.points).map(|p| &p.task);
-        interrupted = runner.run(tasks, &mut ledger)?;
-        if !interrupted {
-            sensitivity = Some(plan.finish(finalists, &ledger));
+        if !args.quiet {
+            say!("search: up to {} sets of assumptions", plan.budget());
+        }
+        let search = plan.search(&mut ledger, |batch, ledger| {
+            let points = batch.iter().flat_map(|(_, points)| points);
+            runner.quietly(points.map(|p| &p.task), ledger)
+        })?;
+        interrupted = search.is_none();
+        if let Some(drawn) = search {
+            let finalists = plan.finalists(&drawn, &ledger)?;
+            let tasks = finalists.iter().flat_map(|f| &f.points).map(|p| &p.task);
+            interrupted = runner.run(tasks, &mut ledger)?;
+            if !interrupted {
+                sensitivity = Some(plan.finish(drawn.len(), finalists, &ledger));
+            }
         }
     }
     let came = came(&asked, &ledger, sensitivity, interrupted);
@@ -164,27 +174,49 @@ impl Runner<'_> {
         tasks: impl Iterator<Item = &'t Task>,
         ledger: &mut Ledger,
     ) -> Result<bool, Failure> {
-        let mut open_tasks = Vec::new();
-        open(tasks, self.work, ledger, &mut open_tasks);
-        if open_tasks.is_empty() {
-            return Ok(false);
-        }
-        let usual = || brinell::many::threads(open_tasks.len());
-        let threads: NonZeroUsize = self.args.jobs.unwrap_or_else(usual);
-        let simulated: f64 = open_tasks.iter().map(|task| task.duration_s).sum();
-        if !self.args.quiet {
+        let open_tasks = self.open(tasks, ledger);
+        if !open_tasks.is_empty() && !self.args.quiet {
+            let simulated: f64 = open_tasks.iter().map(|task| task.duration_s).sum();
             say!(
                 "{}: {} s simulated, {} at a time",
                 plural(open_tasks.len(), "run"),
                 short(simulated, 3),
-                threads.get().min(open_tasks.len())
+                self.threads(&open_tasks).get().min(open_tasks.len())
             );
+        }
+        self.all(open_tasks, ledger)
+    }
+
+    /// The same, without a line of its own.
+    fn quietly<'t>(
+        &mut self,
+        tasks: impl Iterator<Item = &'t Task>,
+        ledger: &mut Ledger,
+    ) -> Result<bool, Failure> {
+        let open_tasks = self.open(tasks, ledger);
+        self.all(open_tasks, ledger)
+    }
+
+    fn open<'t>(&self, tasks: impl Iterator<Item = &'t Task>, ledger: &Ledger) -> Vec<Task> {
+        let mut open_tasks = Vec::new();
+        open(tasks, self.work, ledger, &mut open_tasks);
+        open_tasks
+    }
+
+    fn threads(&self, tasks: &[Task]) -> NonZeroUsize {
+        let usual = || brinell::many::threads(tasks.len());
+        self.args.jobs.unwrap_or_else(usual)
+    }
+
+    fn all(&mut self, open_tasks: Vec<Task>, ledger: &mut Ledger) -> Result<bool, Failure> {
+        if open_tasks.is_empty() {
+            return Ok(false);
         }
         let went = campaign::run(
             &open_tasks,
             self.work,
             ledger,
-            threads,
+            self.threads(&open_tasks),
             self.args.quiet,
             self.stop,
         )?;
@@ -216,7 +248,7 @@ fn came(
         })
     });
     let failures = asked.points.iter().filter_map(|point| {
-        let row = ledger.row(&point.task.fingerprint)?;
+        let row = ledger.kept.row(&point.task.fingerprint)?;
         let reason = row.result.as_ref().err()?;
         Some((point.case.label.to_owned(), reason.clone()))
     });

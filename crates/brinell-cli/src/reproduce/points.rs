@@ -53,7 +53,7 @@ fn read(settings: &[(String, String)]) -> Result<Scenario, Failure> {
 pub(super) fn numbers<'a>(points: impl IntoIterator<Item = &'a Point>, ledger: &Ledger) -> Numbers {
     let mut numbers = Numbers::default();
     for point in points {
-        if let Some(row) = ledger.row(&point.task.fingerprint) {
+        if let Some(row) = ledger.kept.row(&point.task.fingerprint) {
             numbers.add(point.case.id, row);
         }
     }
@@ -81,7 +81,7 @@ impl FromPaper {
 
     /// Whether nothing is left to do for a task.
     pub(super) fn is_done(&self, task: &Task, ledger: &Ledger) -> bool {
-        ledger.row(&task.fingerprint).is_some_and(|row| {
+        ledger.kept.row(&task.fingerprint).is_some_and(|row| {
             row.result.is_err()
                 || !self.keep.contains(&task.fingerprint)
                 || self.curves(&task.fingerprint).is_some()

@@ -6,7 +6,7 @@ mod page;
 mod points;
 mod table;
 
-use crate::campaign::{self, JOURNAL, Ledger, Task};
+use crate::campaign::{self, JOURNAL, Kept, Ledger, Task};
 use crate::failure::Failure;
 use crate::files::stem;
 use crate::run::{make_folder, stop_flag, write_pictures};
@@ -42,43 +42,19 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         signals: args.keep_signals.then(|| folder.join("signals")),
     };
     if args.dry_run {
-        let tasks: Vec<Task> = points.tasks.iter().flatten().cloned().collect();
-        tell_plan(&points, &tasks, 0, &work, threads(tasks.len()));
+        plan(&points, &Kept::look(&folder)?, &work, threads, true);
         return Ok(ExitCode::SUCCESS);
     }
     make_folder(&folder)?;
     let header = points.header();
     let words = |other: &Value| other_sweep(&folder, other);
     let mut ledger = Ledger::open(&folder, &header, args.extend, words)?;
-    let finished = |task: &&Task| {
-        let kept = work.path(&task.fingerprint);
-        let row = ledger.row(&task.fingerprint);
-        row.is_some_and(|row| row.result.is_err() || kept.is_none_or(|path| path.exists()))
-    };
-    let good = || points.tasks.iter().flatten();
-    // Settings that mean the same make one run.
-    let mut seen = HashSet::new();
-    let tasks: Vec<Task> = good()
-        .filter(|task| !finished(task) && seen.insert(&task.fingerprint))
-        .cloned()
-        .collect();
+    let tasks = plan(&points, &ledger.kept, &work, threads, !args.quiet);
     let threads = threads(tasks.len());
-    if !args.quiet {
-        let before = good().filter(finished).count();
-        tell_plan(&points, &tasks, before, &work, threads);
-        let outdated = |task: &&Task| ledger.is_outdated(&task.fingerprint);
-        let outdated = good().filter(outdated).count();
-        if outdated > 0 {
-            say!(
-                "  {} of another version of brinell, to be run again",
-                plural(outdated, "finished point")
-            );
-        }
-    }
     let stop = stop_flag()?;
     let went = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
-    let standings = standings(&points, |fingerprint| ledger.row(fingerprint));
+    let standings = standings(&points, |fingerprint| ledger.kept.row(fingerprint));
     let written = write(args, &points, &standings, &plots, &folder)?;
     let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
@@ -106,6 +82,40 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// The runs that are to be made: those of sound points that are not finished, once where settings mean the same. Told, where `told`.
+fn plan(
+    points: &Points,
+    kept: &Kept,
+    work: &FromSource,
+    threads: impl Fn(usize) -> NonZeroUsize,
+    told: bool,
+) -> Vec<Task> {
+    let finished = |task: &&Task| {
+        let signals = work.path(&task.fingerprint);
+        let row = kept.row(&task.fingerprint);
+        row.is_some_and(|row| row.result.is_err() || signals.is_none_or(|path| path.exists()))
+    };
+    let good = || points.tasks.iter().flatten();
+    let mut seen = HashSet::new();
+    let tasks: Vec<Task> = good()
+        .filter(|task| !finished(task) && seen.insert(&task.fingerprint))
+        .cloned()
+        .collect();
+    if told {
+        let before = good().filter(finished).count();
+        tell_plan(points, &tasks, before, work, threads(tasks.len()));
+        let outdated = |task: &&Task| kept.is_outdated(&task.fingerprint);
+        let outdated = good().filter(outdated).count();
+        if outdated > 0 {
+            say!(
+                "  {} of another version of brinell, to be run again",
+                plural(outdated, "finished point")
+            );
+        }
+    }
+    tasks
 }
 
 /// What is plotted; a name that no point will have is refused before anything runs.

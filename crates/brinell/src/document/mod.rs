@@ -17,6 +17,7 @@ mod provenance;
 mod reader;
 mod schema;
 mod sections;
+mod sensor;
 mod shape_leaf;
 mod source;
 mod words;

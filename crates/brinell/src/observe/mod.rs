@@ -246,10 +246,7 @@ impl Watch {
 
     /// What came together.
     pub fn finish(mut self, simulation: &Simulation) -> Findings {
-        // The two measured channels were counted twice where they are recorded; the filtered pair goes by their names.
-        for (k, name) in ["measured_ax", "measured_ay"].into_iter().enumerate() {
-            self.channels[self.recorded + k].name = name.to_owned();
-        }
+        // The measured channels were counted twice where they are recorded.
         let names: Vec<&str> = simulation
             .channels()
             .iter()

@@ -18,5 +18,5 @@ pub use cases::{BASE, CASES, Case, EXPERIMENTS, Experiment, FIGURES, Length, cas
 pub use claims::claims;
 pub use judge::{Check, Claim, Found, Judged, Statement, judge};
 pub use numbers::{Number, Numbers, entry_drop};
-pub use search::{Design, Distance, Draw, Hypercube, SEARCHED, distance, draws};
+pub use search::{Distance, Draw, SEARCHED, answers, axes, distance, draw, targets};
 pub use verdict::Verdict;

@@ -66,10 +66,11 @@ impl StreamSpectra {
 
     /// What came together.
     pub fn finish(self) -> Spectra {
-        let rest = self.segmenter.rest();
         if self.segments.power.segments > 0 {
+            drop(self.segmenter);
             return self.segments.finish();
         }
+        let rest = self.segmenter.rest();
         if rest.len() < FEWEST_SAMPLES {
             return Spectra {
                 spectrum: None,
@@ -77,6 +78,7 @@ impl StreamSpectra {
                 lines: vec![None; self.searches.len()],
             };
         }
+        drop(self.segments);
         let mut whole = SegmentSpectra::new(self.fs, rest.len(), self.band, &self.searches);
         whole.add(rest);
         whole.finish()
@@ -142,6 +144,8 @@ impl SegmentSpectra {
     }
 
     pub(super) fn finish(self) -> Spectra {
+        // Room that is needed no more is given back before the results take theirs.
+        drop((self.demodulator, self.padded));
         let window = &self.transform.window;
         let step = window.len() / 2;
         Spectra {

@@ -5,9 +5,10 @@ mod tell;
 use super::points::{FromPaper, Point, numbers, point};
 use crate::campaign::{Ledger, Task};
 use crate::failure::Failure;
+use brinell::calibrate::{Settings, Unfit, fit, least_budget};
 use brinell::paper::{
-    Aspect, CASES, Claim, Design, Distance, Draw, Hypercube, Judged, Length, Numbers, SEARCHED,
-    VARIANTS, Variant, Verdict, case, claims, distance, judge,
+    Aspect, CASES, Claim, Distance, Draw, Judged, Length, Numbers, SEARCHED, VARIANTS, Variant,
+    Verdict, answers, axes, case, claims, distance, draw, judge, targets,
 };
 
 /// The search is a fixed one.
@@ -31,15 +32,17 @@ struct Varied {
 /// Everything that the sensitivity needs to run.
 pub(super) struct Plan {
     varied: Vec<Varied>,
-    drawn: Vec<(Draw, Vec<Point>)>,
+    /// Sets that the search may look at.
+    budget: usize,
     length: Length,
 }
+
+/// A set that the search looked at, with its runs.
+pub(super) type Drawn = (Draw, Vec<Point>);
 
 /// A set of assumptions, looked at on all cases.
 pub(super) struct Candidate {
     draw: Draw,
-    /// Whether the outer ring is looked at behind the anti-alias filter.
-    filtered: bool,
     distance: Distance,
     judged: Vec<(&'static Claim, Judged)>,
 }
@@ -82,56 +85,107 @@ impl Plan {
                 points: points.collect::<Result<_, Failure>>()?,
             })
         });
-        let varied = varied.collect::<Result<_, Failure>>()?;
-        let draws = Hypercube::new(if quick { 12 } else { 48 }, SEED).propose(&[]);
-        let drawn = draws.into_iter().map(|draw| {
-            let searched = SEARCHED.iter().filter_map(|id| case(id));
-            let points = searched.map(|case| point(case, &draw.settings, length));
-            let points = points.collect::<Result<_, Failure>>()?;
-            Ok((draw, points))
-        });
         Ok(Self {
-            varied,
-            drawn: drawn.collect::<Result<_, Failure>>()?,
+            varied: varied.collect::<Result<_, Failure>>()?,
+            budget: if quick { least_budget(axes()) } else { 96 },
             length,
         })
     }
 
-    /// What runs first: variants and the cheap part of the search.
-    pub(super) fn tasks(&self) -> impl Iterator<Item = &Task> {
-        let varied = self.varied.iter().flat_map(|v| &v.points);
-        let drawn = self.drawn.iter().flat_map(|d| &d.1);
-        varied.chain(drawn).map(|point| &point.task)
+    /// Sets that the search looks at, at most.
+    pub(super) fn budget(&self) -> usize {
+        self.budget
     }
 
-    /// The best sets so far, on all cases: what runs then. A set counts once, with the better reading of the filter.
-    pub(super) fn finalists(&self, ledger: &Ledger) -> Result<Vec<Finalist>, Failure> {
-        let mut scored: Vec<(f64, usize, bool)> = Vec::new();
-        for (k, (_, points)) in self.drawn.iter().enumerate() {
-            let plain = numbers(points, ledger);
-            let both = [(plain.clone(), false), (plain.behind_filter(), true)];
-            let scores = both
-                .iter()
-                .filter_map(|(n, filtered)| Some((score(n)?, k, *filtered)));
-            scored.extend(scores.min_by(|a, b| a.0.total_cmp(&b.0)));
+    /// What runs first.
+    pub(super) fn tasks(&self) -> impl Iterator<Item = &Task> {
+        let points = self.varied.iter().flat_map(|v| &v.points);
+        points.map(|point| &point.task)
+    }
+
+    /// Sets of the search, in the order in which they were looked at. `run` sees to it that what it gets is done, and says whether it was
+    /// interrupted; then there are none.
+    pub(super) fn search(
+        &self,
+        ledger: &mut Ledger,
+        mut run: impl FnMut(&[Drawn], &mut Ledger) -> Result<bool, Failure>,
+    ) -> Result<Option<Vec<Drawn>>, Failure> {
+        let (mut all, mut failure) = (Vec::new(), None);
+        let mut ask = |places: &[Vec<f64>]| {
+            let made = places.iter().enumerate().map(|(k, place)| {
+                let draw = draw(all.len() + k + 1, place);
+                let cases = SEARCHED.iter().filter_map(|id| case(id));
+                let points = cases.map(|case| point(case, &draw.settings, self.length));
+                let points = points.collect::<Result<_, Failure>>()?;
+                Ok((draw, points))
+            });
+            let done = made.collect::<Result<Vec<Drawn>, Failure>>();
+            let done = done.and_then(|batch| Ok((run(&batch, ledger)?, batch)));
+            let batch = match done {
+                Ok((false, batch)) => batch,
+                Ok((true, _)) => return Err(Unfit::Interrupted),
+                Err(error) => {
+                    failure = Some(error);
+                    return Err(Unfit::Interrupted);
+                }
+            };
+            let answered = batch.iter().map(|one| answers(&read(one, ledger)));
+            let answered = answered.collect();
+            all.extend(batch);
+            Ok(answered)
+        };
+        let settings = Settings {
+            seed: SEED,
+            budget: self.budget,
+        };
+        let targets = targets();
+        let found = fit(axes(), &targets, settings, &mut ask);
+        match (failure, found) {
+            (Some(failure), _) => Err(failure),
+            (None, Err(Unfit::Interrupted)) => Ok(None),
+            // Without one that came to its end there is nothing to choose from, and that is told.
+            (None, _) => Ok(Some(all)),
         }
+    }
+
+    /// The best sets, on all cases: what runs then.
+    pub(super) fn finalists(
+        &self,
+        drawn: &[Drawn],
+        ledger: &Ledger,
+    ) -> Result<Vec<Finalist>, Failure> {
+        let scored = drawn.iter().enumerate();
+        let mut scored: Vec<(f64, usize)> = scored
+            .filter_map(|(k, one)| Some((score(&read(one, ledger))?, k)))
+            .collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let best = scored.into_iter().take(BEST);
-        best.map(|(_, k, filtered)| {
-            let draw = self.drawn[k].0.clone();
+        // Neighbours that the four digits of a setting make the same are one set.
+        let mut best: Vec<&Draw> = Vec::new();
+        for (_, k) in scored {
+            let one = &drawn[k].0;
+            let same = |d: &&Draw| d.settings == one.settings && d.filtered == one.filtered;
+            if best.len() < BEST && !best.iter().any(same) {
+                best.push(one);
+            }
+        }
+        let finalist = |draw: &Draw| {
             let points = CASES
                 .iter()
                 .map(|case| point(case, &draw.settings, self.length));
             Ok(Finalist {
                 points: points.collect::<Result<_, Failure>>()?,
-                draw,
-                filtered,
+                draw: draw.clone(),
             })
-        })
-        .collect()
+        };
+        best.into_iter().map(finalist).collect()
     }
 
-    pub(super) fn finish(&self, finalists: Vec<Finalist>, ledger: &Ledger) -> Sensitivity {
+    pub(super) fn finish(
+        &self,
+        drawn: usize,
+        finalists: Vec<Finalist>,
+        ledger: &Ledger,
+    ) -> Sensitivity {
         let judged = |n: &Numbers| claims().map(|claim| judge(claim, n)).collect();
         let variants = self.varied.iter().map(|v| {
             let plain = numbers(&v.points, ledger);
@@ -142,19 +196,13 @@ impl Plan {
             (v.variant, judged(&numbers))
         });
         let candidates = finalists.into_iter().filter_map(|f| {
-            let plain = numbers(&f.points, ledger);
-            let numbers = if f.filtered {
-                plain.behind_filter()
-            } else {
-                plain
-            };
+            let numbers = of_draw(&f.draw, &f.points, ledger);
             Some(Candidate {
                 distance: distance(&numbers)?,
                 judged: claims()
                     .map(|claim| (claim, judge(claim, &numbers)))
                     .collect(),
                 draw: f.draw,
-                filtered: f.filtered,
             })
         });
         let mut candidates: Vec<Candidate> = candidates.collect();
@@ -165,7 +213,7 @@ impl Plan {
         Sensitivity {
             variants: variants.collect(),
             candidates,
-            drawn: self.drawn.len(),
+            drawn,
             turns: self.length.turns,
         }
     }
@@ -174,8 +222,20 @@ impl Plan {
 /// A set of assumptions on its way to all cases.
 pub(super) struct Finalist {
     draw: Draw,
-    filtered: bool,
     pub(super) points: Vec<Point>,
+}
+
+fn read((draw, points): &Drawn, ledger: &Ledger) -> Numbers {
+    of_draw(draw, points, ledger)
+}
+
+fn of_draw(draw: &Draw, points: &[Point], ledger: &Ledger) -> Numbers {
+    let plain = numbers(points, ledger);
+    if draw.filtered {
+        plain.behind_filter()
+    } else {
+        plain
+    }
 }
 
 fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {

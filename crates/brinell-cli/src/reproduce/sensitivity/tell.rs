@@ -16,7 +16,7 @@ impl Sensitivity {
                 .map(|(k, v)| (k.clone(), v.as_str().into()))
                 .collect();
             json!({
-                "draw": c.draw.number, "settings": settings, "behind_filter": c.filtered, "claims_held": c.held(),
+                "draw": c.draw.number, "settings": settings, "behind_filter": c.draw.filtered, "claims_held": c.held(),
                 "claims_checkable": c.checkable(), "rms_distance": c.distance.rms, "rms_m_per_s2": c.distance.values,
                 "frequency_off_hz": c.distance.frequency,
                 "verdicts": c.judged.iter().map(|(claim, j)| (claim.id.to_owned(), j.verdict.words().into())).collect::<serde_json::Map<_, Value>>(),
@@ -32,7 +32,7 @@ impl Sensitivity {
         };
         json!({
             "turns": self.turns, "variants": self.variants.iter().map(variant).collect::<Vec<_>>(),
-            "search": { "design": "Latin hypercube", "seed": SEED, "draws": self.drawn, "cases": SEARCHED,
+            "search": { "design": "Latin hypercube, particle swarm, Levenberg-Marquardt, as in `brinell calibrate`", "seed": SEED, "draws": self.drawn, "cases": SEARCHED,
                 "best": self.candidates.iter().map(candidate).collect::<Vec<_>>() },
         })
     }
@@ -114,10 +114,11 @@ impl Sensitivity {
 
     fn search(&self) -> Vec<StudyPiece> {
         let mut pieces = vec![StudyPiece::Words(format!(
-            "{} sets of assumptions from a Latin hypercube over the ranges below (seed {SEED}), each run in three cases: the full model with \
-             the irregular and with the simplified defect, the reference model with the simplified one. Scored by the share of statements \
-             about these cases that do not hold, plus the root mean square of ln(ours/paper's) over the three RMS values, with and without \
-             the anti-alias filter. The best {BEST} were run in all cases.",
+            "{} sets of assumptions, looked for as `brinell calibrate` does (a Latin hypercube over the ranges below, a swarm, then downhill; \
+             seed {SEED}) to meet the paper's three RMS values and its defect frequency, the outer ring seen with or without the anti-alias \
+             filter. Each was run in three cases: the full model with the irregular and with the simplified defect, the reference model with the \
+             simplified one. All were then scored by the share of statements about these cases that do not hold, plus the root mean square of \
+             ln(ours/paper's) over the three RMS values. The best {BEST} were run in all cases.",
             self.drawn
         ))];
         pieces.push(StudyPiece::Words(self.found()));
@@ -152,7 +153,7 @@ impl Sensitivity {
             c.distance.frequency.map_or("–".into(), |f| short(f, 3))
         });
         row("Outer ring behind the filter", "", &|c| {
-            if c.filtered { "yes" } else { "no" }.into()
+            if c.draw.filtered { "yes" } else { "no" }.into()
         });
         for range in RANGES {
             for key in range.keys {
