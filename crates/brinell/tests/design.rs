@@ -88,6 +88,34 @@ fn prop_every_run_makes_a_scenario_of_its_class_with_a_seed_of_its_own() {
 }
 
 #[test]
+fn prop_a_sensors_noise_is_another_in_every_run() {
+    let seeds = |base: &str, plan: &str| -> Vec<u64> {
+        let draws = draws(plan);
+        let seed = |run| {
+            draws
+                .scenario(base, run)
+                .unwrap()
+                .0
+                .scenario
+                .sensor
+                .noise_seed
+        };
+        let mut seeds: Vec<u64> = (0..60).map(seed).collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        seeds
+    };
+    let noisy = format!("{BASE}[sensor]\nnoise_rms_m_per_s2 = 0.5\n");
+    assert_eq!(seeds(&noisy, PLAN).len(), 60);
+    // The base's own seed says which noise its run has, not that all runs share it; the plan's does.
+    assert_eq!(seeds(&format!("{noisy}noise_seed = 4\n"), PLAN).len(), 60);
+    let fixed = PLAN.replace("[vary]", "[vary]\nsensor.noise_seed = 9");
+    assert_eq!(seeds(&noisy, &fixed), [9]);
+    // Without noise there is nothing to seed.
+    assert_eq!(seeds(&format!("{BASE}[sensor]\n"), PLAN).len(), 1);
+}
+
+#[test]
 fn prop_a_run_draws_the_same_whatever_else_the_plan_runs() {
     let longer = draws(&PLAN.replace("runs = 60", "runs = 90"));
     let (one, again) = (draws(PLAN), draws(PLAN));

@@ -10,10 +10,29 @@ use crate::document::{Loaded, Problem, read};
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
 
-/// Keys that every run has a seed of its own for, where the plan does not set them: the table that holds the seed (`*` is any element of a
-/// list), and its name there. A run whose scenario has no such table has no such seed.
-const SEEDED_PER_RUN: [(&str, &str); 2] =
-    [("defects.*.shape.random", "seed"), ("sensor", "noise_seed")];
+/// A seed that every run has one of its own of.
+struct Seeded {
+    /// The table that holds it; `*` is any element of a list. A run whose scenario has no such table has no such seed.
+    table: &'static str,
+    /// Its name there.
+    name: &'static str,
+    /// Keys of which the table has one where the seed means something; none where it always does.
+    with: &'static [&'static str],
+}
+
+/// Keys that are seeded per run, where the plan does not set them.
+const SEEDED_PER_RUN: [Seeded; 2] = [
+    Seeded {
+        table: "defects.*.shape.random",
+        name: "seed",
+        with: &[],
+    },
+    Seeded {
+        table: "sensor",
+        name: "noise_seed",
+        with: &["noise_rms_m_per_s2", "noise_snr_db"],
+    },
+];
 
 /// One run's settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -265,9 +284,9 @@ impl Draws {
         let root = Node::table(parse(base, settings)?);
         let class = &self.plan.classes[self.class(run)];
         let mut seeds = Vec::new();
-        for (table, name) in SEEDED_PER_RUN {
+        for Seeded { table, name, with } in &SEEDED_PER_RUN {
             let mut holders = Vec::new();
-            holding(&root, table, "", &mut holders);
+            holding(&root, table, with, "", &mut holders);
             for holder in holders {
                 let key = format!("{holder}.{name}");
                 let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
@@ -358,8 +377,8 @@ fn parameter(
     all.len() - 1
 }
 
-/// Paths of the tables that a pattern names.
-fn holding(node: &Node, pattern: &str, path: &str, all: &mut Vec<String>) {
+/// Paths of the tables that a pattern names and that have one of the keys `with`.
+fn holding(node: &Node, pattern: &str, with: &[&str], path: &str, all: &mut Vec<String>) {
     let join = |name: &str| {
         if path.is_empty() {
             name.to_owned()
@@ -371,7 +390,9 @@ fn holding(node: &Node, pattern: &str, path: &str, all: &mut Vec<String>) {
         .split_once('.')
         .or((!pattern.is_empty()).then_some((pattern, "")))
     else {
-        if matches!(node.value, Toml::Table(_)) {
+        if let Toml::Table(table) = &node.value
+            && (with.is_empty() || with.iter().any(|key| table.contains_key(*key)))
+        {
             all.push(path.to_owned());
         }
         return;
@@ -379,12 +400,12 @@ fn holding(node: &Node, pattern: &str, path: &str, all: &mut Vec<String>) {
     match &node.value {
         Toml::Array(items) if head == "*" => {
             for (k, item) in items.iter().enumerate() {
-                holding(item, rest, &join(&k.to_string()), all);
+                holding(item, rest, with, &join(&k.to_string()), all);
             }
         }
         Toml::Table(table) => {
             if let Some(entry) = table.get(head) {
-                holding(&entry.node, rest, &join(head), all);
+                holding(&entry.node, rest, with, &join(head), all);
             }
         }
         _ => {}

@@ -107,6 +107,22 @@ mod tests {
     }
 
     #[test]
+    fn xval_sobol_is_scipys() {
+        // SciPy 1.17.1: scipy.stats.qmc.Sobol(8, scramble=False).random(6)[2:].
+        let sobol = Sobol::new(8);
+        let expected = [
+            [0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.25, 0.75],
+            [0.25, 0.75, 0.75, 0.75, 0.25, 0.25, 0.75, 0.25],
+            [0.375, 0.375, 0.625, 0.875, 0.375, 0.125, 0.375, 0.875],
+            [0.875, 0.875, 0.125, 0.375, 0.875, 0.625, 0.875, 0.375],
+        ];
+        for (n, point) in (2..).zip(&expected) {
+            let found: [f64; 8] = std::array::from_fn(|axis| sobol.coordinate(n, axis));
+            assert_eq!(found, *point, "point {n}");
+        }
+    }
+
+    #[test]
     fn prop_every_stretch_of_two_to_the_m_points_is_stratified() {
         // Each dimension of a Sobol sequence is a (0, 1)-sequence in base 2: of 2^m points from a multiple of 2^m on, one lies in
         // each slice of 2^-m, and a digital shift keeps that.
