@@ -122,7 +122,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         "  centrifugal force       {} N a roller",
         short(d.centrifugal_force, 3)
     );
-    let (channels, idle) = channel::select(&model, &s.simulation.record);
+    let (channels, idle) = channel::select(&model, &s.sensor, &s.simulation.record);
     say!("");
     say!(
         "Recording {} channels, {} samples each at {} Hz",

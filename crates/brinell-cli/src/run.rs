@@ -288,13 +288,16 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
                 .map_or("-".into(), |e| short(e.value, 3))
         };
         told.push(format!(
-            "  {}: RMS {}{interval} m/s^2, peak to peak {}, kurtosis {}",
+            "  {}: RMS {}{interval} {}, peak to peak {}, kurtosis {}",
             channel.name,
             short(rms.value, 3),
+            channel.unit,
             other(Indicator::PeakToPeak),
             other(Indicator::Kurtosis),
         ));
     }
+    let clipped = summary::clipped(parts);
+    told.extend(clipped.into_iter().map(|words| format!("  {words}")));
     for line in &findings.lines {
         let found = line.found.map_or("not found in the envelope".into(), |f| {
             format!(

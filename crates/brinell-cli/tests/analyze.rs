@@ -2,6 +2,7 @@
 
 mod common;
 
+use ::brinell::random::Random;
 use common::{brinell, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -22,22 +23,9 @@ const GIVEN: [&str; 8] = [
     "1800",
 ];
 
-/// SplitMix64 (Steele, Lea, Flood 2014), summed to something like a normal variable.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
+/// Twelve uniform numbers, summed: something like a normal variable.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.part()).sum::<f64>() - 6.0
 }
 
 /// Shaft speed, Hz, at a time: steady, or 20 % faster after the signal's `seconds`.
@@ -47,9 +35,9 @@ fn shaft(t: f64, seconds: f64, sweep: f64) -> f64 {
 
 /// Impacts at 3.5848 a turn, of a height over unit noise; none for 0.
 fn signal(seconds: f64, height: f64, sweep: f64) -> Vec<f64> {
-    let mut noise = Noise(7);
+    let mut noise = Random::new(7);
     let n = (FS * seconds) as usize;
-    let mut x: Vec<f64> = (0..n).map(|_| noise.normal()).collect();
+    let mut x: Vec<f64> = (0..n).map(|_| normal(&mut noise)).collect();
     let mut at = 0.003;
     while height > 0.0 && at < seconds {
         let first = (at * FS).ceil() as usize;
@@ -57,7 +45,7 @@ fn signal(seconds: f64, height: f64, sweep: f64) -> Vec<f64> {
             let since = i as f64 / FS - at;
             *value += height * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
         }
-        at += (1.0 + 0.005 * noise.normal()) / (3.5848 * shaft(at, seconds, sweep));
+        at += (1.0 + 0.005 * normal(&mut noise)) / (3.5848 * shaft(at, seconds, sweep));
     }
     x
 }

@@ -172,7 +172,6 @@ impl Campaign {
         self.sources.scenario(run)
     }
 
-    #[expect(clippy::type_complexity, reason = "a failed run has a draw too")]
     pub(crate) fn try_scenario(
         &self,
         run: usize,
@@ -264,7 +263,6 @@ impl Sources {
         plan.problems(of_plan.collect())
     }
 
-    #[expect(clippy::type_complexity, reason = "a failed run has a draw too")]
     fn try_scenario(&self, run: usize) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
         let (mut loaded, draw) = self.draws.scenario(&self.base.text, run)?;
         let folder = self.base.path.parent().unwrap_or(Path::new(""));

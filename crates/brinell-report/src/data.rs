@@ -7,6 +7,7 @@
 use crate::damage::DamageView;
 use crate::motion::Motion;
 use crate::orbit::CageOrbits;
+use crate::sensor::SensorView;
 use crate::slip::SlipRow;
 use crate::spectrogram::Spectrogram;
 
@@ -51,6 +52,8 @@ pub struct Report {
     pub slip_rows: Vec<SlipRow>,
     /// Orbits of the cages' centres.
     pub cage_orbits: CageOrbits,
+    /// What stands between the outer ring and the record.
+    pub sensor: SensorView,
     /// The bearing in motion.
     pub motion: Motion,
     /// Momentum and energy audit, solver error.

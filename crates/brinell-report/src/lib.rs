@@ -29,6 +29,7 @@ mod page;
 mod picture;
 mod plots;
 mod raster;
+mod sensor;
 mod shape;
 mod side_by_side;
 mod slip;
@@ -60,6 +61,7 @@ pub use plots::{
     Layout, detail_window, envelope_spectrum, headline, headline_png, overview, pass, pictures,
     spectrum, waveform,
 };
+pub use sensor::{SensorView, sensor_response};
 pub use side_by_side::{
     Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,
     side_by_side_pictures,

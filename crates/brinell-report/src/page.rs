@@ -35,11 +35,12 @@ pub fn html(report: &Report) -> String {
         .into_iter()
         .collect();
     let mut page = open(&opening, &alerts);
-    let sections: [Section; 15] = [
+    let mut sections: Vec<Section> = vec![
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),
         ("envelope", "Envelope spectrum", envelope),
         ("spectrogram", "Spectrogram", crate::spectrogram::section),
+        ("sensor", "Sensor", crate::sensor::section),
         ("damage", "Damage", damage),
         ("passes", "Passing the defect", passes),
         ("load", "Load distribution", load),
@@ -52,9 +53,12 @@ pub fn html(report: &Report) -> String {
         ("assumptions", "Assumptions", assumptions),
         ("scenario", "Scenario", scenario),
     ];
+    if !report.sensor.is_there() {
+        sections.retain(|(id, ..)| *id != "sensor");
+    }
     page.push_str("<nav aria-label=\"Contents\"><ul>");
-    for (id, name, _) in sections {
-        let short = match id {
+    for (id, name, _) in &sections {
+        let short = match *id {
             "envelope" => "Envelope",
             "passes" => "Passes",
             "load" => "Load",

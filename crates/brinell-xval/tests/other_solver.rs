@@ -7,7 +7,7 @@
 
 use brinell::channel::{self, Channel, Frame};
 use brinell::model::{Model, Motion};
-use brinell::scenario::Accuracy;
+use brinell::scenario::{Accuracy, Sensor};
 use brinell::solver::{Stepper, System};
 use brinell::{accuracy, document, start};
 use diffsol::{
@@ -319,7 +319,7 @@ impl Case {
     fn check(&self, rungs: &[(f64, Limits)]) {
         let (model, rate) = model(self.path);
         let patterns: Vec<String> = CHANNELS.map(str::to_owned).to_vec();
-        let (channels, idle) = channel::select(&model, &patterns);
+        let (channels, idle) = channel::select(&model, &Sensor::off(), &patterns);
         assert!(idle.is_empty(), "{idle:?}");
         let times: Vec<f64> = (0..=(self.duration * rate) as u64)
             .map(|k| k as f64 / rate)

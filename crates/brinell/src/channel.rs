@@ -1,11 +1,12 @@
 //! Named channels: what can be recorded of a run, with units, and how each is read off an evaluated state.
 //!
 //! All SI. Rows, rollers and cages count from 1 in names. Accelerations are those of the equations of motion at the
-//! instant of the sample; `measured_*` are the outer ring's after the anti-alias filter (section 11 of the model).
+//! instant of the sample; `measured_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter (section 11 of the model).
 
 use crate::defect::Side;
 use crate::model::{Model, Workspace};
-use crate::scenario::{Law, ModelKind};
+use crate::scenario::{Law, ModelKind, Sensor};
+use crate::sensor::{OWN_CHANNEL, own_unit};
 
 /// One instant of a run, evaluated.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +35,7 @@ enum Quantity {
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
     PocketForce(usize),
-    /// x or y of the measured acceleration: not in a frame.
+    /// x, y or the sensor's own direction of what is measured: not in a frame.
     Measured(usize),
 }
 
@@ -75,7 +76,7 @@ pub struct Channel {
 pub const STIFFNESS_UNIT: &str = "N/m^n";
 
 impl Channel {
-    /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x and 1 for y.
+    /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x, 1 for y, 2 for the sensor's own.
     pub fn measured_axis(&self) -> Option<usize> {
         match self.quantity {
             Quantity::Measured(axis) => Some(axis),
@@ -186,7 +187,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
 }
 
 /// Every channel of a model, in the order of files.
-pub fn all(model: &Model) -> Vec<Channel> {
+pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
     let l = &model.layout;
     let dof = l.dof();
     let mut channels = Vec::new();
@@ -325,15 +326,32 @@ pub fn all(model: &Model) -> Vec<Channel> {
             );
         }
     }
-    for (k, axis) in ["x", "y"].into_iter().enumerate() {
-        let text =
-            format!("acceleration of the outer ring along {axis} after the anti-alias filter");
-        add(
-            format!("measured_a{axis}"),
-            "m/s^2",
-            text,
-            Quantity::Measured(k),
-        );
+    channels.extend(measured(sensor));
+    channels
+}
+
+/// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own direction.
+pub fn measured(sensor: &Sensor) -> Vec<Channel> {
+    let what = if sensor.is_on() {
+        "acceleration that the sensor reads"
+    } else {
+        "acceleration of the outer ring"
+    };
+    let one = |k: usize, name: String, unit: &'static str, along: String| Channel {
+        name,
+        unit,
+        description: format!("{what} along {along} after the anti-alias filter"),
+        quantity: Quantity::Measured(k),
+    };
+    let mut channels: Vec<Channel> = ["x", "y"]
+        .into_iter()
+        .enumerate()
+        .map(|(k, axis)| one(k, format!("measured_a{axis}"), "m/s^2", axis.into()))
+        .collect();
+    if let Some(degrees) = sensor.direction_deg {
+        let unit = own_unit(sensor.sensitivity_mv_per_m_per_s2);
+        let along = format!("{degrees} degrees");
+        channels.push(one(2, OWN_CHANNEL.into(), unit, along));
     }
     channels
 }
@@ -341,7 +359,7 @@ pub fn all(model: &Model) -> Vec<Channel> {
 /// Accelerations of rings and cages: the channels that an anti-alias filter makes sense of.
 pub fn filterable(model: &Model) -> Vec<Channel> {
     let l = &model.layout;
-    all(model)
+    all(model, &Sensor::off())
         .into_iter()
         .filter(|c| matches!(c.quantity, Quantity::Slope(k) if k >= l.dof() + l.cage(0)))
         .collect()
@@ -368,8 +386,8 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 }
 
 /// The channels that `record` picks, in the order of [`all`], and the patterns that pick none.
-pub fn select(model: &Model, record: &[String]) -> (Vec<Channel>, Vec<String>) {
-    let channels = all(model);
+pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel>, Vec<String>) {
+    let channels = all(model, sensor);
     let idle = record
         .iter()
         .filter(|p| !channels.iter().any(|c| matches(p, &c.name)))

@@ -11,6 +11,7 @@ use crate::lanes::{Column, WIDTH, blend, positive};
 use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Layout, Model, ModelError, Motion, Power, Workspace, imbalance};
 use crate::scenario::{Accuracy, Scenario};
+use crate::sensor::{Chain, ChannelRecord, Sensing};
 use crate::signal::Decimator;
 use crate::signal::decimate::FACTOR;
 use crate::solver::{StepError, Stepper, System, Work};
@@ -146,6 +147,8 @@ pub struct Outcome {
     pub energy: EnergyAudit,
     /// Largest relative momentum imbalance over the samples; `None` where it cannot be told.
     pub momentum_imbalance: Option<f64>,
+    /// What the sensor did to each of its channels, in the order of [`Simulation::filtered`]; empty without one.
+    pub sensor: Vec<ChannelRecord>,
 }
 
 /// A run that is ready to go.
@@ -154,8 +157,9 @@ pub struct Simulation {
     model: Model,
     channels: Vec<Channel>,
     filtered: Vec<Channel>,
-    /// Entries of the derivative that these are.
-    filtered_entries: Vec<usize>,
+    /// Where each slope of the fast grid goes among them, and its entry of the derivative.
+    filtered_entries: Vec<(usize, usize)>,
+    sensor: Option<Chain>,
     idle_patterns: Vec<String>,
     initial: Vec<f64>,
     sample_rate: f64,
@@ -171,17 +175,25 @@ impl Simulation {
     pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
         let model = Model::new(scenario)?;
         let initial = start::state(&model)?;
-        let (channels, idle_patterns) = channel::select(&model, &scenario.simulation.record);
+        let (channels, idle_patterns) =
+            channel::select(&model, &scenario.sensor, &scenario.simulation.record);
         let sample_rate = scenario.simulation.sample_rate_hz;
-        let (measured, others): (Vec<_>, Vec<_>) = channel::filterable(&model)
+        let (ring, others): (Vec<_>, Vec<_>) = channel::filterable(&model)
             .into_iter()
             .partition(|c| c.name.starts_with("outer_a"));
         let others = others
             .into_iter()
             .filter(|c| channels.iter().any(|r| r.name == c.name));
-        let filtered: Vec<Channel> = measured.into_iter().chain(others).collect();
+        let mut filtered = channel::measured(&scenario.sensor);
+        let measured = filtered.len();
+        filtered.extend(others);
+        let slopes = ring.iter().chain(&filtered[measured..]);
+        let places = (0..ring.len()).chain(measured..);
         Ok(Self {
-            filtered_entries: filtered.iter().filter_map(Channel::slope_entry).collect(),
+            filtered_entries: places
+                .zip(slopes.filter_map(Channel::slope_entry))
+                .collect(),
+            sensor: Chain::new(&scenario.sensor, sample_rate),
             channels,
             filtered,
             idle_patterns,
@@ -204,10 +216,15 @@ impl Simulation {
         &self.channels
     }
 
-    /// The accelerations that pass the anti-alias filter: the outer ring's x and y, which are the measured channels, then those
-    /// of the other rings and cages that are recorded.
+    /// The accelerations that pass the anti-alias filter: the measured channels, x and y of the outer ring and the sensor's own if it has
+    /// one, then those of the other rings and cages that are recorded.
     pub fn filtered(&self) -> &[Channel] {
         &self.filtered
+    }
+
+    /// What stands between the outer ring and the measured channels, if anything does.
+    pub fn sensor(&self) -> Option<&Chain> {
+        self.sensor.as_ref()
     }
 
     /// Samples a second.
@@ -256,6 +273,9 @@ struct Run<'a> {
     decimator: Decimator,
     /// Input of the decimator.
     fast: Vec<f64>,
+    /// Its output, behind the sensor.
+    filtered: Vec<f64>,
+    sensing: Option<Sensing>,
     pending: Pending,
     /// Next instant of the fast grid.
     next: u64,
@@ -295,6 +315,8 @@ impl<'a> Run<'a> {
             stepper,
             decimator,
             fast: vec![0.0; simulation.filtered.len()],
+            filtered: vec![0.0; simulation.filtered.len()],
+            sensing: simulation.sensor.as_ref().map(Sensing::new),
             next: 0,
             rows: 0,
             work: SolverWork::default(),
@@ -331,6 +353,7 @@ impl<'a> Run<'a> {
             work: self.work,
             energy: self.energy,
             momentum_imbalance: self.imbalance,
+            sensor: self.sensing.map_or(Vec::new(), |s| s.records().to_vec()),
         }
     }
 
@@ -423,17 +446,28 @@ impl<'a> Run<'a> {
                 self.observer.sample(index, &frame);
             }
         }
-        for (value, entry) in self.fast.iter_mut().zip(&self.simulation.filtered_entries) {
-            *value = self.stepper.interpolated_slope(t, *entry);
+        for (place, entry) in &self.simulation.filtered_entries {
+            self.fast[*place] = self.stepper.interpolated_slope(t, *entry);
+        }
+        if let (Some(sensing), Some(chain)) = (&mut self.sensing, &self.simulation.sensor) {
+            if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {
+                self.fast[2] = own;
+            }
+            sensing.fast(&mut self.fast);
         }
         if let Some(filtered) = self.decimator.push(&self.fast) {
+            self.filtered.copy_from_slice(filtered);
+            if let Some(sensing) = &mut self.sensing {
+                let at = self.rows as f64 / self.simulation.sample_rate;
+                sensing.sample(&mut self.filtered, at >= self.simulation.model.load.ramp);
+            }
             let row = self.pending.row(self.rows);
             for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
                 if let Some(axis) = channel.measured_axis() {
-                    *value = filtered[axis];
+                    *value = self.filtered[axis];
                 }
             }
-            self.observer.row(self.rows, row, filtered)?;
+            self.observer.row(self.rows, row, &self.filtered)?;
             self.rows += 1;
         }
         ControlFlow::Continue(())

@@ -37,7 +37,7 @@ pub fn to_json(parts: &Parts) -> Value {
     } = *parts;
     let scenario = &loaded.scenario;
     let model = simulation.model();
-    json!({
+    let mut summary = json!({
         "brinell": crate::VERSION,
         "name": scenario.name,
         "status": status(&outcome.end),
@@ -60,7 +60,57 @@ pub fn to_json(parts: &Parts) -> Value {
         "momentum_audit": { "largest_relative_imbalance": outcome.momentum_imbalance },
         "assumed": loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect::<Vec<_>>(),
         "warnings": warnings(parts),
-    })
+    });
+    if let Some(sensor) = sensor(parts) {
+        summary["sensor"] = sensor;
+    }
+    summary
+}
+
+/// What the sensor did; nothing without one.
+fn sensor(parts: &Parts) -> Option<Value> {
+    let chain = parts.simulation.sensor()?;
+    let noise = chain.noise_rms();
+    let channels: Map<String, Value> = parts
+        .simulation
+        .filtered()
+        .iter()
+        .zip(&parts.outcome.sensor)
+        .map(|(channel, record)| {
+            let ratio = noise
+                .zip(record.signal_rms())
+                .filter(|(noise, signal)| *noise > 0.0 && *signal > 0.0)
+                .map(|(noise, signal)| 20.0 * (signal / noise).log10());
+            let entry = json!({
+                "unit": channel.unit,
+                "signal_rms_m_per_s2": record.signal_rms(),
+                "signal_to_noise_db": ratio,
+                "clipped_samples": record.clipped,
+            });
+            (channel.name.clone(), entry)
+        })
+        .collect();
+    Some(json!({
+        "meaning": "signal_rms: before noise and converter, since the load reached its full size; clipped_samples: of all samples",
+        "noise_rms_m_per_s2": noise,
+        "converter_step_m_per_s2": chain.step(),
+        "channels": channels,
+    }))
+}
+
+/// Which measured channels went beyond the converter's ends, in words.
+pub fn clipped(parts: &Parts) -> Vec<String> {
+    let channels = parts.simulation.filtered().iter();
+    channels
+        .zip(&parts.outcome.sensor)
+        .filter(|(_, record)| record.clipped > 0)
+        .map(|(channel, record)| {
+            format!(
+                "{}: {} of {} samples lie beyond the converter's range and are clipped",
+                channel.name, record.clipped, parts.outcome.rows
+            )
+        })
+        .collect()
 }
 
 /// Words for how a run ended.
@@ -85,6 +135,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
             "simulation.record: \"{pattern}\" matches no channel of this bearing"
         ));
     }
+    all.extend(clipped(parts));
     if let Err(error) = parts.statics {
         all.push(error.to_string());
     }

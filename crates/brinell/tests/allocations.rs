@@ -5,7 +5,7 @@ mod common;
 use brinell::channel::Frame;
 use brinell::observe::Watch;
 use brinell::observe::waveform::KEPT;
-use brinell::scenario::Scenario;
+use brinell::scenario::{NoiseColour, Scenario, Sensor};
 use brinell::simulate::{End, Observer, Simulation};
 use common::cases::rectangle;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -103,6 +103,22 @@ fn prop_steps_allocate_nothing_and_memory_does_not_grow() {
     assert!(steps > 10_000, "{steps} steps");
     assert_eq!(allocations, 0, "allocations from 0.1 to 0.4 s");
     assert_eq!(grown, 0, "bytes from 0.1 to 0.4 s");
+
+    // The measurement chain costs memory once too.
+    s.sensor = Sensor {
+        direction_deg: Some(45.0),
+        mounting_resonance_hz: Some(20_000.0),
+        mounting_damping_ratio: 0.02,
+        noise_rms_m_per_s2: Some(0.1),
+        noise_colour: NoiseColour::Pink,
+        noise_corner_hz: 1.0,
+        converter_bits: Some(16),
+        converter_range_m_per_s2: Some(500.0),
+        ..Sensor::off()
+    };
+    let (grown, allocations, _) = metered(&s, [0.1, 0.4], false);
+    assert_eq!((grown, allocations), (0, 0), "with a sensor");
+    s.sensor = Sensor::off();
 
     // With everything that summary and report are made of, at a rate that fills the kept waveform by 0.1 s.
     s.simulation.duration_s = 0.3;

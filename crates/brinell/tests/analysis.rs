@@ -5,24 +5,7 @@ use std::f64::consts::TAU;
 use brinell::analysis::{
     Analysis, AnalysisError, Component, NamedBearing, Options, Side, analyze, compare,
 };
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        ((z >> 11) as f64 + 0.5) / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
-    }
-}
+use brinell::random::Random;
 
 const SHAFT: f64 = 29.95;
 /// What the analyst was told: half a turn in a thousand off.
@@ -30,7 +13,7 @@ const TOLD: f64 = 29.93;
 
 /// A rig: shaft harmonics, mains, and white noise of unit RMS.
 fn healthy(fs: f64, seconds: f64, seed: u64) -> Vec<f64> {
-    let mut noise = Noise(seed.wrapping_mul(77) + 5);
+    let mut noise = Random::new(seed.wrapping_mul(77) + 5);
     let phases: Vec<f64> = (0..12).map(|_| TAU * noise.uniform()).collect();
     (0..(fs * seconds) as usize)
         .map(|i| {
@@ -60,7 +43,7 @@ struct Damage {
 }
 
 fn damaged(fs: f64, seconds: f64, seed: u64, d: &Damage) -> Vec<f64> {
-    let mut noise = Noise(seed + 900);
+    let mut noise = Random::new(seed + 900);
     let n = (fs * seconds) as usize;
     let mut ring = vec![0.0; n];
     // Half a per cent of slip.

@@ -56,6 +56,7 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
             "roller",
             "run-up",
             "scan",
+            "sensor",
             "single-row",
         ]
     );

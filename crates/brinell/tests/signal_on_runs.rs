@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use brinell::analysis::{Component, DefectOrders, Options, analyze};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::random::Random;
 use brinell::scenario::{Scenario, Shape, Surface};
 use brinell::signal::double_impulse::{Events, consensus, defect_length, separations};
 use brinell::signal::{
@@ -76,17 +77,10 @@ fn damaged(on: Surface) -> Scenario {
 /// frequencies that the verdict finds nothing special about its own.
 fn with_noise(x: &[f64], share: f64) -> Vec<f64> {
     let rms = (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt();
-    // SplitMix64 (Steele, Lea, Flood 2014); twelve uniform numbers make a nearly normal one.
-    let mut state = 7_u64;
-    let mut uniform = || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    // Twelve uniform numbers make a nearly normal one.
+    let mut random = Random::new(7);
     x.iter()
-        .map(|x| x + share * rms * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0))
+        .map(|x| x + share * rms * ((0..12).map(|_| random.part()).sum::<f64>() - 6.0))
         .collect()
 }
 

@@ -2,6 +2,7 @@
 
 mod contacts;
 mod motion;
+mod sensor;
 mod signals;
 mod tables;
 
@@ -52,6 +53,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
         slip: slip(parts),
         slip_rows: slip_rows(parts),
         cage_orbits: cage_orbits(parts),
+        sensor: sensor::view(parts),
         motion: motion(parts),
         audits: audits(parts),
         solver_work: solver_work(parts),
@@ -66,7 +68,11 @@ fn axis(parts: &Parts) -> &'static str {
 
 /// What waveform and spectra show.
 fn measured(parts: &Parts) -> String {
-    format!("Outer ring acceleration, {} (measured)", axis(parts))
+    let what = match parts.simulation.sensor() {
+        Some(_) => "Acceleration at the sensor",
+        None => "Outer ring acceleration",
+    };
+    format!("{what}, {} (measured)", axis(parts))
 }
 
 fn speed(scenario: &Scenario) -> String {

@@ -157,7 +157,8 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         .findings
         .channels
         .iter()
-        .filter(|c| c.unit == "m/s^2" && !c.name.starts_with("roller"))
+        .filter(|c| c.unit == "m/s^2" || c.name.starts_with("measured"))
+        .filter(|c| !c.name.starts_with("roller"))
         .map(|c| IndicatorRow {
             channel: c.name.clone(),
             kind: match c.kind {

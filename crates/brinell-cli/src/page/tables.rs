@@ -19,7 +19,13 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
         .find(|c| c.name == name && c.kind == Kind::AntiAliased);
     if let Some(channel) = measured {
         for (indicator, label) in [
-            (Indicator::Rms, "RMS of the outer ring's acceleration"),
+            (
+                Indicator::Rms,
+                match parts.simulation.sensor() {
+                    Some(_) => "RMS of the acceleration at the sensor",
+                    None => "RMS of the outer ring's acceleration",
+                },
+            ),
             (Indicator::Kurtosis, "Kurtosis"),
         ] {
             let Some(e) = channel.blocks.estimate(indicator) else {

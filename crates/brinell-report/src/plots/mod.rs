@@ -13,6 +13,7 @@ use crate::load::load_distribution;
 use crate::motion::bearing_motion;
 use crate::orbit::cage_orbit;
 use crate::picture::Picture;
+use crate::sensor::sensor_response;
 use crate::slip::{self, slip_over_angle, slip_over_time};
 use crate::spectrogram::spectrogram;
 pub use headline::{headline, headline_png};
@@ -57,6 +58,9 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
     }
     if !report.motion.rows.is_empty() {
         pictures.push(bearing_motion(&report.motion, usize::MAX, Layout::Wide));
+    }
+    if !report.sensor.gain_db.is_empty() {
+        pictures.push(sensor_response(&report.sensor, Layout::Wide));
     }
     if !report.cage_orbits.rows.is_empty() {
         pictures.push(cage_orbit(&report.cage_orbits, Layout::Wide));

@@ -3,8 +3,8 @@
 use brinell_report::{
     Assumption, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView, DamagedSurface,
     DepthPatch, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
-    Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, Series, SlipRow, Spectrogram, Spectrum,
-    Waveform, bin_centres,
+    Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow,
+    Spectrogram, Spectrum, Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -216,6 +216,11 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             ],
             clearance_um: Some(at(1)),
             note: text.into(),
+        },
+        sensor: SensorView {
+            frequency_hz: (0..values.len()).map(|k| k as f64 * frequency).collect(),
+            gain_db: values.to_vec(),
+            facts: vec![fact()],
         },
         motion: motion(text, values, dt),
         spectrogram: Spectrogram {

@@ -281,6 +281,7 @@ pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
         work: crate::simulate::SolverWork::default(),
         energy: crate::simulate::EnergyAudit::default(),
         momentum_imbalance: None,
+        sensor: Vec::new(),
     };
     let all = quantities(scenario, simulation, &outcome, &findings);
     all.into_iter().map(|q| q.name).collect()

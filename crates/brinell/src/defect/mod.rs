@@ -26,7 +26,6 @@ pub use grid::Grid;
 pub use ground::{Ground, Rules, relative_radius, slice_position};
 pub use outline::{Fault, Outline, faults};
 pub use profile::Profile;
-pub(crate) use random::mix;
 pub use random::spall;
 pub use shape::Shape;
 

@@ -4,6 +4,7 @@
 //! asked for. Nothing but additions, multiplications and divisions of IEEE doubles is used (no sine, no power), and the integers
 //! are SplitMix64's, so every machine computes the same bits.
 
+use crate::random::mix;
 use crate::scenario::DepthGrid;
 
 /// Nodes of the drawing along each side.
@@ -16,14 +17,6 @@ const EDGE_NOISE: [(f64, f64); 3] = [(0.8, 0.9), (0.4, 0.45), (0.2, 0.2)];
 const FLOOR_NOISE: [(f64, f64); 3] = [(0.6, 0.4), (0.25, 0.25), (0.1, 0.15)];
 /// Share of the field over which the floor falls to its depth.
 const RAMP: f64 = 0.3;
-
-/// SplitMix64's output function (Steele, Lea and Flood 2014).
-pub(crate) fn mix(mut x: u64) -> u64 {
-    x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
-}
 
 /// A value in [-1, 1) of each node of a lattice.
 fn node(seed: u64, layer: u64, i: i64, j: i64) -> f64 {

@@ -12,7 +12,8 @@ const MOST_ATTEMPTS: u64 = 1000;
 
 /// Keys that every run has a seed of its own for, where the plan does not set them: the table that holds the seed (`*` is any element of a
 /// list), and its name there. A run whose scenario has no such table has no such seed.
-const SEEDED_PER_RUN: [(&str, &str); 2] = [("defects.*.shape.random", "seed"), ("sensor", "seed")];
+const SEEDED_PER_RUN: [(&str, &str); 2] =
+    [("defects.*.shape.random", "seed"), ("sensor", "noise_seed")];
 
 /// One run's settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -286,7 +287,6 @@ impl Draws {
     ///
     /// # Errors
     /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where there is one.
-    #[expect(clippy::type_complexity, reason = "a failed run has a draw too")]
     pub fn scenario(
         &self,
         base: &str,

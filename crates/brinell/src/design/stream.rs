@@ -1,6 +1,6 @@
 //! Numbers that belong to a place in a campaign: functions of the seed and the place, not of what was drawn before.
 
-use crate::defect::mix;
+use crate::random::mix;
 
 /// 64 bits that belong to words, such as campaign seed, run and attempt.
 pub(super) fn bits(words: &[u64]) -> u64 {

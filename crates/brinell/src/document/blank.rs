@@ -68,6 +68,7 @@ pub(crate) fn scenario() -> Scenario {
             gravity_m_per_s2: [NONE; 2],
         },
         defects: Vec::new(),
+        sensor: Sensor::off(),
         simulation: Simulation {
             model: Leaf::blank(),
             duration_s: NONE,
@@ -86,6 +87,14 @@ pub(crate) fn defect() -> Defect {
         center_deg: NONE,
         depth_um: NONE,
         shape: rectangle(),
+    }
+}
+
+pub(crate) fn path_mode() -> PathMode {
+    PathMode {
+        frequency_hz: NONE,
+        damping_ratio: NONE,
+        gain: NONE,
     }
 }
 

@@ -61,7 +61,8 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
-    const SUFFIXES: [(&str, &str); 15] = [
+    const SUFFIXES: [(&str, &str); 18] = [
+        ("_mv_per_m_per_s2", "mV/(m/s^2)"),
         ("_kg_per_m3", "kg/m^3"),
         ("_ns_per_m", "N s/m"),
         ("_m_per_s2", "m/s^2"),
@@ -75,6 +76,8 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
         ("_um", "um"),
         ("_kg", "kg"),
         ("_hz", "Hz"),
+        ("_mv", "mV"),
+        ("_db", "dB"),
         ("_n", "N"),
         ("_s", "s"),
     ];

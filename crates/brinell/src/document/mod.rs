@@ -18,6 +18,7 @@ mod provenance;
 mod reader;
 mod schema;
 mod sections;
+mod sensor;
 mod shape_leaf;
 mod source;
 mod words;

@@ -1,4 +1,5 @@
-//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage stand in [`super::damage`].
+//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage stand in [`super::damage`], the sensor's in
+//! [`super::sensor`].
 
 use std::f64::consts::PI;
 
@@ -6,6 +7,7 @@ use super::blank;
 use super::damage::defect;
 use super::keys::Fallback::{Catalogued, Needed, Required};
 use super::keys::{Keys, assumed, derived, key, stated};
+use super::sensor::sensor;
 use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
@@ -49,6 +51,13 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         &mut s.defects,
         blank::defect,
         |k, d| defect(k, load, d),
+    );
+    k.section(
+        key(
+            "sensor",
+            "from the outer ring to the record: nothing, unless a key says so",
+        ),
+        |k| sensor(k, &mut s.sensor),
     );
     k.section(key("simulation", "what to compute and to record"), |k| {
         simulation(k, &mut s.simulation)

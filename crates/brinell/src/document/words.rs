@@ -38,6 +38,12 @@ words! { LoadOn:
     InnerRing = "inner-ring", "+F on the inner ring";
 }
 
+words! { NoiseColour:
+    White = "white", "the same density everywhere";
+    Pink = "pink", "density ~ 1/f above the corner";
+    Brown = "brown", "density ~ 1/f^2 above the corner";
+}
+
 words! { ModelKind:
     Full = "full", "every part moves";
     Reference = "reference", "lumped rings, kinematic cage";

@@ -111,6 +111,19 @@ impl<'a> Writer<'a> {
         });
     }
 
+    /// Explains a key that has no value: beside the inline table that would hold it, or on a line of its own.
+    fn aside(&mut self, text: String) {
+        if self.inline.is_some() {
+            self.asides.push(text);
+        } else {
+            let line = Line {
+                code: String::new(),
+                comment: text,
+            };
+            self.lines.push(line);
+        }
+    }
+
     /// Writes the lines gathered, their comments in one column where the values are short.
     fn flush(&mut self) {
         const WIDEST: usize = 52;
@@ -173,17 +186,16 @@ impl Keys for Writer<'_> {
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
         if let Some(value) = value {
             self.add::<T>(&spec, &value.write(), true);
-        } else if self.is_template() && self.inline.is_some() {
-            self.asides
-                .push(format!("{}: {}", spec.name, explain::<T>(&spec)));
+        } else if self.is_template() {
+            self.aside(format!("{}: {}", spec.name, explain::<T>(&spec)));
         }
     }
 
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
             self.add::<T>(&spec, &value.write(), true);
-        } else if self.is_template() && self.inline.is_some() {
-            self.asides.push(format!(
+        } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
+            self.aside(format!(
                 "{}: {}; only where {case}",
                 spec.name,
                 explain::<T>(&spec)
@@ -206,7 +218,7 @@ impl Keys for Writer<'_> {
         if wanted {
             self.key(spec, fallback, value);
         } else if self.is_template() {
-            self.asides.push(format!(
+            self.aside(format!(
                 "{}: {}; only where {case}",
                 spec.name,
                 explain::<T>(&spec)
@@ -215,10 +227,17 @@ impl Keys for Writer<'_> {
     }
 
     fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
+        self.flush();
+        let before = self.out.len();
         self.header(format!("[{}]", spec.name), spec.doc);
+        let bare = self.out.len();
         self.path.push(spec.name.to_string());
         keys(self);
         self.path.pop();
+        // A section without a key says nothing.
+        if self.lines.is_empty() && self.out.len() == bare {
+            self.out.truncate(before);
+        }
     }
 
     fn tables<T>(
@@ -228,8 +247,11 @@ impl Keys for Writer<'_> {
         _: fn() -> T,
         mut keys: impl FnMut(&mut Self, &mut T),
     ) {
+        if items.is_empty() && self.is_template() && !self.path.is_empty() {
+            self.aside(format!("[[{}]]: {}", self.path_of(spec.name), spec.doc));
+        }
         for (i, item) in items.iter_mut().enumerate() {
-            self.header(format!("[[{}]]", spec.name), spec.doc);
+            self.header(format!("[[{}]]", self.path_of(spec.name)), spec.doc);
             self.path.push(spec.name.to_string());
             self.path.push(i.to_string());
             keys(self, item);

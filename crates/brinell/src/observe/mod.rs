@@ -209,11 +209,9 @@ impl Watch {
 
     /// At each sample instant.
     pub fn sample(&mut self, frame: &Frame) {
-        if self.started.is_none() {
-            if has_settled(frame, self.half_way) {
-                self.started = Some(frame.t);
-                self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
-            }
+        if self.started.is_none() && has_settled(frame, self.half_way) {
+            self.started = Some(frame.t);
+            self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
         }
         self.slip_course.take(frame, self.started.is_some());
         self.cage_orbit.take(frame);
@@ -248,10 +246,7 @@ impl Watch {
 
     /// What came together.
     pub fn finish(mut self, simulation: &Simulation) -> Findings {
-        // The two measured channels were counted twice where they are recorded; the filtered pair goes by their names.
-        for (k, name) in ["measured_ax", "measured_ay"].into_iter().enumerate() {
-            self.channels[self.recorded + k].name = name.to_owned();
-        }
+        // The measured channels were counted twice where they are recorded.
         let names: Vec<&str> = simulation
             .channels()
             .iter()

@@ -69,7 +69,8 @@ impl Section {
         }
     }
 
-    fn response(&self, angle: f64) -> Complex<f64> {
+    /// Its response at z = e^(i `angle`), the angle in radians a sample.
+    pub fn response(&self, angle: f64) -> Complex<f64> {
         let z = Complex::from_polar(1.0, -angle);
         let [b0, b1, b2] = self.b;
         let [a1, a2] = self.a;

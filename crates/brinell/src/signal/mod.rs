@@ -51,7 +51,7 @@ pub use double_impulse::{
 };
 pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
-pub use filter::{Butterworth, Passband};
+pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, line_frequency};
 pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};

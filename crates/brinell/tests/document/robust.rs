@@ -237,6 +237,44 @@ fn defects() -> impl Strategy<Value = Vec<Defect>> {
     prop::collection::vec(defect, 0..4)
 }
 
+/// None, a few keys, or all of them.
+fn sensor(kind: usize, x: &[f64]) -> Sensor {
+    let rate = 1.0 + x[13];
+    let mode = |gain: f64| PathMode {
+        frequency_hz: 0.01 * rate,
+        damping_ratio: 0.3 * x[1] / 1e9 + 1e-3,
+        gain,
+    };
+    match kind {
+        0 => Sensor::off(),
+        1 => Sensor {
+            direction_deg: Some(-x[3]),
+            noise_rms_m_per_s2: Some(x[4]),
+            noise_seed: x[5].to_bits(),
+            path: vec![mode(1.0), mode(-x[6] / 1e9)],
+            ..Sensor::off()
+        },
+        _ => Sensor {
+            direction_deg: Some(-0.0),
+            sensitivity_mv_per_m_per_s2: Some(x[0]),
+            mounting_resonance_hz: Some(3.0 * rate),
+            mounting_damping_ratio: 0.9 * x[2] / 1e9 + 1e-3,
+            low_cut_hz: Some(1e-3 * rate),
+            high_cut_hz: Some(0.7 * rate),
+            noise_rms_m_per_s2: None,
+            noise_snr_db: Some(x[3] / 1e9),
+            noise_reference_rms_m_per_s2: x[4],
+            noise_colour: NoiseColour::Pink,
+            noise_corner_hz: 1e-2 * rate,
+            noise_seed: 7,
+            converter_bits: Some(16),
+            converter_range_m_per_s2: None,
+            converter_range_mv: Some(x[5]),
+            path: vec![mode(x[6] / 1e9)],
+        },
+    }
+}
+
 fn scenarios() -> impl Strategy<Value = Scenario> {
     let speed = prop_oneof![
         (1e-3..1e5f64).prop_map(Speed::Constant),
@@ -328,6 +366,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     gravity_m_per_s2: [-0.0, -x[11]],
                 },
                 defects,
+                sensor: sensor(words.0, &x),
                 simulation: Simulation {
                     model: [ModelKind::Full, ModelKind::Reference][words.2],
                     duration_s: 1.0 + x[12] / 1e9,

@@ -8,23 +8,18 @@
 
 use std::f64::consts::TAU;
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub(crate) struct Random(u64);
+pub(crate) struct Random(brinell::random::Random);
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
-        let mut random = Random(seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(11));
+        let seed = seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(11);
+        let mut random = Random(brinell::random::Random::new(seed));
         random.uniform();
         random
     }
 
     pub(crate) fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        ((z >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+        self.0.uniform()
     }
 
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
@@ -32,7 +27,7 @@ impl Random {
     }
 
     pub(crate) fn normal(&mut self) -> f64 {
-        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
+        self.0.normal()
     }
 
     fn pick<T: Copy>(&mut self, of: &[T]) -> T {

@@ -5,6 +5,7 @@
 mod bearing;
 mod defects;
 mod operation;
+mod sensor;
 mod shapes;
 
 use std::collections::HashMap;
@@ -100,6 +101,7 @@ pub(crate) fn check(scenario: &Scenario, finder: &Finder<'_>) -> Vec<Problem> {
     checker.operation();
     checker.support();
     checker.defects();
+    checker.sensor();
     checker.simulation();
     checker.problems
 }

@@ -1,0 +1,108 @@
+//! The channel meant.
+
+use super::rate::{is_time, time_unit};
+use super::usage;
+use crate::failure::Failure;
+use brinell::document::Loaded;
+use brinell_io::{Channel, SignalFile};
+
+/// The channel meant, by name, part of a name, or number.
+pub(super) fn resolve(
+    file: &SignalFile,
+    text: &str,
+    option: &str,
+) -> Result<(String, Channel), Failure> {
+    let channels = file.channels();
+    let whole = |c: &Channel| (c.name.clone(), c.clone());
+    if let Some(found) = channels.iter().find(|c| c.name == text) {
+        return Ok(whole(found));
+    }
+    if let Ok(number) = text.trim().parse::<usize>() {
+        return (number
+            .checked_sub(1)
+            .and_then(|i| channels.get(i))
+            .map(whole))
+        .ok_or_else(|| {
+            usage(format!(
+                "{option} {text}: {} has {} channels; they count from 1: {}",
+                file.path().display(),
+                channels.len(),
+                listed(channels.iter())
+            ))
+        });
+    }
+    // `X(:,2)`: the reader takes it apart; rate and unit are the matrix's.
+    if let Some(open) = text.rfind('(')
+        && let Some(found) = channels.iter().find(|c| c.name == text[..open])
+    {
+        return Ok((text.to_owned(), found.clone()));
+    }
+    let lower = text.to_lowercase();
+    let partly: Vec<&Channel> = (channels.iter())
+        .filter(|c| c.may_be_signal() && c.name.to_lowercase().contains(&lower))
+        .collect();
+    match partly[..] {
+        [only] => Ok(whole(only)),
+        [] => Err(usage(format!(
+            "{option} {text}: {} has no such channel; there are {}",
+            file.path().display(),
+            listed(channels.iter())
+        ))),
+        _ => Err(usage(format!(
+            "{option} {text}: several channels are called like that: {}",
+            listed(partly.into_iter())
+        ))),
+    }
+}
+
+fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
+    let names: Vec<&str> = channels.map(|c| c.name.as_str()).collect();
+    let more = names.len().saturating_sub(20);
+    let shown = names[..names.len() - more].join(", ");
+    match more {
+        0 if shown.is_empty() => "nothing".into(),
+        0 => shown,
+        _ => format!("{shown} and {more} more"),
+    }
+}
+
+pub(super) fn channel(
+    file: &SignalFile,
+    wanted: Option<&str>,
+    run: Option<&Loaded>,
+    notes: &mut Vec<String>,
+) -> Result<(String, Channel), Failure> {
+    if let Some(text) = wanted {
+        return resolve(file, text, "--channel");
+    }
+    if let Some(run) = run {
+        let load = run.scenario.operation.load_n;
+        let along = if load[1].abs() > load[0].abs() {
+            "measured_ay"
+        } else {
+            "measured_ax"
+        };
+        if let Some(found) = file.channels().iter().find(|c| c.name == along) {
+            notes.push(format!(
+                "channel {along}, along the load, as nobody named one"
+            ));
+            return Ok((found.name.clone(), found.clone()));
+        }
+    }
+    let signals: Vec<&Channel> = (file.channels().iter())
+        .filter(|c| c.may_be_signal() && time_unit(c).is_none() && !is_time(c))
+        .collect();
+    match signals[..] {
+        [only] => Ok((only.name.clone(), only.clone())),
+        [] => Err(usage(format!(
+            "{}: nothing here is a signal; there are {}",
+            file.path().display(),
+            listed(file.channels().iter())
+        ))),
+        _ => Err(usage(format!(
+            "{}: several channels may be the signal; choose one with --channel: {}",
+            file.path().display(),
+            listed(signals.into_iter())
+        ))),
+    }
+}

@@ -1,0 +1,206 @@
+//! The signal in a file: which channel, at what rate, in what unit; and what else the file states.
+
+mod channel;
+mod rate;
+mod speed;
+mod stretch;
+mod unit;
+
+use crate::failure::Failure;
+use brinell::analysis::Unit;
+use brinell::document::{Loaded, read};
+use brinell::scenario::Speed;
+use brinell_io::{IoError, SignalFile, open};
+use channel::channel;
+use rate::rate;
+pub(crate) use speed::StatedSpeed;
+use speed::speed;
+use std::path::{Path, PathBuf};
+pub(crate) use stretch::Rest;
+use stretch::{stretch, whole};
+use unit::unit;
+
+/// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
+pub(crate) const MOST: usize = 1 << 22;
+
+/// What was asked of a file.
+#[derive(Debug, Default)]
+pub(crate) struct Wanted<'a> {
+    pub(crate) channel: Option<&'a str>,
+    pub(crate) rate: Option<f64>,
+    pub(crate) time_channel: Option<&'a str>,
+    pub(crate) time_unit: Option<&'a str>,
+    pub(crate) unit: Option<&'a str>,
+    pub(crate) speed_channel: Option<&'a str>,
+    pub(crate) start: Option<f64>,
+    pub(crate) duration: Option<f64>,
+}
+
+/// A stretch of one channel, with everything that is known of it.
+pub(crate) struct Measured {
+    pub(crate) path: PathBuf,
+    pub(crate) channel: String,
+    pub(crate) x: Vec<f64>,
+    pub(crate) rate: f64,
+    pub(crate) unit: Unit,
+    /// Where the stretch begins, s.
+    pub(crate) start: f64,
+    /// Where rate, unit and channel come from, and what was left out: sentences.
+    pub(crate) notes: Vec<String>,
+    /// What deserves attention.
+    pub(crate) warnings: Vec<String>,
+    /// What lies beyond the stretch, where the signal is longer than one analysis takes.
+    pub(crate) rest: Option<Rest>,
+    /// Shaft speed that the file states, and where.
+    pub(crate) speed: Option<StatedSpeed>,
+    /// The scenario of the run that made the file.
+    pub(crate) scenario: Option<Box<Loaded>>,
+}
+
+fn usage(message: String) -> Failure {
+    Failure::Usage(message)
+}
+
+/// Reads what was wanted.
+pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
+    let path = signals_in(path)?;
+    let mut file = open(&path).map_err(bad)?;
+    let scenario = scenario(&file, &path);
+    let (mut notes, mut warnings) = (Vec::new(), Vec::new());
+    let (name, channel) = channel(&file, wanted.channel, scenario.as_deref(), &mut notes)?;
+    let (rate, rate_note) = rate(
+        &mut file,
+        &channel,
+        wanted,
+        scenario.is_some(),
+        &mut warnings,
+    )?;
+    notes.push(rate_note);
+    let unit = unit(
+        &path,
+        &name,
+        &channel,
+        wanted,
+        scenario.as_deref(),
+        &mut notes,
+        &mut warnings,
+    )?;
+
+    let positive = |option: &str, value: Option<f64>, least: f64| match value {
+        Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
+            "{option} {v}: expected {} s",
+            if least == 0.0 {
+                "0 or more"
+            } else {
+                "more than 0"
+            }
+        ))),
+        _ => Ok(()),
+    };
+    positive("--start", wanted.start, 0.0)?;
+    positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
+    let settled = scenario.as_deref().map(settled);
+    let start = match (wanted.start, settled) {
+        (Some(start), _) => start,
+        (None, Some(settled)) => {
+            notes.push(format!(
+                "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
+            ));
+            settled
+        }
+        (None, None) => 0.0,
+    };
+    let skip = (start * rate).round() as usize;
+    let (x, rest) = match wanted.duration {
+        Some(d) => {
+            let most = ((d * rate).round() as usize).max(1);
+            (stretch(&mut file, &name, skip, most)?.0, None)
+        }
+        None => whole(&mut file, &name, skip, rate)?,
+    };
+    if x.is_empty() {
+        return Err(usage(format!(
+            "{}: `{name}` holds no samples {}",
+            path.display(),
+            if skip > 0 {
+                format!("beyond {start} s")
+            } else {
+                "at all".into()
+            }
+        )));
+    }
+    if let Some(rest) = &rest {
+        warnings.push(format!(
+            "a long signal, {} samples: the verdict is on the first {MOST} ({:.1} s from {start} s on), and one on the last {} follows it; \
+             --start and --duration choose another stretch",
+            rest.samples,
+            MOST as f64 / rate,
+            rest.last.len()
+        ));
+    }
+    let seconds = x.len() as f64 / rate;
+    let speed = speed(
+        &mut file,
+        wanted,
+        scenario.as_deref(),
+        &name,
+        (start, seconds, rate),
+    )?;
+    Ok(Measured {
+        path,
+        channel: name,
+        x,
+        rate,
+        unit,
+        start,
+        rest,
+        notes,
+        warnings,
+        speed,
+        scenario,
+    })
+}
+
+/// Whatever is wrong with a file that is read is bad input.
+fn bad(error: IoError) -> Failure {
+    usage(error.to_string())
+}
+
+/// The file itself, or the signals in the folder of a run.
+fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    ["parquet", "npz", "mat", "csv", "uff", "wav"]
+        .iter()
+        .map(|ending| path.join(format!("signals.{ending}")))
+        .find(|file| file.is_file())
+        .ok_or_else(|| {
+            usage(format!(
+                "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
+                path.display()
+            ))
+        })
+}
+
+/// The scenario that the file carries, or that lies beside it where the file is a run's.
+fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
+    let carried = (file.metadata().pairs.iter())
+        .find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))
+        .map(|(_, text)| text.clone());
+    let beside = || {
+        let own = path.file_stem()? == "signals" && file.channels().first()?.name == "t";
+        own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?
+    };
+    let text = carried.or_else(beside)?;
+    read(&text, &[]).ok().map(Box::new)
+}
+
+/// Where a run's statistics begin: after the load ramp and a full turn, or half-way through.
+fn settled(run: &Loaded) -> f64 {
+    let turn = match &run.scenario.operation.speed_rpm {
+        Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
+        _ => 0.0,
+    };
+    (run.scenario.operation.load_ramp_s + turn).min(0.5 * run.scenario.simulation.duration_s)
+}

@@ -1,0 +1,146 @@
+//! The sample rate, and columns of times.
+
+use super::channel::resolve;
+use super::{Wanted, stretch, usage};
+use crate::failure::Failure;
+use brinell_io::{Channel, RateSource, SignalFile};
+
+/// Steps between times may differ by so much from their mean, relative, before a rate is refused.
+const UNEVEN: f64 = 0.02;
+
+/// Whether a channel is called like a column of times.
+pub(super) fn is_time(channel: &Channel) -> bool {
+    let name = channel.name.to_lowercase();
+    let bare = name
+        .split(['[', '('])
+        .next()
+        .unwrap_or("")
+        .trim()
+        .to_owned();
+    ["t", "time", "times", "timestamp", "zeit"].contains(&bare.as_str())
+}
+
+/// Seconds in the unit of a column of times, where its unit is one.
+pub(super) fn time_unit(channel: &Channel) -> Option<f64> {
+    channel
+        .unit
+        .as_deref()
+        .filter(|_| is_time(channel))
+        .and_then(seconds)
+}
+
+fn seconds(unit: &str) -> Option<f64> {
+    Some(match unit.trim().to_lowercase().as_str() {
+        "s" | "sec" | "second" | "seconds" => 1.0,
+        "ms" | "msec" => 1e-3,
+        "us" | "µs" | "μs" | "usec" => 1e-6,
+        _ => return None,
+    })
+}
+
+pub(super) fn rate(
+    file: &mut SignalFile,
+    channel: &Channel,
+    wanted: &Wanted,
+    own: bool,
+    warnings: &mut Vec<String>,
+) -> Result<(f64, String), Failure> {
+    let stated = channel.rate.as_ref().map(|rate| {
+        let place = match &rate.source {
+            RateSource::Header(field) => format!("the file's header ({field})"),
+            RateSource::Variable(name) => format!("the variable `{name}` in the file"),
+        };
+        (rate.hz, place)
+    });
+    if let Some(given) = wanted.rate {
+        if !(given > 0.0 && given.is_finite()) {
+            return Err(usage(format!("--rate {given}: expected more than 0 Hz")));
+        }
+        if let Some((hz, place)) = stated.filter(|(hz, _)| (hz / given - 1.0).abs() > 1e-6) {
+            warnings.push(format!(
+                "--rate {given} Hz was taken, but {place} says {hz} Hz"
+            ));
+        }
+        return Ok((given, format!("sample rate {given} Hz, as given")));
+    }
+    if let Some((hz, place)) = stated {
+        return Ok((hz, format!("sample rate {hz} Hz, from {place}")));
+    }
+    let time = match wanted.time_channel {
+        Some(text) => Some(resolve(file, text, "--time-channel")?.1),
+        None => file
+            .channels()
+            .iter()
+            .find(|c| is_time(c) && c.may_be_signal())
+            .cloned(),
+    };
+    let Some(time) = time else {
+        return Err(usage(format!(
+            "{}: the file states no sample rate; give --rate HZ",
+            file.path().display()
+        )));
+    };
+    let unit = match (wanted.time_unit, time.unit.as_deref().and_then(seconds)) {
+        (Some(text), _) => seconds(text)
+            .ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?,
+        (None, Some(unit)) => unit,
+        // By brinell's own contract.
+        (None, None) if own && time.name == "t" => 1.0,
+        (None, None) => {
+            return Err(usage(format!(
+                "{}: the file states no sample rate, and no unit for its times in `{}`; give --rate HZ, or --time-unit s",
+                file.path().display(),
+                time.name
+            )));
+        }
+    };
+    let (times, _) = stretch(file, &time.name, 0, 1 << 16)?;
+    let hz = even(&times, unit).map_err(|why| {
+        usage(format!(
+            "{}: no sample rate follows from `{}`: {why}; give --rate HZ if you know it",
+            file.path().display(),
+            time.name
+        ))
+    })?;
+    Ok((
+        hz,
+        format!("sample rate {hz} Hz, from the times in `{}`", time.name),
+    ))
+}
+
+/// The rate of evenly spaced times; `Err` says what is wrong with them.
+fn even(times: &[f64], unit: f64) -> Result<f64, String> {
+    let n = times.len();
+    if n < 3 {
+        return Err("it has fewer than three values".into());
+    }
+    let step = (times[n - 1] - times[0]) / (n - 1) as f64;
+    if !(step > 0.0 && step.is_finite()) {
+        return Err("its values do not increase".into());
+    }
+    // Printed times are rounded: allow for the digits that large values lose.
+    let largest = times[0].abs().max(times[n - 1].abs());
+    let allowed = (UNEVEN * step).max(4e-16 * largest);
+    let off = (times.windows(2).enumerate()).find(|(_, w)| {
+        let off = (w[1] - w[0] - step).abs();
+        off.is_nan() || off > allowed
+    });
+    let rounded = times
+        .iter()
+        .enumerate()
+        .all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
+    if let Some((i, w)) = off.filter(|_| !rounded) {
+        return Err(format!(
+            "its steps are uneven ({} after {} values, {step} on average)",
+            w[1] - w[0],
+            i + 1
+        ));
+    }
+    let hz = 1.0 / (step * unit);
+    let round = hz.round();
+    Ok(if (hz / round - 1.0).abs() < 1e-5 {
+        round
+    } else {
+        hz
+    })
+}

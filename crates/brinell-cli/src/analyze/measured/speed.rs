@@ -1,0 +1,133 @@
+//! The shaft's speed, as far as the file states it.
+
+use super::channel::resolve;
+use super::{MOST, Wanted, stretch, usage};
+use crate::failure::Failure;
+use brinell::document::Loaded;
+use brinell::scenario::Speed;
+use brinell_io::SignalFile;
+
+/// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
+const VARIES: f64 = 0.005;
+
+/// A speed that the file states.
+pub(crate) struct StatedSpeed {
+    /// Its mean, r/min.
+    pub(crate) rpm: f64,
+    /// Where it is stated.
+    pub(crate) source: String,
+    /// Time (s, from the stretch's beginning) and speed (r/min), where it varies by more than [`VARIES`].
+    pub(crate) course: Vec<(f64, f64)>,
+}
+
+impl StatedSpeed {
+    fn steady(rpm: f64, source: String) -> Self {
+        StatedSpeed {
+            rpm,
+            source,
+            course: Vec::new(),
+        }
+    }
+}
+
+/// The speed that the file states, or a channel of speeds; `stretch_of` is where the signal's stretch begins and how long it is, s,
+/// and the signal's rate, Hz.
+pub(super) fn speed(
+    file: &mut SignalFile,
+    wanted: &Wanted,
+    run: Option<&Loaded>,
+    signal: &str,
+    (start, seconds, rate): (f64, f64, f64),
+) -> Result<Option<StatedSpeed>, Failure> {
+    if let Some(text) = wanted.speed_channel {
+        let (name, channel) = resolve(file, text, "--speed-channel")?;
+        // A channel of its own rate, or sampled with the signal.
+        let own = channel.rate.as_ref().map_or(rate, |r| r.hz);
+        let skip = (start * own).round() as usize;
+        let most = ((seconds * own).round() as usize).clamp(1, MOST);
+        let (values, _) = stretch(file, &name, skip, most)?;
+        if values.is_empty() {
+            return Err(usage(format!(
+                "--speed-channel {name}: holds no values {start} s from its beginning"
+            )));
+        }
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            return Err(usage(format!(
+                "--speed-channel {name}: holds the value {bad}; expected speeds in r/min"
+            )));
+        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let covers = values.len() as f64 / own;
+        let source = format!("the channel `{name}`, taken as r/min");
+        let course = course(&values, own, mean);
+        if course.is_empty() {
+            let source = format!("the mean of {source}");
+            return Ok(Some(StatedSpeed::steady(mean, source)));
+        }
+        if covers < 0.98 * seconds {
+            return Err(usage(format!(
+                "--speed-channel {name}: its {} values last {covers:.3} s at {own} Hz and the signal {seconds:.3} s; a speed that varies has to be \
+                 known all along",
+                values.len()
+            )));
+        }
+        let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
+            (l.min(p.1), h.max(p.1))
+        });
+        if low <= 0.0 && high >= 0.0 {
+            return Err(usage(format!(
+                "--speed-channel {name}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way"
+            )));
+        }
+        let source = format!(
+            "{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft"
+        );
+        return Ok(Some(StatedSpeed {
+            rpm: mean,
+            source,
+            course,
+        }));
+    }
+    if let Some(run) = run {
+        if let Speed::Constant(rpm) = run.scenario.operation.speed_rpm {
+            let source = "the scenario of the run in the file".into();
+            return Ok(Some(StatedSpeed::steady(rpm, source)));
+        }
+        return Ok(None);
+    }
+    // A single number called like a speed, as X097RPM beside X097_DE_time.
+    let prefix: String = signal
+        .chars()
+        .take_while(char::is_ascii_alphanumeric)
+        .collect();
+    let named: Vec<String> = (file.channels().iter())
+        .filter(|c| c.length == Some(1) && c.unreadable.is_none())
+        .map(|c| c.name.clone())
+        .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
+        .collect();
+    let mine: Vec<&String> = named.iter().filter(|n| n.starts_with(&prefix)).collect();
+    let name = match (&mine[..], &named[..]) {
+        ([only], _) => (*only).clone(),
+        (_, [only]) => only.clone(),
+        _ => return Ok(None),
+    };
+    let (values, _) = stretch(file, &name, 0, 1)?;
+    Ok((values.first().filter(|v| v.is_finite())).map(|rpm| {
+        let source = format!("the variable `{name}` in the file, taken as r/min");
+        StatedSpeed::steady(*rpm, source)
+    }))
+}
+
+/// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the mean.
+fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
+    let seconds = f64::max(0.1, 120.0 / mean.abs().max(1.0));
+    let each = ((seconds * rate).round() as usize).max(1);
+    let points: Vec<(f64, f64)> = (values.chunks(each).enumerate())
+        .map(|(i, part)| {
+            let middle = (i * each) as f64 + 0.5 * part.len() as f64;
+            (middle / rate, part.iter().sum::<f64>() / part.len() as f64)
+        })
+        .collect();
+    let varies = (points.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs());
+    if varies { points } else { Vec::new() }
+}

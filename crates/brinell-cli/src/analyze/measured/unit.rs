@@ -1,0 +1,53 @@
+//! The signal's unit.
+
+use super::{Wanted, usage};
+use crate::failure::Failure;
+use brinell::analysis::Unit;
+use brinell::channel::measured;
+use brinell::document::Loaded;
+use brinell_io::Channel;
+use std::path::Path;
+
+#[allow(clippy::too_many_arguments)]
+pub(super) fn unit(
+    path: &Path,
+    name: &str,
+    channel: &Channel,
+    wanted: &Wanted,
+    run: Option<&Loaded>,
+    notes: &mut Vec<String>,
+    warnings: &mut Vec<String>,
+) -> Result<Unit, Failure> {
+    let stated = channel.unit.as_deref().map(Unit::of);
+    if let Some(text) = wanted.unit {
+        let given = Unit::of(text);
+        if let Some(other) = stated.filter(|s| s.name != given.name) {
+            warnings.push(format!(
+                "--unit {} was taken, but the file says {}",
+                given.name, other.name
+            ));
+        }
+        notes.push(format!("unit {}, as given", given.name));
+        return Ok(given);
+    }
+    if let Some(unit) = stated {
+        notes.push(format!("unit {}, from the file", unit.name));
+        return Ok(unit);
+    }
+    if let Some(unit) = run.and_then(|run| own_unit(name, run)) {
+        notes.push(format!("unit {unit}, as brinell's own channels have it"));
+        return Ok(Unit::of(unit));
+    }
+    Err(usage(format!(
+        "{}: the file states no unit for `{name}`; give --unit, such as --unit g or --unit m/s^2",
+        path.display()
+    )))
+}
+
+/// Unit of a channel of brinell's own that a signal may be in.
+fn own_unit(name: &str, run: &Loaded) -> Option<&'static str> {
+    if let Some(channel) = (measured(&run.scenario.sensor).iter()).find(|c| c.name == name) {
+        return Some(channel.unit);
+    }
+    (name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2")
+}
