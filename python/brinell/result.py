@@ -149,7 +149,7 @@ class Result:
         return self._native().defects()
 
     def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
-        """What ``brinell analyze`` says of this run, its start left out.
+        """Which defect frequencies stand out of this run, its start (``analysed_from_s``) left out.
 
         Parameters
         ----------

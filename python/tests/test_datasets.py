@@ -101,7 +101,7 @@ def test_xval_bad_plans_are_told_as_the_command_tells_them(command, plan, tmp_pa
     path = tmp_path / "plan" / "plan.toml"
     done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (2, f"{caught.value}\n")
-    path.write_text(path.read_text().replace("runs = 0", "runs = 4").replace("[900, 3000]", "[900, 1e99]"))
+    path.write_text(path.read_text().replace("runs = 0", "runs = 4").replace("[vary]", "[vary]\noperation.load_ramp_s = { uniform = [-1, 1] }"))
     with pytest.raises(brinell.ScenarioError) as caught:
         brinell.Plan(path)
     done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
