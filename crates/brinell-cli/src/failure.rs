@@ -1,7 +1,7 @@
 //! What can go wrong, and how it is told.
 
 use crate::say::complain;
-use brinell::document::Problem;
+use brinell::document::{Problem, pointed_out};
 use brinell::simulate::RunError;
 use brinell_io::IoError;
 use std::path::PathBuf;
@@ -98,34 +98,7 @@ impl From<IoError> for Failure {
 
 /// Each problem with the line that it is about.
 pub(crate) fn print_problems(name: &str, text: &str, problems: &[Problem]) {
-    for problem in problems {
-        complain!("{problem}");
-        let (Some(line), Some(column)) = (problem.line, problem.column) else {
-            continue;
-        };
-        let Some(source) = text.lines().nth(line - 1) else {
-            continue;
-        };
-        let length = problem.span.as_ref().map_or(1, |s| {
-            let end = s.end.min(text.len());
-            text.get(s.start..end)
-                .map_or(1, |t| t.lines().next().unwrap_or("").chars().count().max(1))
-        });
-        // A long line (a profile's list) is shown around the place.
-        let from = column.saturating_sub(60);
-        let shown: String = source.chars().skip(from).take(100).collect();
-        let number = line.to_string();
-        let gutter = " ".repeat(number.len());
-        complain!("  {gutter}--> {name}:{line}:{column}");
-        complain!("  {number} | {shown}");
-        let marks = "^".repeat(length.min(100usize.saturating_sub(column - 1 - from).max(1)));
-        complain!("  {gutter} | {}{marks}", " ".repeat(column - 1 - from));
-    }
-    let errors = problems
-        .iter()
-        .filter(|p| p.severity == brinell::document::Severity::Error)
-        .count();
-    if errors > 1 {
-        complain!("{errors} errors in {name}");
+    if !problems.is_empty() {
+        complain!("{}", pointed_out(name, text, problems));
     }
 }

@@ -3,7 +3,8 @@
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::say::complain;
-use brinell::document::{Loaded, Problem, locate, read_bytes};
+use brinell::document::{Loaded, read_bytes};
+use brinell_damage::resolve_loaded;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -67,7 +68,13 @@ impl Source {
         if !quiet && !loaded.warnings.is_empty() {
             print_problems(&self.name, &self.text(), &loaded.warnings);
         }
-        read_damage(&mut loaded, &self.path, &self.text(), &overrides, quiet).map_err(failed)?;
+        let warnings = resolve_loaded(&mut loaded, &self.text(), &overrides, folder(&self.path));
+        let warnings = warnings.map_err(failed)?;
+        if !quiet {
+            for warning in warnings {
+                complain!("warning: {warning}");
+            }
+        }
         Ok(loaded)
     }
 }
@@ -105,44 +112,12 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Reads the files of damage that the scenario names, from its own folder.
-fn read_damage(
-    loaded: &mut Loaded,
-    path: &Path,
-    text: &str,
-    overrides: &[(String, String)],
-    quiet: bool,
-) -> Result<(), Vec<Problem>> {
-    let folder = match path.parent() {
+/// Where paths in a scenario count from.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
         Some(folder) if !is_stdin(path) => folder,
         _ => Path::new(""),
-    };
-    let files: Vec<Option<String>> = loaded
-        .scenario
-        .defects
-        .iter()
-        .map(|d| d.shape.file().map(str::to_owned))
-        .collect();
-    let warnings = brinell_damage::resolve(&mut loaded.scenario, folder).map_err(|errors| {
-        let placed = |error: brinell_damage::Unresolved| {
-            // What `--set` gave stands nowhere in the file.
-            let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
-            let place = locate(text, &error.key).filter(|_| !given);
-            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
-        };
-        errors.into_iter().map(placed).collect::<Vec<_>>()
-    })?;
-    for (defect, file) in files.iter().enumerate() {
-        if let Some(file) = file {
-            loaded.read_from(defect, file);
-        }
     }
-    if !quiet {
-        for warning in warnings {
-            complain!("warning: {warning}");
-        }
-    }
-    Ok(())
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -145,29 +145,10 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
 }
 
 /// Geometry of a catalogue bearing.
-pub(crate) fn geometry_of(entry: &Entry) -> Result<Geometry, Failure> {
-    let number = |key: &str| {
-        entry
-            .values
-            .iter()
-            .find(|v| v.key == format!("bearing.{key}"))
-            .and_then(|v| match v.value {
-                Datum::Number(x) => Some(x),
-                Datum::Integer(n) => Some(n as f64),
-                Datum::Text(_) => None,
-            })
-    };
-    let needed = |key: &str| {
-        number(key)
-            .ok_or_else(|| Failure::Usage(format!("{}: the catalogue gives no {key}", entry.name)))
-    };
-    Ok(Geometry {
-        inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
-        outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
-        pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
-        roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
-        rollers_per_row: needed("rollers_per_row")? as usize,
-    })
+fn geometry_of(entry: &Entry) -> Result<Geometry, Failure> {
+    entry
+        .geometry()
+        .map_err(|key| Failure::Usage(format!("{}: the catalogue gives no {key}", entry.name)))
 }
 
 /// Raceways follow from pitch and rollers.

@@ -3,7 +3,7 @@
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
 //! - [`read_depth_map`]: a profilometer's grid, CSV, NPY or PNG -> [`DepthGrid`]
-//! - [`resolve`]: every file that a scenario names -> the scenario with geometry in its place. For this the crate
+//! - [`resolve`], [`resolve_loaded`]: every file that a scenario names -> the scenario with geometry in its place. For this the crate
 //!   uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers know no bearing.
 //! - [`DepthGrid::outline`]: the line along which a grid has one depth -> [`Polygons`]
 //!
@@ -39,6 +39,7 @@ mod form_fit;
 mod geometry;
 mod holes;
 mod kind;
+mod loaded;
 mod outline;
 mod resolve;
 
@@ -69,6 +70,7 @@ pub use error::DamageError;
 pub use form::{Form, FormReport};
 pub use geometry::{DepthGrid, Polygons};
 pub use kind::FileKind;
+pub use loaded::resolve_loaded;
 pub use resolve::{Unresolved, read_shape, resolve};
 
 #[cfg(feature = "image")]

@@ -19,6 +19,7 @@ mod error;
 mod folder;
 mod merge;
 mod part;
+mod refusal;
 mod row;
 mod run;
 mod sidecar;

@@ -3,9 +3,7 @@
 use super::args::AnalyzeArgs;
 use super::measured::Measured;
 use crate::failure::Failure;
-use crate::look_up;
-use brinell::analysis::{DefectOrders, NAMED, NamedBearing};
-use brinell::bearing::catalogue;
+use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
 
 /// Orders over the shaft's frequency `shaft` (Hz), and where they come from.
@@ -46,19 +44,10 @@ pub(super) fn orders(
 
 fn base(args: &AnalyzeArgs, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = &args.bearing {
-        if let Some(known) = NamedBearing::find(name) {
-            return Ok((known.orders(), known.source.to_owned()));
+        if let Some(known) = DefectOrders::named(name) {
+            return Ok(known);
         }
-        if let Some(entry) = catalogue::find(name) {
-            let geometry = look_up::geometry_of(entry)?;
-            return Ok((
-                DefectOrders::of_bearing(&geometry),
-                format!("{}: {}", entry.name, entry.title),
-            ));
-        }
-        let names: Vec<&str> = (NAMED.iter().map(|b| b.name))
-            .chain(catalogue::all().iter().map(|e| e.name.as_str()))
-            .collect();
+        let names: Vec<&str> = DefectOrders::names().collect();
         return Err(Failure::Usage(format!(
             "--bearing {name}: no such bearing; there are {}. For another give --rollers, --pitch and --diameter, or --bpfo and so on",
             names.join(", ")

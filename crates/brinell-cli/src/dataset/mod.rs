@@ -70,9 +70,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     if args.dry_run || !begun {
         let survey = campaign.survey();
         plan::tell(&campaign, &survey, runs, threads, args);
-        if !survey.is_sound(campaign.plan().out_of_range) {
-            return Err(plan::refuse(&campaign, &survey));
-        }
+        campaign.sound(&survey)?;
     }
     if args.dry_run {
         return Ok(ExitCode::SUCCESS);

@@ -1,11 +1,10 @@
 //! What a plan means and costs, in words; and why it is refused.
 
 use super::DatasetArgs;
-use crate::failure::Failure;
 use crate::say::{complain, say, short};
 use crate::sweep::cost::pace;
 use crate::sweep::{duration, plural};
-use brinell::design::{Misses, OutOfRange, Survey, place_in_plan};
+use brinell::design::{Misses, OutOfRange, Survey};
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 
@@ -125,44 +124,6 @@ fn tell_misses(survey: &Survey) {
             plural(survey.runs, "run"),
             problem.message
         );
-    }
-}
-
-/// The refusal of a plan whose runs cannot all be made: each kind of problem once, at the plan's line, and how often.
-pub(super) fn refuse(campaign: &Campaign, survey: &Survey) -> Failure {
-    let (path, text) = campaign.plan_file();
-    let asked = campaign.plan().out_of_range == OutOfRange::Redraw;
-    let problems = survey.errors.iter().map(
-        |Misses {
-             problem,
-             run,
-             count,
-         }| {
-            let mut problem = problem.clone();
-            problem.message = format!(
-                "{} in {count} of {}, such as run {run}{}",
-                problem.message,
-                plural(survey.runs, "run"),
-                if asked {
-                    ", and 1000 further draws did not fit either"
-                } else {
-                    ""
-                }
-            );
-            // A key that the plan sets is found there; what the base gives has its line there already.
-            let place = place_in_plan(campaign.draws(), text, *run, &problem);
-            (problem.line, problem.column, problem.span) = (None, None, None);
-            problem.placed(place)
-        },
-    );
-    let mut problems: Vec<_> = problems.collect();
-    if let (false, Some(last)) = (asked, problems.last_mut()) {
-        last.message += "; give narrower distributions, or `out_of_range = \"redraw\"` (draw such runs again) or \"fail\" (keep them as failed rows)";
-    }
-    Failure::Scenario {
-        name: path.display().to_string(),
-        text: text.to_owned(),
-        problems,
     }
 }
 

@@ -1,9 +1,8 @@
 //! The table of a sweep: a row a point, in the plan's order.
 
 use super::points::{Points, signal_file};
-use brinell::campaign::{Quantity, Row, Spread};
+use brinell::campaign::{Quantity, Row, columns};
 use brinell_io::{Cells, Column, Table};
-use std::collections::HashMap;
 
 /// How a point stands.
 pub(super) enum Standing<'a> {
@@ -95,36 +94,17 @@ pub(super) fn number(value: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// A column for each number, three for one with an interval. Columns come in the order of the first point that has them.
+/// A column for each number of any point, and for the ends of its interval.
 fn numbers(standings: &[Standing], table: &mut Table) {
-    let mut order: Vec<&Quantity> = Vec::new();
-    let mut places: HashMap<&str, usize> = HashMap::new();
-    for standing in standings {
-        for quantity in of(standing) {
-            if !places.contains_key(quantity.name.as_str()) {
-                places.insert(&quantity.name, order.len());
-                order.push(quantity);
-            }
-        }
-    }
-    let mut cells = vec![vec![None; standings.len()]; order.len()];
-    for (row, standing) in standings.iter().enumerate() {
-        for quantity in of(standing) {
-            cells[places[quantity.name.as_str()]][row] = Some(quantity);
-        }
-    }
-    for (first, cells) in order.into_iter().zip(cells) {
-        let mut push = |suffix: &str, about: &str, of: fn(&Quantity) -> Option<f64>| {
-            let numbers = cells.iter().map(|cell| cell.and_then(of)).collect();
-            let column = Column::new(format!("{}{suffix}", first.name), &first.unit, about);
-            table.push(column, Cells::Numbers(numbers));
+    let runs: Vec<&[Quantity]> = standings.iter().map(of).collect();
+    for column in columns(&runs) {
+        let about = if column.end {
+            "end of its 95 % interval"
+        } else {
+            ""
         };
-        push("", "", |q| q.value);
-        if first.spread != Spread::Without {
-            let about = "end of its 95 % interval";
-            push(".low", about, |q| q.interval().map(|i| i.0));
-            push(".high", about, |q| q.interval().map(|i| i.1));
-        }
+        let head = Column::new(column.name, &column.unit, about);
+        table.push(head, Cells::Numbers(column.values));
     }
 }
 

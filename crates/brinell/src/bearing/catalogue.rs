@@ -3,6 +3,7 @@
 //! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path. Values keep the scenario
 //! file's units, which the keys name.
 
+use super::kinematics::Geometry;
 use std::sync::LazyLock;
 
 /// One bearing.
@@ -27,6 +28,33 @@ pub struct Value {
     pub source: String,
     /// Whether no source prints it.
     pub estimated: bool,
+}
+
+impl Entry {
+    /// A number by its key of `[bearing]`; `None` where the entry does not give it.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        let named = |v: &&Value| v.key.strip_prefix("bearing.") == Some(key);
+        match self.values.iter().find(named)?.value {
+            Datum::Number(x) => Some(x),
+            Datum::Integer(n) => Some(n as f64),
+            Datum::Text(_) => None,
+        }
+    }
+
+    /// What its kinematics follow from.
+    ///
+    /// # Errors
+    /// The first key that the entry does not give.
+    pub fn geometry(&self) -> Result<Geometry, &'static str> {
+        let needed = |key| self.number(key).ok_or(key);
+        Ok(Geometry {
+            inner_raceway_diameter: 1e-3 * needed("inner_raceway_diameter_mm")?,
+            outer_raceway_diameter: 1e-3 * needed("outer_raceway_diameter_mm")?,
+            pitch_diameter: 1e-3 * needed("pitch_diameter_mm")?,
+            roller_diameter: 1e-3 * needed("roller_diameter_mm")?,
+            rollers_per_row: needed("rollers_per_row")? as usize,
+        })
+    }
 }
 
 /// A value of a scenario key.

@@ -6,6 +6,7 @@
 //! need not be run again. [`fingerprint`] says whether it is the same point. [`compare()`] lays finished runs side by side.
 
 mod axis;
+mod columns;
 mod compare;
 mod impacts;
 mod plan;
@@ -14,6 +15,7 @@ mod row;
 mod run;
 
 pub use axis::{Axis, split};
+pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
 pub use impacts::{Impacts, impacts};
 pub use plan::{MOST_POINTS, Plan, PlanError};

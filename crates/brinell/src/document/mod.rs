@@ -12,6 +12,7 @@ mod keys;
 mod leaf;
 mod load;
 mod nearest;
+mod pointed;
 mod problem;
 mod provenance;
 mod reader;
@@ -26,10 +27,11 @@ mod writer;
 pub use example::template;
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
+pub use pointed::pointed_out;
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
-pub use source::{canonical, locate};
+pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
 
 /// What another document than the scenario is read with.
 pub(crate) mod reading {

@@ -160,7 +160,7 @@ fn convert_table(table: &DeTable<'_>, placed: bool) -> Table {
 }
 
 /// A float as TOML writes it; it reads back to the same bits.
-pub(crate) fn float(x: f64) -> String {
+pub fn float(x: f64) -> String {
     let size = x.abs();
     if x.is_nan() {
         "nan".into()
@@ -182,7 +182,7 @@ pub(crate) fn key_text(name: &str) -> String {
 }
 
 /// A string as TOML writes it, on one line.
-pub(crate) fn quote(text: &str) -> String {
+pub fn quote(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -1,0 +1,39 @@
+//! The files of damage that a scenario's text names, told of with the text's lines.
+
+use crate::{Unresolved, resolve};
+use brinell::document::{Loaded, Problem, locate};
+use std::path::Path;
+
+/// [`resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
+/// values came from it. Gives warnings.
+///
+/// # Errors
+/// Every file that could not be read or does not fit the bearing.
+pub fn resolve_loaded(
+    loaded: &mut Loaded,
+    text: &str,
+    overrides: &[(String, String)],
+    folder: &Path,
+) -> Result<Vec<String>, Vec<Problem>> {
+    let files: Vec<Option<String>> = loaded
+        .scenario
+        .defects
+        .iter()
+        .map(|d| d.shape.file().map(str::to_owned))
+        .collect();
+    let warnings = resolve(&mut loaded.scenario, folder).map_err(|errors| {
+        let placed = |error: Unresolved| {
+            // What an override gave stands nowhere in the text.
+            let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
+            let place = locate(text, &error.key).filter(|_| !given);
+            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
+        };
+        errors.into_iter().map(placed).collect::<Vec<_>>()
+    })?;
+    for (defect, file) in files.iter().enumerate() {
+        if let Some(file) = file {
+            loaded.read_from(defect, file);
+        }
+    }
+    Ok(warnings)
+}

@@ -1,0 +1,145 @@
+//! Values across the border: JSON to Python, Python to TOML, arrays both ways.
+
+use crate::errors::bad_value;
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArrayLike1};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
+use serde_json::Value;
+use std::fmt::Write;
+
+/// An array of numbers, taken without a copy where it is contiguous and double.
+pub(crate) type Samples<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
+
+/// The numbers of an array: its own memory, or a copy where that has gaps.
+pub(crate) fn slice<'a>(x: &'a Samples<'_>, copy: &'a mut Vec<f64>) -> &'a [f64] {
+    if let Ok(slice) = x.as_slice() {
+        return slice;
+    }
+    copy.extend(x.as_array().iter());
+    copy
+}
+
+/// An array that owns these numbers: the memory is handed over, not copied.
+pub(crate) fn array(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
+    values.into_pyarray(py)
+}
+
+/// Dicts, lists and numbers.
+pub(crate) fn json_to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        Value::Null => py.None().into_bound(py),
+        Value::Bool(truth) => PyBool::new(py, *truth).to_owned().into_any(),
+        Value::Number(number) => match number.as_i64() {
+            Some(n) => n.into_pyobject(py)?.into_any(),
+            None => PyFloat::new(py, number.as_f64().unwrap_or(f64::NAN)).into_any(),
+        },
+        Value::String(text) => PyString::new(py, text).into_any(),
+        Value::Array(items) => {
+            let list = PyList::empty(py);
+            for item in items {
+                list.append(json_to_python(py, item)?)?;
+            }
+            list.into_any()
+        }
+        Value::Object(entries) => {
+            let dict = PyDict::new(py);
+            for (key, value) in entries {
+                dict.set_item(key, json_to_python(py, value)?)?;
+            }
+            dict.into_any()
+        }
+    })
+}
+
+/// Levels of lists within lists: deeper ones hold themselves.
+const DEEPEST: usize = 32;
+
+/// A value as TOML: numbers, strings, paths, booleans, and lists, tuples, arrays and dicts of them.
+pub(crate) fn python_to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let mut out = String::new();
+    write_toml(value, &mut out, 0)?;
+    Ok(out)
+}
+
+fn write_toml(value: &Bound<'_, PyAny>, out: &mut String, depth: usize) -> PyResult<()> {
+    if depth > DEEPEST {
+        return Err(bad_value(format!("lists more than {DEEPEST} levels deep")));
+    }
+    let _ = if let Ok(truth) = value.cast::<PyBool>() {
+        write!(out, "{}", truth.is_true())
+    } else if value.is_instance_of::<PyInt>() {
+        write!(out, "{}", value.str()?)
+    } else if let Ok(number) = value.cast::<PyFloat>() {
+        out.push_str(&brinell::document::toml_float(number.value()));
+        Ok(())
+    } else if let Ok(text) = value.cast::<PyString>() {
+        out.push_str(&brinell::document::toml_quote(text.to_str()?));
+        Ok(())
+    } else if let Ok(table) = value.cast::<PyDict>() {
+        out.push_str("{ ");
+        let mut lead = "";
+        for (key, value) in table {
+            if value.is_none() {
+                continue;
+            }
+            let key = key.cast::<PyString>().map_err(|_| {
+                PyTypeError::new_err(format!("{key}: keys of a scenario are strings"))
+            })?;
+            out.push_str(lead);
+            out.push_str(&brinell::document::toml_quote(key.to_str()?));
+            out.push_str(" = ");
+            write_toml(&value, out, depth + 1)?;
+            lead = ", ";
+        }
+        out.push_str(" }");
+        Ok(())
+    } else if value.hasattr("tolist")? {
+        return write_toml(&value.call_method0("tolist")?, out, depth);
+    } else if value.hasattr("__fspath__")? {
+        return write_toml(&value.call_method0("__fspath__")?, out, depth);
+    } else if value.hasattr("__iter__")? {
+        out.push('[');
+        for (k, item) in value.try_iter()?.enumerate() {
+            out.push_str(if k == 0 { "" } else { ", " });
+            write_toml(&item?, out, depth + 1)?;
+        }
+        out.push(']');
+        Ok(())
+    } else if let Ok(number) = value.extract::<f64>() {
+        out.push_str(&brinell::document::toml_float(number));
+        Ok(())
+    } else {
+        return Err(PyTypeError::new_err(format!(
+            "{}: a scenario holds numbers, strings, booleans, and lists, arrays and dicts of them",
+            value.get_type().name()?
+        )));
+    };
+    Ok(())
+}
+
+/// Overrides: a value by the dotted path of its key.
+pub(crate) fn overrides(settings: &Bound<'_, PyDict>) -> PyResult<Vec<(String, String)>> {
+    let mut all = Vec::new();
+    for (key, value) in settings {
+        let key: String = key.extract().map_err(|_| {
+            PyTypeError::new_err(format!(
+                "{key}: a key is a dotted path, such as operation.speed_rpm"
+            ))
+        })?;
+        all.push((key, python_to_toml(&value)?));
+    }
+    Ok(all)
+}
+
+/// A whole scenario's text from keyword arguments. `None` is left out.
+pub(crate) fn document(sections: &Bound<'_, PyDict>) -> PyResult<String> {
+    let mut text = String::new();
+    for (key, value) in sections {
+        if !value.is_none() {
+            let key: String = key.extract()?;
+            let _ = writeln!(text, "{key} = {}", python_to_toml(&value)?);
+        }
+    }
+    Ok(text)
+}

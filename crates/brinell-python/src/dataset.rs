@@ -1,0 +1,266 @@
+//! Data sets: a plan to files, alone or a share at a time.
+
+use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
+use brinell_dataset::{self as dataset, DatasetError, Listener, RunListener, Shard};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// How often the folder's progress is told, and how long Ctrl-C may wait.
+const BEAT: Duration = Duration::from_millis(50);
+
+fn failed(py: Python, error: DatasetError) -> PyErr {
+    match error {
+        DatasetError::Document {
+            name,
+            text,
+            problems,
+        } => scenario_error(py, problems, Some((&name, &text))),
+        DatasetError::Refused(words) => bad_value(words),
+        DatasetError::Read { path, error } => unreadable(&path, &error),
+        DatasetError::Io(error) => ReadError::new_err(error.to_string()),
+    }
+}
+
+/// A plan with its base scenario.
+#[pyclass(frozen, module = "brinell._brinell", name = "Campaign")]
+pub(crate) struct Campaign(dataset::Campaign);
+
+/// What the threads of a data set and the thread that waits for them share.
+#[derive(Default)]
+struct Watch {
+    stop: AtomicBool,
+    over: AtomicUsize,
+}
+
+impl Listener for Watch {
+    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
+        Box::new(Stop(&self.stop))
+    }
+
+    fn before(&self, runs: usize) {
+        self.over.fetch_add(runs, Ordering::Relaxed);
+    }
+
+    fn ended(&self, _: usize, _: Option<&str>) {
+        self.over.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+struct Stop<'a>(&'a AtomicBool);
+
+impl RunListener for Stop<'_> {
+    fn at(&mut self, _: f64) -> ControlFlow<()> {
+        match self.0.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}
+
+#[pymethods]
+impl Campaign {
+    /// Of a plan file; with `check`, every run is tried first.
+    #[staticmethod]
+    fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
+        py.detach(|| {
+            let campaign = dataset::Campaign::open(&path)?;
+            if check {
+                campaign.sound(&campaign.survey())?;
+            }
+            Ok(Self(campaign))
+        })
+        .map_err(|error| failed(py, error))
+    }
+
+    /// Name of the data set.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.plan().name
+    }
+
+    /// How many runs.
+    #[getter]
+    fn runs(&self) -> usize {
+        self.0.draws().runs()
+    }
+
+    /// How many files.
+    #[getter]
+    fn parts(&self) -> usize {
+        self.0.parts()
+    }
+
+    /// How many runs a file has.
+    fn runs_of(&self, part: usize) -> usize {
+        self.0.runs_of(part).len()
+    }
+
+    /// What tells this campaign from others.
+    #[getter]
+    fn identity(&self) -> &str {
+        self.0.identity()
+    }
+
+    /// Name, unit and description of each column of the files.
+    fn columns(&self) -> Vec<(String, String, String)> {
+        let columns = self.0.columns().iter().map(|c| &c.record.column);
+        columns
+            .map(|c| (c.name.clone(), c.unit.clone(), c.description.clone()))
+            .collect()
+    }
+
+    /// A run's scenario as TOML with every key given, its class, and what it drew.
+    fn run(&self, py: Python<'_>, index: usize) -> PyResult<(String, String)> {
+        if index >= self.0.draws().runs() {
+            let last = self.0.draws().runs() - 1;
+            return Err(bad_value(format!(
+                "run {index}: no such run\n  allowed: 0 to {last}"
+            )));
+        }
+        let (loaded, _) = self.0.scenario(index).map_err(|error| failed(py, error))?;
+        let class = self.0.draws().class(index);
+        Ok((
+            loaded.scenario.to_toml(),
+            self.0.plan().classes[class].name.clone(),
+        ))
+    }
+
+    /// Every file that the runs are made from: plan, base scenario, files of damage.
+    fn files(&self) -> Vec<PathBuf> {
+        let (plan, plan_text) = self.0.plan_file();
+        let (base, base_text) = self.0.base_file();
+        let mut files = vec![plan.to_owned(), base.to_owned()];
+        let folder = base.parent().unwrap_or(Path::new(""));
+        for text in [plan_text, base_text] {
+            let mut names = Vec::new();
+            if let Ok(value) = toml::from_str::<serde_json::Value>(text) {
+                named(&value, false, &mut names);
+            }
+            let paths = names
+                .into_iter()
+                .filter(|name| Path::new(name).is_relative());
+            files.extend(paths.map(|name| folder.join(name)).filter(|p| p.is_file()));
+        }
+        files.dedup();
+        files
+    }
+
+    /// Does what is missing of a shard `(i, n)`, i from 1. `progress` gets the runs that are over, and of how many.
+    fn make<'py>(
+        &self,
+        py: Python<'py>,
+        folder: PathBuf,
+        shard: (usize, usize),
+        jobs: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (index, of) = shard;
+        if !(1..=of).contains(&index) {
+            return Err(bad_value(format!(
+                "shard = ({index}, {of}): expected (I, N), I from 1 to N"
+            )));
+        }
+        let shard = Shard { index, of };
+        let parts = (0..self.0.parts()).filter(|part| shard.has(*part));
+        let runs: usize = parts.map(|part| self.0.runs_of(part).len()).sum();
+        let threads = match jobs {
+            None => brinell::many::threads(runs),
+            Some(jobs) => NonZeroUsize::new(jobs)
+                .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))?,
+        };
+        let watch = Watch::default();
+        let (went, heard) = py.detach(|| {
+            std::thread::scope(|scope| {
+                let (ended, over) = channel();
+                let watch = &watch;
+                scope.spawn(move || {
+                    let went = dataset::run(&self.0, &folder, shard, threads, watch);
+                    // The thread that waits is there as long as this one.
+                    let _ = ended.send(went);
+                });
+                let (mut heard, mut told): (PyResult<()>, usize) = (Ok(()), 0);
+                loop {
+                    let went = over.recv_timeout(BEAT);
+                    let now = watch.over.load(Ordering::Relaxed);
+                    if heard.is_ok() {
+                        heard = Python::attach(|py| {
+                            py.check_signals()?;
+                            if let (Some(progress), true) = (&progress, now > told) {
+                                progress.call1(py, (now, runs))?;
+                            }
+                            Ok(())
+                        });
+                        watch.stop.store(heard.is_err(), Ordering::Relaxed);
+                    }
+                    told = now;
+                    match went {
+                        Ok(went) => return (Some(went), heard),
+                        Err(RecvTimeoutError::Timeout) => {}
+                        Err(RecvTimeoutError::Disconnected) => return (None, heard),
+                    }
+                }
+            })
+        });
+        heard?;
+        let went = match went {
+            Some(went) => went.map_err(|error| failed(py, error))?,
+            None => return Err(bad_value("the runs ended without a word")),
+        };
+        let dict = PyDict::new(py);
+        dict.set_item("runs", went.runs)?;
+        dict.set_item("done", went.done)?;
+        dict.set_item("before", went.before)?;
+        dict.set_item("failed", went.failed)?;
+        dict.set_item("whole", went.whole)?;
+        Ok(dict)
+    }
+}
+
+/// Every string under a key `file`, lists of choices included.
+fn named(value: &serde_json::Value, under: bool, names: &mut Vec<String>) {
+    match value {
+        serde_json::Value::String(text) if under => names.push(text.clone()),
+        serde_json::Value::Array(items) => items.iter().for_each(|v| named(v, under, names)),
+        serde_json::Value::Object(entries) => {
+            for (key, value) in entries {
+                named(value, under || key == "file", names);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Joins folders in which shares ran apart: files brought, there before, and missing.
+#[pyfunction]
+pub(crate) fn merge(
+    py: Python<'_>,
+    folders: Vec<PathBuf>,
+    into: PathBuf,
+) -> PyResult<(usize, usize, Vec<usize>)> {
+    let merged = py.detach(|| dataset::merge(&folders, &into));
+    let merged = merged.map_err(|error| failed(py, error))?;
+    Ok((merged.brought, merged.before, merged.missing))
+}
+
+/// Checks a data set: files, of how many, rows, failed runs, and everything that is wrong.
+#[pyfunction]
+pub(crate) fn verify(
+    py: Python<'_>,
+    folder: PathBuf,
+) -> PyResult<(usize, usize, u64, u64, Vec<String>)> {
+    let found = py.detach(|| dataset::verify(&folder));
+    let found = found.map_err(|error| failed(py, error))?;
+    Ok((
+        found.files,
+        found.of,
+        found.rows,
+        found.failed,
+        found.problems,
+    ))
+}

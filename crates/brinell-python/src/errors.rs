@@ -1,0 +1,95 @@
+//! Exceptions, with the words of the command.
+
+use crate::convert::json_to_python;
+use brinell::document::{Problem, Severity, pointed_out};
+use brinell::simulate::RunError as Failure;
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use serde_json::json;
+use std::fmt::Display;
+use std::path::Path;
+
+pyo3::create_exception!(
+    brinell,
+    ScenarioError,
+    PyValueError,
+    "A scenario that cannot run. ``problems`` lists what is wrong: key, value, message, allowed, unit, line."
+);
+pyo3::create_exception!(
+    brinell,
+    RunError,
+    PyRuntimeError,
+    "A run that failed. ``partial`` holds what was computed until then, a `Result`."
+);
+pyo3::create_exception!(
+    brinell,
+    ReadError,
+    PyOSError,
+    "A file that cannot be read or written."
+);
+pyo3::create_exception!(
+    brinell,
+    SignalError,
+    PyValueError,
+    "A signal that cannot be analysed as asked."
+);
+
+/// `python` has no errors for what a user gets wrong: these are its own, in the command's words.
+pub(crate) fn bad_value(words: impl Display) -> PyErr {
+    PyValueError::new_err(words.to_string())
+}
+
+/// A file that could not be opened, as the command says it.
+pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> PyErr {
+    ReadError::new_err(format!("cannot read {}: {error}", path.display()))
+}
+
+/// What is wrong with a scenario; `seen` is the name and text of a file that its author can look at.
+pub(crate) fn scenario_error(
+    py: Python,
+    problems: Vec<Problem>,
+    seen: Option<(&str, &str)>,
+) -> PyErr {
+    let words = match seen {
+        Some((name, text)) => pointed_out(name, text, &problems),
+        None => {
+            let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+            texts.join("\n")
+        }
+    };
+    let list: Vec<_> = problems
+        .iter()
+        .map(|p| {
+            json!({
+                "severity": match p.severity { Severity::Error => "error", Severity::Warning => "warning" },
+                "key": p.key, "value": p.value, "message": p.message, "allowed": p.allowed,
+                "unit": p.unit, "line": p.line, "column": p.column,
+            })
+        })
+        .collect();
+    let error = ScenarioError::new_err(words);
+    match json_to_python(py, &list.into()).and_then(|l| error.value(py).setattr("problems", l)) {
+        Ok(()) => error,
+        Err(other) => other,
+    }
+}
+
+/// A scenario that makes no model is a bad one; anything else is a run that failed.
+pub(crate) fn run_error(py: Python, failure: &Failure) -> PyErr {
+    let none =
+        |error: PyErr, name: &str, value: Py<PyAny>| match error.value(py).setattr(name, value) {
+            Ok(()) => error,
+            Err(other) => other,
+        };
+    match failure {
+        Failure::Model(_) | Failure::NoBalance(_) => {
+            let empty = pyo3::types::PyList::empty(py).into_any().unbind();
+            none(
+                ScenarioError::new_err(failure.to_string()),
+                "problems",
+                empty,
+            )
+        }
+        _ => none(RunError::new_err(failure.to_string()), "partial", py.None()),
+    }
+}

@@ -1,0 +1,45 @@
+//! brinell for Python: the module `brinell._brinell`. It converts and does nothing else; `python/brinell` beside the workspace is what
+//! users see. Python's lock is given up while anything is computed.
+
+mod convert;
+mod dataset;
+mod errors;
+mod look_up;
+mod read;
+mod run;
+mod scenario;
+mod signal;
+mod sweep;
+
+use pyo3::prelude::*;
+
+/// Filled by Python when it imports the module.
+#[pymodule]
+mod _brinell {
+    use super::*;
+
+    #[pymodule_export]
+    use dataset::{Campaign, merge, verify};
+    #[pymodule_export]
+    use look_up::{derived, frequencies, statics};
+    #[pymodule_export]
+    use read::read_signal;
+    #[pymodule_export]
+    use run::{Run, simulate, simulate_many};
+    #[pymodule_export]
+    use scenario::{Scenario, bearings, schema, template};
+    #[pymodule_export]
+    use signal::{analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram};
+    #[pymodule_export]
+    use sweep::sweep;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let py = module.py();
+        module.add("ScenarioError", py.get_type::<errors::ScenarioError>())?;
+        module.add("RunError", py.get_type::<errors::RunError>())?;
+        module.add("ReadError", py.get_type::<errors::ReadError>())?;
+        module.add("SignalError", py.get_type::<errors::SignalError>())?;
+        module.add("__version__", brinell::VERSION)
+    }
+}

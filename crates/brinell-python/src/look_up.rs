@@ -1,0 +1,122 @@
+//! What follows from a scenario before anything moves.
+
+use crate::convert::{array, json_to_python};
+use crate::errors::{bad_value, run_error};
+use crate::scenario::Scenario;
+use brinell::bearing::catalogue;
+use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::derived::Derived;
+use brinell::model::Model;
+use brinell::scenario::Speed;
+use brinell::simulate::RunError;
+use brinell::statics::static_load_zone;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::json;
+use std::f64::consts::TAU;
+
+fn model(py: Python<'_>, scenario: &Scenario) -> PyResult<Model> {
+    let model = py.detach(|| Model::new(&scenario.loaded.scenario));
+    model.map_err(|error| run_error(py, &RunError::Model(error)))
+}
+
+/// Load distribution of the static balance as the cage turns through a pitch.
+#[pyfunction]
+pub(crate) fn statics<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
+    let model = model(py, scenario)?;
+    let zone = py.detach(|| static_load_zone(&model));
+    let zone = zone.map_err(|error| run_error(py, &RunError::NoBalance(error)))?;
+    let dict = PyDict::new(py);
+    let rows: Vec<i64> = zone.points.iter().map(|p| p.0 as i64 + 1).collect();
+    dict.set_item("row", numpy::IntoPyArray::into_pyarray(rows, py))?;
+    let column =
+        |of: fn(&(usize, f64, f64, f64)) -> f64| array(py, zone.points.iter().map(of).collect());
+    dict.set_item("angle_deg", column(|p| p.1.to_degrees()))?;
+    dict.set_item("inner_force_n", column(|p| p.2))?;
+    dict.set_item("outer_force_n", column(|p| p.3))?;
+    dict.set_item("largest_contact_force_n", zone.largest)?;
+    dict.set_item("extent_deg", zone.extent.to_degrees())?;
+    dict.set_item(
+        "shift_inner_to_outer_um",
+        zone.shift.map(|x| 1e6 * x).to_vec(),
+    )?;
+    let stiffness = zone.stiffness.map(|row| row.to_vec()).to_vec();
+    dict.set_item("stiffness_n_per_m", stiffness)?;
+    Ok(dict)
+}
+
+/// What `brinell check` prints, as numbers.
+#[pyfunction]
+pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyAny>> {
+    let model = model(py, scenario)?;
+    let accuracy = scenario.loaded.scenario.simulation.accuracy;
+    let d = py.detach(|| Derived::new(&model, accuracy));
+    let (carried, load) = d.support_share;
+    let value = json!({
+        "top_speed_rpm": d.top_speed * 60.0 / TAU,
+        "frequencies_hz": table(&d.kinematics, d.top_speed / TAU),
+        "contact_force_n": d.contact_force,
+        "inner_contact_stiffness_n_per_m": d.contact_stiffness[0],
+        "outer_contact_stiffness_n_per_m": d.contact_stiffness[1],
+        "roller_frequency_hz": d.roller_frequency,
+        "roller_damping_ratio": d.roller_damping_ratio,
+        "inner_support_frequency_hz": d.support_frequencies[0],
+        "outer_support_frequency_hz": d.support_frequencies[1],
+        "centrifugal_force_n": d.centrifugal_force,
+        "roller_period_s": d.roller_period,
+        "defect_passes_s": d.defect_passes,
+        "longest_step_s": d.longest_step,
+        "support_over_clearance_n": carried,
+        "load_n": load,
+    });
+    json_to_python(py, &value)
+}
+
+/// Names in lower case without spaces: `bpfo`, `2bsf`.
+fn table(kinematics: &Kinematics, shaft: f64) -> serde_json::Map<String, serde_json::Value> {
+    let rows = kinematics.table(shaft).into_iter();
+    rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into()))
+        .collect()
+}
+
+/// Pure-rolling frequencies of a catalogue bearing or a scenario, Hz, at a speed; without one, at the scenario's.
+#[pyfunction]
+pub(crate) fn frequencies<'py>(
+    py: Python<'py>,
+    bearing: Option<&str>,
+    scenario: Option<&Scenario>,
+    speed_rpm: Option<f64>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (geometry, own) = match (bearing, scenario) {
+        (Some(name), _) => {
+            let entry = catalogue::find(name).ok_or_else(|| {
+                let names: Vec<&str> = catalogue::all().iter().map(|e| e.name.as_str()).collect();
+                bad_value(format!(
+                    "no bearing {name:?} in the catalogue; it holds {}",
+                    names.join(", ")
+                ))
+            })?;
+            let missing = |key| bad_value(format!("{}: the catalogue gives no {key}", entry.name));
+            (entry.geometry().map_err(missing)?, None)
+        }
+        (None, Some(scenario)) => {
+            let scenario = &scenario.loaded.scenario;
+            let own = match scenario.operation.speed_rpm {
+                Speed::Constant(rpm) => Some(rpm),
+                Speed::Profile(_) => None,
+            };
+            (Geometry::of(&scenario.bearing), own)
+        }
+        (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
+    };
+    let rpm = speed_rpm
+        .or(own)
+        .ok_or_else(|| bad_value("speed_rpm: needed, for nothing else states one speed"))?;
+    if !rpm.is_finite() || rpm == 0.0 {
+        return Err(bad_value(format!(
+            "speed_rpm = {rpm}: expected a speed other than 0, in r/min"
+        )));
+    }
+    let kinematics = Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU);
+    json_to_python(py, &table(&kinematics, rpm.abs() / 60.0).into())
+}

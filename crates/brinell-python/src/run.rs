@@ -1,0 +1,414 @@
+//! Runs: alone, or many over threads, and what they leave.
+
+use crate::convert::{array, json_to_python};
+use crate::errors::{bad_value, run_error};
+use crate::scenario::Scenario;
+use brinell::campaign::{self, Finished};
+use brinell::scenario::Surface;
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::statics::static_load_zone;
+use brinell::summary::{self, Parts};
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use serde_json::json;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::{Duration, Instant};
+
+/// How long Python may have to wait for an answer to Ctrl-C.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Channels by column, time first.
+type Columns = Vec<Vec<f64>>;
+
+/// Keeps every row; asks now and then whether to go on.
+struct Recorder<'a, F> {
+    columns: Columns,
+    rate: f64,
+    go_on: &'a mut F,
+}
+
+impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
+    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+        self.columns[0].push(index as f64 / self.rate);
+        for (column, value) in self.columns[1..].iter_mut().zip(row) {
+            column.push(*value);
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        (self.go_on)(t)
+    }
+}
+
+/// What a run came to.
+enum Ran {
+    Over(Box<Finished>, Columns),
+    /// There is no model, or nothing to start from.
+    Bad(brinell::simulate::RunError),
+    TooLarge(u128),
+    /// Not begun.
+    LeftOut,
+}
+
+/// One run, on the thread that calls.
+fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ran {
+    let scenario = &scenario.loaded.scenario;
+    let simulation = match Simulation::new(scenario) {
+        Ok(simulation) => simulation,
+        Err(error) => return Ran::Bad(error),
+    };
+    let mut columns: Columns = vec![Vec::new(); simulation.channels().len() + 1];
+    let samples = simulation.samples();
+    for column in &mut columns {
+        let room = usize::try_from(samples).ok();
+        if room.is_none_or(|n| column.try_reserve_exact(n).is_err()) {
+            return Ran::TooLarge(
+                8 * u128::from(samples) * (simulation.channels().len() as u128 + 1),
+            );
+        }
+    }
+    let mut recorder = Recorder {
+        columns,
+        rate: simulation.sample_rate(),
+        go_on: &mut go_on,
+    };
+    let finished = campaign::finish(scenario.clone(), simulation, &mut recorder);
+    Ran::Over(Box::new(finished), recorder.columns)
+}
+
+impl Ran {
+    /// The result; where the run failed or never began, the exception.
+    fn result(self, py: Python<'_>, scenario: &Py<Scenario>) -> PyResult<Run> {
+        match self {
+            Self::Over(finished, columns) => {
+                let end = finished.outcome.end.clone();
+                let run = Run::new(py, scenario.clone_ref(py), *finished, columns)?;
+                let End::Failed(error) = end else {
+                    return Ok(run);
+                };
+                let error = run_error(py, &error);
+                error.value(py).setattr("partial", Py::new(py, run)?)?;
+                Err(error)
+            }
+            Self::Bad(error) => Err(run_error(py, &error)),
+            Self::TooLarge(bytes) => Err(PyMemoryError::new_err(format!(
+                "the recorded channels take {:.1} GB; record fewer (simulation.record), or run shorter",
+                bytes as f64 * 1e-9
+            ))),
+            Self::LeftOut => Err(bad_value("stopped before it began")),
+        }
+    }
+}
+
+/// Runs one scenario. `progress` gets the simulated time reached, s.
+#[pyfunction]
+#[pyo3(signature = (scenario, progress=None))]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    scenario: &Bound<'_, Scenario>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Run> {
+    let inner = scenario.get();
+    let mut raised = None;
+    let ran = py.detach(|| {
+        let mut last = Instant::now();
+        run(inner, |t| {
+            if last.elapsed() < PATIENCE {
+                return ControlFlow::Continue(());
+            }
+            last = Instant::now();
+            let asked = Python::attach(|py| {
+                py.check_signals()?;
+                if let Some(progress) = &progress {
+                    progress.call1(py, (t,))?;
+                }
+                Ok(())
+            });
+            match asked {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    raised = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        })
+    });
+    match raised {
+        Some(error) => Err(error),
+        None => ran.result(py, scenario.as_unbound()),
+    }
+}
+
+/// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with Python's lock. Signals
+/// are heard meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the flag.
+pub(crate) fn over_threads<T: Send>(
+    py: Python<'_>,
+    count: usize,
+    jobs: Option<usize>,
+    job: impl Fn(usize, &AtomicBool) -> T + Sync,
+    mut deliver: impl FnMut(Python<'_>, usize, T) -> PyResult<()> + Send,
+) -> PyResult<()> {
+    let threads = match jobs {
+        None => brinell::many::threads(count),
+        Some(jobs) => NonZeroUsize::new(jobs)
+            .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))?,
+    };
+    let stop = AtomicBool::new(false);
+    py.detach(|| {
+        std::thread::scope(|scope| {
+            let (results, arrived) = sync_channel(threads.get());
+            let (stop, job) = (&stop, &job);
+            scope.spawn(move || {
+                brinell::many::each(
+                    count,
+                    threads,
+                    |k| job(k, stop),
+                    // Nobody hears what comes after an error.
+                    |k, result| drop(results.send((k, result))),
+                );
+            });
+            let mut outcome = Ok(());
+            loop {
+                let next = match arrived.recv_timeout(PATIENCE) {
+                    Ok(next) => Some(next),
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => return outcome,
+                };
+                if outcome.is_err() {
+                    continue;
+                }
+                outcome = Python::attach(|py| {
+                    py.check_signals()?;
+                    next.map_or(Ok(()), |(k, result)| deliver(py, k, result))
+                });
+                stop.store(outcome.is_err(), Ordering::Relaxed);
+            }
+        })
+    })
+}
+
+/// Runs scenarios side by side. `deliver` gets each index with its result, or with the exception that there is instead.
+#[pyfunction]
+pub(crate) fn simulate_many(
+    py: Python<'_>,
+    scenarios: Vec<Py<Scenario>>,
+    jobs: Option<usize>,
+    deliver: Py<PyAny>,
+) -> PyResult<()> {
+    over_threads(
+        py,
+        scenarios.len(),
+        jobs,
+        |k, stop| {
+            let stopped = || match stop.load(Ordering::Relaxed) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            };
+            match stopped() {
+                ControlFlow::Break(()) => Ran::LeftOut,
+                ControlFlow::Continue(()) => run(scenarios[k].get(), |_| stopped()),
+            }
+        },
+        |py, k, ran| {
+            match ran.result(py, &scenarios[k]) {
+                Ok(run) => deliver.call1(py, (k, run))?,
+                Err(error) => deliver.call1(py, (k, error))?,
+            };
+            Ok(())
+        },
+    )
+}
+
+/// A run that is over.
+#[pyclass(frozen, module = "brinell._brinell", name = "Run")]
+pub(crate) struct Run {
+    scenario: Py<Scenario>,
+    finished: Finished,
+    signals: Py<PyDict>,
+}
+
+impl Run {
+    fn new(
+        py: Python<'_>,
+        scenario: Py<Scenario>,
+        finished: Finished,
+        columns: Columns,
+    ) -> PyResult<Self> {
+        let signals = PyDict::new(py);
+        let channels = finished.simulation.channels().iter();
+        let names = std::iter::once("t").chain(channels.map(|c| c.name.as_str()));
+        for (name, column) in names.zip(columns) {
+            signals.set_item(name, array(py, column))?;
+        }
+        Ok(Self {
+            signals: signals.unbind(),
+            scenario,
+            finished,
+        })
+    }
+
+    /// The measured channel that spectra are of.
+    fn shown(&self) -> &'static str {
+        ["measured_ax", "measured_ay"][self.finished.findings.axis]
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// What was run.
+    #[getter]
+    fn scenario(&self, py: Python<'_>) -> Py<Scenario> {
+        self.scenario.clone_ref(py)
+    }
+
+    /// Time and channels by name.
+    #[getter]
+    fn signals(&self, py: Python<'_>) -> Py<PyDict> {
+        self.signals.clone_ref(py)
+    }
+
+    /// Name, unit and description of each, time first.
+    fn channels(&self) -> Vec<(String, String, String)> {
+        let text = |name: &str, unit: &str, about: &str| (name.into(), unit.into(), about.into());
+        let channels = self.finished.simulation.channels().iter();
+        std::iter::once(text("t", "s", "time"))
+            .chain(channels.map(|c| text(&c.name, c.unit, &c.description)))
+            .collect()
+    }
+
+    /// Samples a second.
+    #[getter]
+    fn rate_hz(&self) -> f64 {
+        self.finished.simulation.sample_rate()
+    }
+
+    /// Whether it reached its duration.
+    #[getter]
+    fn complete(&self) -> bool {
+        self.finished.outcome.end == End::Complete
+    }
+
+    /// What `summary.json` holds.
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let statics = py.detach(|| static_load_zone(self.finished.simulation.model()));
+        let parts = Parts {
+            loaded: &self.scenario.get().loaded,
+            simulation: &self.finished.simulation,
+            outcome: &self.finished.outcome,
+            findings: &self.finished.findings,
+            statics: &statics,
+        };
+        json_to_python(py, &summary::to_json(&parts))
+    }
+
+    /// Every number of the run: name, unit, value, low and high end.
+    #[expect(clippy::type_complexity, reason = "a row of a table")]
+    fn quantities(&self) -> Vec<(String, String, Option<f64>, Option<f64>, Option<f64>)> {
+        let all = self.finished.quantities().into_iter();
+        all.map(|q| {
+            let ends = q.interval();
+            (
+                q.name,
+                q.unit,
+                q.value,
+                ends.map(|i| i.0),
+                ends.map(|i| i.1),
+            )
+        })
+        .collect()
+    }
+
+    /// Averaged spectrum of the measured acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a run too short.
+    fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(spectrum) = &self.finished.findings.spectrum else {
+            return Ok(None);
+        };
+        let dict = crate::signal::spectrum_dict(py, spectrum.clone())?;
+        dict.set_item("channel", self.shown())?;
+        Ok(Some(dict))
+    }
+
+    /// Averaged spectrum of its envelope, with band and mean.
+    fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some((envelope, band)) = &self.finished.findings.envelope else {
+            return Ok(None);
+        };
+        let dict = crate::signal::spectrum_dict(py, envelope.spectrum.clone())?;
+        dict.set_item("channel", self.shown())?;
+        dict.set_item("band_hz", (band.low, band.high))?;
+        dict.set_item("mean", envelope.mean)?;
+        Ok(Some(dict))
+    }
+
+    /// Instants at which rollers come onto damage and leave it, the latest 4096.
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let events = &self.finished.findings.passes.events;
+        let layout = &self.finished.simulation.model().layout;
+        let dict = PyDict::new(py);
+        dict.set_item("t", array(py, events.iter().map(|e| e.t).collect()))?;
+        let whole = |of: &dyn Fn(&brinell::observe::passes::Event) -> usize| {
+            let values: Vec<i64> = events.iter().map(|e| of(e) as i64).collect();
+            numpy::IntoPyArray::into_pyarray(values, py)
+        };
+        dict.set_item("defect", whole(&|e| e.defect + 1))?;
+        dict.set_item("row", whole(&|e| layout.row(e.slot) + 1))?;
+        dict.set_item("roller", whole(&|e| layout.roller(e.slot) + 1))?;
+        let enters: Vec<bool> = events.iter().map(|e| e.enters).collect();
+        dict.set_item("enters", numpy::IntoPyArray::into_pyarray(enters, py))?;
+        Ok(dict)
+    }
+
+    /// The pass over each defect in which the contact force was greatest.
+    fn passes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let layout = &self.finished.simulation.model().layout;
+        let list = PyList::empty(py);
+        for pass in self.finished.findings.passes.best() {
+            let dict = PyDict::new(py);
+            dict.set_item("defect", pass.defect + 1)?;
+            dict.set_item("row", layout.row(pass.slot) + 1)?;
+            dict.set_item("roller", layout.roller(pass.slot) + 1)?;
+            let column = |name: &str, of: fn(&brinell::observe::passes::PassPoint) -> f64| {
+                dict.set_item(name, array(py, pass.points.iter().map(of).collect()))
+            };
+            column("t", |p| p.t)?;
+            column("angle_deg", |p| p.angle.to_degrees())?;
+            column("effective_length_mm", |p| 1e3 * p.length)?;
+            column("stiffness", |p| p.stiffness)?;
+            column("force_n", |p| p.force)?;
+            list.append(dict)?;
+        }
+        Ok(list)
+    }
+
+    /// Surface, row and centre of each defect, and the frequency that it is struck with in pure rolling.
+    fn defects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let list: Vec<_> = self
+            .finished
+            .scenario
+            .defects
+            .iter()
+            .enumerate()
+            .map(|(k, d)| {
+                let line = self.finished.findings.lines.iter().find(|l| l.defect == k);
+                json!({
+                    "on": match d.on {
+                        Surface::OuterRaceway => "outer-raceway",
+                        Surface::InnerRaceway => "inner-raceway",
+                        Surface::Roller(_) => "roller",
+                    },
+                    "row": d.row,
+                    "center_deg": d.center_deg,
+                    "frequency": line.map(|l| l.name),
+                    "pure_rolling_hz": line.map(|l| l.nominal),
+                    "found_hz": line.and_then(|l| l.found).map(|f| f.frequency),
+                })
+            })
+            .collect();
+        json_to_python(py, &list.into())
+    }
+}

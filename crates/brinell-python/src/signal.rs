@@ -1,0 +1,300 @@
+//! Analysis of signals that are arrays.
+
+use crate::convert::{Samples, array, json_to_python, slice};
+use crate::errors::{SignalError, bad_value};
+use brinell::analysis::{DefectOrders, Options, Quantity, Unit, to_json, velocity};
+use brinell::bearing::kinematics::Geometry;
+use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
+use numpy::PyArrayMethods;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::{Map, json};
+use std::fmt::Display;
+
+fn failed(error: impl Display) -> PyErr {
+    SignalError::new_err(error.to_string())
+}
+
+/// Distance of bins and the arrays.
+pub(crate) fn spectrum_dict(py: Python<'_>, s: Spectrum) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("frequency_step_hz", s.frequency_step)?;
+    dict.set_item("segments", s.segments)?;
+    dict.set_item("noise_bandwidth_hz", s.noise_bandwidth)?;
+    dict.set_item("degrees_of_freedom", s.degrees_of_freedom)?;
+    dict.set_item("amplitude", array(py, s.amplitude))?;
+    dict.set_item("density", array(py, s.density))?;
+    Ok(dict)
+}
+
+/// Segments as asked for: `length` samples, or the whole signal.
+fn segments(
+    samples: usize,
+    length: Option<usize>,
+    overlap: f64,
+    window: &str,
+    detrend: &str,
+) -> PyResult<Segments> {
+    let unknown = |name: &str, given: &str, allowed: &str| {
+        failed(format!(
+            "{name} = \"{given}\": not known\n  allowed: {allowed}"
+        ))
+    };
+    Ok(Segments {
+        length: length.unwrap_or(samples),
+        overlap,
+        window: match window {
+            "rectangular" => Window::Rectangular,
+            "hann" => Window::Hann,
+            "hamming" => Window::Hamming,
+            "blackman-harris" => Window::BlackmanHarris,
+            "flat-top" => Window::FlatTop,
+            other => {
+                let allowed = "rectangular, hann, hamming, blackman-harris, flat-top";
+                return Err(unknown("window", other, allowed));
+            }
+        },
+        detrend: match detrend {
+            "none" => Detrend::None,
+            "mean" => Detrend::Mean,
+            "linear" => Detrend::Linear,
+            other => return Err(unknown("detrend", other, "none, mean, linear")),
+        },
+    })
+}
+
+fn band(of: Option<(f64, f64)>) -> Band {
+    of.map_or(Band::above(0.0), |(low, high)| Band::between(low, high))
+}
+
+/// Averaged amplitudes and densities.
+#[pyfunction]
+pub(crate) fn psd<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    length: Option<usize>,
+    overlap: f64,
+    window: &str,
+    detrend: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    let segments = segments(x.len(), length, overlap, window, detrend)?;
+    let spectrum = py.detach(|| signal::psd(x, rate_hz, &segments));
+    spectrum_dict(py, spectrum.map_err(failed)?)
+}
+
+/// The same of the envelope in a band.
+#[pyfunction]
+pub(crate) fn envelope_spectrum<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    band_hz: Option<(f64, f64)>,
+    length: Option<usize>,
+    overlap: f64,
+    window: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    let segments = segments(x.len(), length, overlap, window, "mean")?;
+    let envelope = py
+        .detach(|| signal::envelope_spectrum(x, rate_hz, band(band_hz), &segments))
+        .map_err(failed)?;
+    let dict = spectrum_dict(py, envelope.spectrum)?;
+    dict.set_item("mean", envelope.mean)?;
+    Ok(dict)
+}
+
+/// The envelope itself.
+#[pyfunction]
+pub(crate) fn envelope<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    band_hz: Option<(f64, f64)>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    let band = band(band_hz);
+    // The spectrum says what is wrong with the input; the envelope by itself would panic.
+    let values = py.detach(|| {
+        let checked = signal::envelope_spectrum(x, rate_hz, band, &Segments::of(x.len().max(8)));
+        checked.map(|_| signal::envelope(x, rate_hz, band).unwrap_or_default())
+    });
+    Ok(array(py, values.map_err(failed)?).into_any())
+}
+
+/// Densities over time: first time, distances of frames and bins, bins, densities frame after frame.
+#[pyfunction]
+pub(crate) fn spectrogram<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    length: usize,
+    overlap: f64,
+    window: &str,
+) -> PyResult<(f64, f64, f64, Bound<'py, PyAny>)> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    let segments = segments(x.len(), Some(length), overlap, window, "none")?;
+    let s = py
+        .detach(|| signal::spectrogram(x, rate_hz, &segments))
+        .map_err(failed)?;
+    let shape = [s.frames(), s.bins];
+    let density = array(py, s.density).reshape(shape)?;
+    Ok((
+        s.first_time,
+        s.time_step,
+        s.frequency_step,
+        density.into_any(),
+    ))
+}
+
+/// Every band: low and high edge (Hz), kurtosis, its scatter under noise; and the index of the most impulsive one at least `narrowest_hz` wide.
+#[pyfunction]
+pub(crate) fn kurtogram<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    depth: usize,
+    narrowest_hz: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    let map = py
+        .detach(|| signal::kurtogram(x, rate_hz, depth))
+        .map_err(failed)?;
+    let dict = PyDict::new(py);
+    let column =
+        |of: fn(&signal::KurtogramBand) -> f64| array(py, map.bands().map(|b| of(&b)).collect());
+    dict.set_item("low_hz", column(|b| b.band.low))?;
+    dict.set_item("high_hz", column(|b| b.band.high))?;
+    dict.set_item("kurtosis", column(|b| b.kurtosis))?;
+    dict.set_item("noise_scatter", column(|b| b.noise_scatter))?;
+    let best = map.best(narrowest_hz);
+    dict.set_item("best_hz", best.map(|b| (b.band.low, b.band.high)))?;
+    dict.set_item("best_kurtosis", best.map(|b| b.kurtosis))?;
+    Ok(dict)
+}
+
+/// Indicators with 95 % intervals from blocks of `block_s` seconds.
+#[pyfunction]
+pub(crate) fn indicators<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    unit: &str,
+    block_s: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    if !(rate_hz > 0.0 && rate_hz.is_finite() && block_s > 0.0 && block_s.is_finite()) {
+        return Err(failed(format!(
+            "rate_hz = {rate_hz}, block_s = {block_s}: expected numbers above 0"
+        )));
+    }
+    if let Some(index) = x.iter().position(|v| !v.is_finite()) {
+        return Err(failed(format!("sample {index} is not finite")));
+    }
+    let blocks = py.detach(|| Blocks::of(x, block_s * rate_hz));
+    let values: Map<_, _> = Indicator::ALL
+        .into_iter()
+        .filter_map(|i| {
+            let e = blocks.estimate(i)?;
+            let value = json!({
+                "value": e.value,
+                "unit": if i.has_unit() { unit } else { "" },
+                "low": e.interval.map(|i| i.low),
+                "high": e.interval.map(|i| i.high),
+                "blocks": e.interval.map(|i| i.blocks),
+            });
+            Some((i.name().to_owned(), value))
+        })
+        .collect();
+    json_to_python(py, &values.into())
+}
+
+/// Orders of the defect frequencies: of a bearing by name, of a scenario, or as given.
+fn orders(
+    name: Option<&str>,
+    geometry: Option<Geometry>,
+    given: [Option<f64>; 4],
+) -> PyResult<DefectOrders> {
+    let mut orders = match (name, geometry) {
+        (Some(name), _) => {
+            let known = DefectOrders::named(name).ok_or_else(|| {
+                let names: Vec<&str> = DefectOrders::names().collect();
+                bad_value(format!(
+                    "bearing = \"{name}\": no such bearing; there are {}",
+                    names.join(", ")
+                ))
+            })?;
+            known.0
+        }
+        (None, Some(geometry)) => DefectOrders::of_bearing(&geometry),
+        (None, None) => DefectOrders::default(),
+    };
+    let [bpfo, bpfi, bsf, ftf] = given;
+    orders.bpfo = bpfo.or(orders.bpfo);
+    orders.bpfi = bpfi.or(orders.bpfi);
+    orders.bsf = bsf.or(orders.bsf);
+    orders.ftf = ftf.or(orders.ftf);
+    Ok(orders)
+}
+
+/// Which component's defect frequencies stand out: the JSON of `brinell analyze`, and the envelope spectrum that shows most.
+#[pyfunction]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "keywords, given by the Python around it"
+)]
+pub(crate) fn analyze<'py>(
+    py: Python<'py>,
+    x: Samples<'py>,
+    rate_hz: f64,
+    unit: &str,
+    speed_rpm: f64,
+    bearing: Option<&str>,
+    scenario: Option<&crate::scenario::Scenario>,
+    orders_given: [Option<f64>; 4],
+    tolerance: f64,
+    level: f64,
+    band_hz: Option<(f64, f64)>,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+    let mut copy = Vec::new();
+    let x = slice(&x, &mut copy);
+    if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
+        return Err(failed(format!(
+            "speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min"
+        )));
+    }
+    if !(level > 0.0 && level < 1.0) {
+        return Err(failed(format!(
+            "level = {level}: expected a chance between 0 and 1"
+        )));
+    }
+    let shaft = speed_rpm.abs() / 60.0;
+    let geometry = scenario.map(|s| Geometry::of(&s.loaded.scenario.bearing));
+    let mut options = Options::new(shaft, orders(bearing, geometry, orders_given)?);
+    options.tolerance = tolerance;
+    options.level = level;
+    options.band = band_hz.map(|(low, high)| Band::between(low, high));
+    let unit = Unit::of(unit);
+    let (analysis, bands) = py.detach(|| {
+        let analysis = brinell::analysis::analyze(x, rate_hz, &options);
+        let bands = (unit.quantity == Quantity::Acceleration).then(|| {
+            let si: Vec<f64> = x.iter().map(|v| v * unit.to_si).collect();
+            velocity(&si, rate_hz, shaft).ok()
+        });
+        (analysis, bands.flatten())
+    });
+    let analysis = analysis.map_err(failed)?;
+    let json = to_json(&analysis, &unit, bands.as_ref(), None);
+    let view = analysis.view();
+    let envelope = spectrum_dict(py, view.spectrum.clone())?;
+    envelope.set_item("mean", view.mean)?;
+    envelope.set_item("band_hz", (view.band.band.low, view.band.band.high))?;
+    Ok((json_to_python(py, &json)?, envelope))
+}

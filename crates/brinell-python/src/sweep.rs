@@ -1,0 +1,93 @@
+//! A grid of settings, run side by side, as one table.
+
+use crate::convert::{array, python_to_toml};
+use crate::errors::bad_value;
+use crate::run::over_threads;
+use crate::scenario::Scenario;
+use brinell::campaign::{self, Axis, Plan, Quantity, Unfinished, columns};
+use brinell::document::{Problem, Severity};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
+
+/// Problems on one line, as the tables of the command have them.
+fn reason(problems: &[Problem]) -> String {
+    let errors = problems.iter().filter(|p| p.severity == Severity::Error);
+    let texts: Vec<String> = errors.map(ToString::to_string).collect();
+    one_line(&texts.join("\n").replace("error: ", ""))
+}
+
+fn one_line(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    lines.join("; ")
+}
+
+/// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for each point which setting
+/// of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN where a run has none. `progress` gets the points
+/// done and how many there are.
+#[pyfunction]
+#[expect(
+    clippy::type_complexity,
+    reason = "taken apart by the Python around it"
+)]
+pub(crate) fn sweep<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    axes: Vec<(Vec<String>, Vec<Vec<Bound<'py, PyAny>>>)>,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>)> {
+    let axes = axes.into_iter().map(|(keys, settings)| {
+        let texts = settings
+            .iter()
+            .map(|setting| setting.iter().map(python_to_toml).collect())
+            .collect::<PyResult<Vec<Vec<String>>>>()?;
+        Axis::new(keys, texts).map_err(bad_value)
+    });
+    let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
+    let source = &scenario.source;
+    let mut results: Vec<Result<Vec<Quantity>, String>> = Vec::new();
+    results.resize_with(plan.points(), || Err("not run".into()));
+    let mut done = 0;
+    over_threads(
+        py,
+        plan.points(),
+        jobs,
+        |k, stop| {
+            let (loaded, _) = source
+                .with(&plan.settings(k))
+                .load()
+                .map_err(|problems| reason(&problems))?;
+            let finished = campaign::run(loaded.scenario, |_| match stop.load(Ordering::Relaxed) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            });
+            match finished {
+                Ok(finished) => Ok(finished.quantities()),
+                Err(Unfinished::Failed(error)) => Err(one_line(&error.to_string())),
+                Err(Unfinished::Stopped) => Err("stopped before its end".into()),
+            }
+        },
+        |py, k, result| {
+            results[k] = result;
+            done += 1;
+            if let Some(progress) = &progress {
+                progress.call1(py, (done, plan.points()))?;
+            }
+            Ok(())
+        },
+    )?;
+    let runs: Vec<&[Quantity]> = results
+        .iter()
+        .map(|r| r.as_deref().unwrap_or_default())
+        .collect();
+    let list = PyList::empty(py);
+    for column in columns(&runs) {
+        let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
+        list.append((column.name, column.unit, array(py, values.collect())))?;
+    }
+    let places = (0..plan.points()).map(|k| plan.place(k)).collect();
+    let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
+    Ok((places, reasons, list))
+}

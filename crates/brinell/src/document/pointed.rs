@@ -1,0 +1,41 @@
+//! Problems as they are told, each with the line that it is about.
+
+use super::problem::{Problem, Severity};
+
+/// The problems of a text called `name`, each followed by the line that it is about, the place marked beneath; last how many errors
+/// there are, where there are several. No line break at the end.
+pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
+    let mut told = Vec::new();
+    for problem in problems {
+        told.push(problem.to_string());
+        let (Some(line), Some(column)) = (problem.line, problem.column) else {
+            continue;
+        };
+        let Some(source) = text.lines().nth(line - 1) else {
+            continue;
+        };
+        let length = problem.span.as_ref().map_or(1, |s| {
+            let end = s.end.min(text.len());
+            text.get(s.start..end)
+                .map_or(1, |t| t.lines().next().unwrap_or("").chars().count().max(1))
+        });
+        // A long line (a profile's list) is shown around the place.
+        let from = column.saturating_sub(60);
+        let shown: String = source.chars().skip(from).take(100).collect();
+        let number = line.to_string();
+        let gutter = " ".repeat(number.len());
+        told.push(format!("  {gutter}--> {name}:{line}:{column}"));
+        told.push(format!("  {number} | {shown}"));
+        let marks = "^".repeat(length.min(100usize.saturating_sub(column - 1 - from).max(1)));
+        let before = " ".repeat(column - 1 - from);
+        told.push(format!("  {gutter} | {before}{marks}"));
+    }
+    let errors = problems
+        .iter()
+        .filter(|p| p.severity == Severity::Error)
+        .count();
+    if errors > 1 {
+        told.push(format!("{errors} errors in {name}"));
+    }
+    told.join("\n")
+}

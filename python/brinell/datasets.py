@@ -1,0 +1,214 @@
+"""Data sets: a plan to Parquet files of labelled signals with ground truth, as ``brinell dataset`` makes them."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from brinell import _brinell, tables
+from brinell.scenario import Scenario
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+__all__ = ["DataSet", "Plan", "merge"]
+
+
+class Plan:
+    """A plan file: which keys of a base scenario vary and how, which classes of damage there are, how many runs.
+
+    Parameters
+    ----------
+    path : path
+        The plan (TOML); ``brinell dataset --help`` shows one.
+    check : bool
+        Look at every run's values before any runs, and refuse a plan whose runs cannot be made.
+
+    Raises
+    ------
+    ScenarioError
+        With everything that is wrong with plan or base scenario, and the lines that it is about.
+
+    Examples
+    --------
+    >>> import brinell, pathlib, tempfile
+    >>> folder = pathlib.Path(tempfile.mkdtemp())
+    >>> _ = (folder / "base.toml").write_text(brinell.template())
+    >>> _ = (folder / "plan.toml").write_text('''
+    ... name = "speeds"
+    ... base = "base.toml"
+    ... runs = 4
+    ... runs_per_file = 2
+    ... signals = ["measured_ax"]
+    ... [vary]
+    ... simulation.duration_s = 0.02
+    ... operation.speed_rpm = { uniform = [900, 3000] }
+    ... ''')
+    >>> plan = brinell.Plan(folder / "plan.toml")
+    >>> plan.runs, plan.parts
+    (4, 2)
+    >>> data = plan.run(folder / "data", jobs=1)
+    >>> data.verify()
+    []
+    >>> data.to_polars()["measured_ax"].list.len().to_list()
+    [513, 513, 513, 513]
+    """
+
+    __slots__ = ("_native", "path")
+    path: Path
+    """The plan file."""
+
+    def __init__(self, path: str | os.PathLike[str], *, check: bool = True) -> None:
+        self.path = Path(path)
+        self._native = _brinell.Campaign.open(self.path, check)
+
+    @property
+    def name(self) -> str:
+        """Of the data set."""
+        return self._native.name
+
+    @property
+    def runs(self) -> int:
+        """How many runs."""
+        return self._native.runs
+
+    @property
+    def parts(self) -> int:
+        """How many files of runs."""
+        return self._native.parts
+
+    def runs_of(self, part: int) -> int:
+        """How many runs a file has, from 0."""
+        return self._native.runs_of(part)
+
+    @property
+    def identity(self) -> str:
+        """SHA-256 of what the plan means, in hexadecimal."""
+        return self._native.identity
+
+    @property
+    def columns(self) -> dict[str, tuple[str, str]]:
+        """Unit and description of each column of the files."""
+        return {name: (unit, text) for name, unit, text in self._native.columns()}
+
+    def scenario(self, run: int) -> Scenario:
+        """A run's scenario, from 0."""
+        text, _ = self._native.run(run)
+        return Scenario._of(_brinell.Scenario.parse(text), quiet=True)
+
+    def label(self, run: int) -> str:
+        """A run's class."""
+        return self._native.run(run)[1]
+
+    def run(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        jobs: int | None = None,
+        shard: tuple[int, int] = (1, 1),
+        progress: Callable[[int, int], object] | None = None,
+    ) -> DataSet:
+        """Does what is missing of the data set; the files' bytes depend on the plan alone. Ctrl-C stops it, and the same call goes on.
+
+        Parameters
+        ----------
+        folder : path
+            Where it is or will be.
+        jobs : int, optional
+            Runs at a time; as many as there are cores unless told.
+        shard : (int, int)
+            ``(i, n)``: only the i-th of n shares of the files, i from 1.
+        progress : callable, optional
+            Gets how many runs of the shard are over, and of how many.
+
+        Returns
+        -------
+        DataSet
+        """
+        self._native.make(folder, shard, jobs, progress)
+        return DataSet(folder)
+
+    def __repr__(self) -> str:
+        return f"<brinell.Plan {self.name!r}: {self.runs} runs in {self.parts} files>"
+
+
+class DataSet:
+    """The folder of a data set.
+
+    Parameters
+    ----------
+    folder : path
+        With ``runs/`` in it.
+    """
+
+    __slots__ = ("folder",)
+    folder: Path
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+
+    @property
+    def files(self) -> list[Path]:
+        """Files of runs that are there, in order."""
+        return sorted((self.folder / "runs").glob("part-*.parquet"))
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """``dataset.json``: geometry, units, licence, columns, checksums. There once all files are."""
+        path = self.folder / "dataset.json"
+        try:
+            about: dict[str, Any] = json.loads(path.read_bytes())
+        except OSError as error:
+            raise _brinell.ReadError(f"cannot read {path}: {error.strerror}; it is there once all files are") from error
+        return about
+
+    def verify(self) -> list[str]:
+        """Everything that is not as it should be: files missing or damaged, rows, checksums; empty where all is well."""
+        return _brinell.verify(self.folder)[4]
+
+    def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
+        """A row a run, signals as lists; read the columns that are needed."""
+        pl = tables.need("polars")
+        frame: polars.DataFrame = pl.read_parquet(self.files, columns=None if columns is None else list(columns))
+        return frame
+
+    def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
+        """A row a run, signals as arrays; needs pyarrow."""
+        pd = tables.need("pandas")
+        chosen = None if columns is None else list(columns)
+        frame: pandas.DataFrame = pd.concat([pd.read_parquet(file, columns=chosen) for file in self.files], ignore_index=True)
+        return frame
+
+    def __repr__(self) -> str:
+        return f"<brinell.DataSet in {str(self.folder)!r}: {len(self.files)} files>"
+
+
+def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str]) -> DataSet:
+    """Joins folders in which shards of one plan ran apart; each file's checksum is held against what was written.
+
+    Parameters
+    ----------
+    folders : sequence of path
+        The folders.
+    into : path
+        A new folder, or one of them.
+
+    Raises
+    ------
+    ValueError
+        Where a folder is of another campaign or version, or a file is damaged.
+
+    Examples
+    --------
+    >>> from brinell.datasets import merge
+    >>> merge([], "nowhere")
+    Traceback (most recent call last):
+    ...
+    ValueError: no folders to merge
+    """
+    _brinell.merge([Path(folder) for folder in folders], Path(into))
+    return DataSet(into)

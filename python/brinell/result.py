@@ -1,0 +1,276 @@
+"""What a run leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from brinell import _brinell, tables
+from brinell.scenario import Scenario
+from brinell.signals import Analysis, Spectrum, analyze
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import polars
+    import xarray
+
+__all__ = ["Result"]
+
+
+class Result:
+    """Signals of a run and what was found in them, as `simulate` gives it.
+
+    The arrays own the memory that the run wrote: nothing was copied. A result can be pickled.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+    >>> result = brinell.simulate(scenario)
+    >>> result.channels[:3]
+    ['t', 'inner_x', 'inner_y']
+    >>> result.units["measured_ax"], result["measured_ax"].dtype.name
+    ('m/s^2', 'float64')
+    >>> result.summary["status"]
+    {'complete': True}
+    """
+
+    scenario: Scenario
+    """What was run."""
+    signals: dict[str, npt.NDArray[np.float64]]
+    """Time ``t`` (s) and every recorded channel by name, SI."""
+    rate_hz: float
+    """Samples a second."""
+    complete: bool
+    """Whether the run reached its duration."""
+
+    def __init__(self) -> None:
+        raise TypeError("results come from brinell.simulate")
+
+    @classmethod
+    def _of(cls, run: _brinell.Run, scenario: Scenario) -> Result:
+        result = cls.__new__(cls)
+        result._run = run
+        result.scenario = scenario
+        result.signals = run.signals
+        result.rate_hz = run.rate_hz
+        result.complete = run.complete
+        return result
+
+    _run: _brinell.Run | None
+
+    def _native(self) -> _brinell.Run:
+        if self._run is None:
+            raise RuntimeError("this result was made elsewhere, and all that it holds came with it")
+        return self._run
+
+    def __getitem__(self, channel: str) -> npt.NDArray[np.float64]:
+        """A channel's samples."""
+        try:
+            return self.signals[channel]
+        except KeyError:
+            raise KeyError(f"{channel}: not recorded; there are {', '.join(self.signals)}") from None
+
+    @property
+    def t(self) -> npt.NDArray[np.float64]:
+        """Time of each sample, s."""
+        return self.signals["t"]
+
+    @property
+    def channels(self) -> list[str]:
+        """Names in the order of files, time first."""
+        return list(self.signals)
+
+    @cached_property
+    def _about(self) -> list[tuple[str, str, str]]:
+        return self._native().channels()
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI unit of each channel."""
+        return {name: unit for name, unit, _ in self._about}
+
+    @property
+    def descriptions(self) -> dict[str, str]:
+        """One line on each channel."""
+        return {name: text for name, _, text in self._about}
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """What ``summary.json`` holds: indicators with intervals, defect frequencies, slip, load zone, audits, assumptions."""
+        return self._native().summary()
+
+    @cached_property
+    def quantities(self) -> dict[str, float]:
+        """Every number of the run by name (``measured_ax.rms``), as in the tables of sweeps; NaN where there is none.
+
+        Ends of 95 % intervals have ``.low`` and ``.high`` behind the name.
+        """
+        values: dict[str, float] = {}
+        for name, _, value, low, high in self._native().quantities():
+            values[name] = np.nan if value is None else value
+            if low is not None and high is not None:
+                values[name + ".low"], values[name + ".high"] = low, high
+        return values
+
+    @cached_property
+    def spectrum(self) -> Spectrum | None:
+        """Averaged amplitude spectrum of the measured acceleration nearer to the load, after the start; None of a run too short."""
+        found = self._native().spectrum()
+        return None if found is None else Spectrum._of(found, "m/s^2")
+
+    @cached_property
+    def envelope(self) -> Spectrum | None:
+        """Averaged spectrum of its envelope above the defect frequencies."""
+        found = self._native().envelope()
+        return None if found is None else Spectrum._of(found, "m/s^2")
+
+    @cached_property
+    def events(self) -> dict[str, npt.NDArray[Any]]:
+        """Ground truth: instants ``t`` (s) at which a ``roller`` of a ``row`` comes onto (``enters``) or leaves a ``defect``, all from 1.
+
+        The latest 4096.
+        """
+        return self._native().events()
+
+    @cached_property
+    def passes(self) -> list[dict[str, Any]]:
+        """The heaviest pass over each defect: ``t``, ``angle_deg`` on the damaged surface, ``effective_length_mm``, ``stiffness``, ``force_n``."""
+        return self._native().passes()
+
+    @cached_property
+    def defects(self) -> list[dict[str, Any]]:
+        """Where each defect lies, how often it is struck in pure rolling and as found."""
+        return self._native().defects()
+
+    def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
+        """What ``brinell analyze`` says of this run, its start left out.
+
+        Parameters
+        ----------
+        channel : str, optional
+            The measured acceleration nearer to the load unless told.
+        **options
+            As of `brinell.analyze`; ``speed_rpm`` is needed where the scenario's varies.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.5})
+        >>> brinell.simulate(scenario).analyze().damage[0]
+        'outer_race'
+        """
+        if channel is None:
+            channel = "measured_ax" if self.spectrum is None else str(self.spectrum.channel)
+        speed = self.scenario["operation.speed_rpm"]
+        if "speed_rpm" not in options:
+            if isinstance(speed, list):
+                raise ValueError("speed_rpm: needed, for the scenario's varies")
+            options["speed_rpm"] = speed
+        first = round(self.summary["simulated"]["analysed_from_s"] * self.rate_hz)
+        settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario}
+        return analyze(self[channel][first:], **(settings | options))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The signals as a data frame; ``attrs["units"]`` has the units.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> frame = brinell.simulate(scenario).to_pandas()
+        >>> frame.shape[0], frame.columns[0]
+        (1281, 't')
+        """
+        return tables.to_pandas(self.signals, self.units)
+
+    def to_polars(self) -> polars.DataFrame:
+        """The signals as a data frame.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> brinell.simulate(scenario).to_polars().height
+        1281
+        """
+        return tables.to_polars(self.signals)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The signals along ``t``, with units, descriptions, scenario and sample rate.
+
+        Examples
+        --------
+        >>> import brinell
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> brinell.simulate(scenario).to_xarray().measured_ax.attrs["units"]
+        'm/s^2'
+        """
+        attributes = {"scenario": self.scenario.to_toml(), "sample_rate_hz": self.rate_hz, "brinell": _brinell.__version__}
+        dataset = tables.to_xarray(self.signals, self.units, "t", attributes)
+        for name, text in self.descriptions.items():
+            dataset[name].attrs["long_name"] = text
+        return dataset
+
+    def plot_signal(
+        self, channel: str | None = None, *, from_s: float | None = None, to_s: float | None = None, ax: Any = None
+    ) -> matplotlib.axes.Axes:
+        """A channel over time; shaded where a roller is on damage.
+
+        Parameters
+        ----------
+        channel : str, optional
+            The measured acceleration nearer to the load unless told.
+        from_s, to_s : float, optional
+            Part of the run.
+        ax : matplotlib axes, optional
+            Where to draw; new ones unless told.
+        """
+        from brinell import plot
+
+        return plot.signal(self, channel, from_s=from_s, to_s=to_s, ax=ax)
+
+    def plot_spectrum(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
+        """The amplitude spectrum."""
+        from brinell import plot
+
+        return plot.spectrum(_there(self.spectrum), to_hz=to_hz, ax=ax)
+
+    def plot_envelope(self, *, to_hz: float | None = None, harmonics: int = 4, ax: Any = None) -> matplotlib.axes.Axes:
+        """The envelope spectrum, with harmonics of the frequencies that the defects are struck with."""
+        from brinell import plot
+
+        return plot.envelope(self, to_hz=to_hz, harmonics=harmonics, ax=ax)
+
+    def plot_load_zone(self, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """Mean force of the outer contacts around the bearing, on polar axes."""
+        from brinell import plot
+
+        return plot.load_zone(self, ax=ax)
+
+    def plot_pass(self, defect: int = 1, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """Contact force and effective length as a roller passes a defect."""
+        from brinell import plot
+
+        return plot.roller_pass(self, defect, ax=ax)
+
+    def __getstate__(self) -> Mapping[str, Any]:
+        for name, value in vars(type(self)).items():
+            if isinstance(value, cached_property):
+                getattr(self, name)
+        return {**self.__dict__, "_run": None}
+
+    def __repr__(self) -> str:
+        ended = "complete" if self.complete else "partial"
+        return f"<brinell.Result of {self.scenario.name!r}: {len(self.t)} samples at {self.rate_hz:g} Hz, {ended}>"
+
+
+def _there(spectrum: Spectrum | None) -> Spectrum:
+    if spectrum is None:
+        raise ValueError("the run is too short for a spectrum")
+    return spectrum

@@ -1,0 +1,444 @@
+"""Analysis of signals: spectra, envelopes, kurtogram, indicators, and which component's defect frequencies stand out.
+
+Every function takes samples with their rate and, where a result carries one, their unit: nothing is guessed. Frequencies are Hz. Arrays of
+doubles are not copied; do not write to one while it is analysed in another thread.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from brinell import _brinell, tables
+from brinell.scenario import Scenario
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+
+    _Window = Literal["rectangular", "hann", "hamming", "blackman-harris", "flat-top"]
+    _Detrend = Literal["none", "mean", "linear"]
+
+__all__ = [
+    "Analysis",
+    "Kurtogram",
+    "Signal",
+    "Spectrogram",
+    "Spectrum",
+    "analyze",
+    "envelope",
+    "envelope_spectrum",
+    "indicators",
+    "kurtogram",
+    "psd",
+    "read_signal",
+    "spectrogram",
+    "spectrum",
+]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """A one-sided spectrum."""
+
+    frequency_hz: Array
+    """Of each bin."""
+    amplitude: Array
+    """Peak amplitude of a sine at the bin, in the signal's unit; root mean square over segments."""
+    density: Array
+    """Power spectral density, unit^2/Hz."""
+    unit: str
+    """The signal's."""
+    segments: int
+    """Segments averaged."""
+    noise_bandwidth_hz: float
+    """Equivalent noise bandwidth of a bin."""
+    degrees_of_freedom: float
+    """Of a bin's power under Gaussian noise."""
+    mean: float | None = None
+    """Mean of an envelope, in the signal's unit."""
+    band_hz: tuple[float, float] | None = None
+    """Band that an envelope was taken in."""
+    channel: str | None = None
+    """Of a run."""
+
+    @classmethod
+    def _of(cls, found: dict[str, Any], unit: str) -> Spectrum:
+        values = dict(found)
+        step = values.pop("frequency_step_hz")
+        frequency = step * np.arange(len(values["amplitude"]))
+        return cls(frequency_hz=frequency, unit=unit, **values)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Frequency, amplitude and density as a data frame."""
+        columns = {"frequency_hz": self.frequency_hz, "amplitude": self.amplitude, "density": self.density}
+        units = {"frequency_hz": "Hz", "amplitude": self.unit, "density": f"({self.unit})^2/Hz"}
+        return tables.to_pandas(columns, units)
+
+    def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
+        """Amplitude over frequency."""
+        from brinell import plot
+
+        return plot.spectrum(self, to_hz=to_hz, ax=ax)
+
+
+def psd(
+    x: npt.ArrayLike,
+    *,
+    rate_hz: float,
+    unit: str,
+    length: int | None = None,
+    overlap: float = 0.5,
+    window: _Window = "hann",
+    detrend: _Detrend = "none",
+) -> Spectrum:
+    """Amplitudes and power spectral density by Welch's method.
+
+    Parameters
+    ----------
+    x : array_like
+        Samples.
+    rate_hz : float
+        Samples a second.
+    unit : str
+        Of the samples: ``"m/s^2"``, ``"g"``.
+    length : int, optional
+        Samples of a segment; about a second of them unless told, and at least four segments where the signal is long enough.
+    overlap : float
+        Share of a segment that the next one has too.
+    window : {"rectangular", "hann", "hamming", "blackman-harris", "flat-top"}
+        For each segment.
+    detrend : {"none", "mean", "linear"}
+        What is taken off each segment before.
+
+    Returns
+    -------
+    Spectrum
+
+    Raises
+    ------
+    SignalError
+        Where a sample is not finite, or an argument is out of its range.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> t = np.arange(4096) / 4096.0
+    >>> tone = brinell.psd(3.0 * np.sin(2 * np.pi * 64 * t), rate_hz=4096.0, unit="m/s^2", length=1024)
+    >>> int(tone.frequency_hz[tone.amplitude.argmax()]), round(float(tone.amplitude.max()), 6)
+    (64, 3.0)
+    """
+    samples = np.asarray(x, dtype=float)
+    if length is None:
+        length = max(min(int(rate_hz) if rate_hz < 2**31 else len(samples), len(samples) // 4), min(256, len(samples)))
+    found = _brinell.psd(samples, rate_hz, length, overlap, window, detrend)
+    return Spectrum._of(found, unit)
+
+
+def spectrum(x: npt.ArrayLike, *, rate_hz: float, unit: str, window: _Window = "hann", detrend: _Detrend = "none") -> Spectrum:
+    """Amplitude spectrum of the whole signal as one segment: the finest lines.
+
+    Parameters
+    ----------
+    x, rate_hz, unit, window, detrend
+        As in `psd`.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> t = np.arange(2000) / 2000.0
+    >>> lines = brinell.spectrum(np.cos(2 * np.pi * 50 * t), rate_hz=2000.0, unit="g")
+    >>> float(lines.frequency_hz[1])
+    1.0
+    """
+    found = _brinell.psd(np.asarray(x, dtype=float), rate_hz, None, 0.0, window, detrend)
+    return Spectrum._of(found, unit)
+
+
+def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] | None = None) -> Array:
+    """Envelope in a band, sample by sample, in the signal's unit. Its ends are disturbed.
+
+    Parameters
+    ----------
+    x : array_like
+        Samples.
+    rate_hz : float
+        Samples a second.
+    band_hz : (float, float), optional
+        Low and high edge; everything unless told.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> t = np.arange(1000) / 1000.0
+    >>> bool(np.allclose(brinell.envelope(2.0 * np.sin(2 * np.pi * 100 * t), rate_hz=1000.0), 2.0))
+    True
+    """
+    return _brinell.envelope(np.asarray(x, dtype=float), rate_hz, band_hz)
+
+
+def envelope_spectrum(
+    x: npt.ArrayLike,
+    *,
+    rate_hz: float,
+    unit: str,
+    band_hz: tuple[float, float] | None = None,
+    length: int | None = None,
+    overlap: float = 0.5,
+    window: _Window = "hann",
+) -> Spectrum:
+    """Spectrum of the envelope less its mean: what repeats in a resonance.
+
+    Parameters
+    ----------
+    x, rate_hz, unit
+        As in `psd`.
+    band_hz : (float, float), optional
+        Band to demodulate; `kurtogram` finds an impulsive one.
+    length : int, optional
+        Samples of a segment; the whole signal unless told.
+    overlap, window
+        As in `psd`.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> t = np.arange(8192) / 8192.0
+    >>> x = (1.0 + 0.5 * np.cos(2 * np.pi * 40 * t)) * np.sin(2 * np.pi * 2000 * t)
+    >>> lines = brinell.envelope_spectrum(x, rate_hz=8192.0, unit="g", band_hz=(1500.0, 2500.0))
+    >>> float(lines.frequency_hz[lines.amplitude.argmax()]), round(float(lines.amplitude.max() / lines.mean), 3)
+    (40.0, 0.5)
+    """
+    found = _brinell.envelope_spectrum(np.asarray(x, dtype=float), rate_hz, band_hz, length, overlap, window)
+    found["band_hz"] = band_hz
+    return Spectrum._of(found, unit)
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrogram:
+    """Power spectral density over time."""
+
+    time_s: Array
+    """Middle of each frame."""
+    frequency_hz: Array
+    """Of each bin."""
+    density: Array
+    """(frames, bins), unit^2/Hz."""
+    unit: str
+    """The signal's."""
+
+
+def spectrogram(
+    x: npt.ArrayLike, *, rate_hz: float, unit: str, length: int, overlap: float = 0.5, window: _Window = "hann"
+) -> Spectrogram:
+    """Power spectral density of each segment by itself.
+
+    Parameters
+    ----------
+    x, rate_hz, unit, length, overlap, window
+        As in `psd`.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> map_ = brinell.spectrogram(np.sin(np.arange(1024.0)), rate_hz=1024.0, unit="g", length=256)
+    >>> map_.density.shape == (len(map_.time_s), len(map_.frequency_hz)) == (7, 129)
+    True
+    """
+    samples = np.asarray(x, dtype=float)
+    first, time_step, step, density = _brinell.spectrogram(samples, rate_hz, length, overlap, window)
+    frames, bins = density.shape
+    time = first + time_step * np.arange(frames, dtype=float)
+    return Spectrogram(time.astype(float), (step * np.arange(bins)).astype(float), density, unit)
+
+
+@dataclass(frozen=True, eq=False)
+class Kurtogram:
+    """Kurtosis of the envelope in every band: impulsive ones stand out."""
+
+    low_hz: Array
+    high_hz: Array
+    kurtosis: Array
+    """0 for Gaussian noise."""
+    noise_scatter: Array
+    """Standard deviation of the kurtosis under Gaussian noise."""
+    best_hz: tuple[float, float] | None
+    """The most impulsive band."""
+    best_kurtosis: float | None
+
+
+def kurtogram(x: npt.ArrayLike, *, rate_hz: float, depth: int = 7, narrowest_hz: float = 0.0) -> Kurtogram:
+    """The fast kurtogram.
+
+    Parameters
+    ----------
+    x : array_like
+        Samples.
+    rate_hz : float
+        Samples a second.
+    depth : int
+        How often the band is halved at most.
+    narrowest_hz : float
+        The best band is at least so wide: three times a repetition frequency, for its impacts to be told apart.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> x = np.random.default_rng(1).normal(size=8192)
+    >>> since = np.arange(8192) % 512 / 8192.0
+    >>> x += 20.0 * np.exp(-since / 1e-3) * np.sin(2 * np.pi * 3000.0 * since)
+    >>> low, high = brinell.kurtogram(x, rate_hz=8192.0, narrowest_hz=100.0).best_hz
+    >>> low < 3000.0 < high
+    True
+    """
+    return Kurtogram(**_brinell.kurtogram(np.asarray(x, dtype=float), rate_hz, depth, narrowest_hz))
+
+
+def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -> dict[str, dict[str, Any]]:
+    """RMS, peak, kurtosis and others, each with a 95 % interval from blocks.
+
+    Parameters
+    ----------
+    x, rate_hz, unit
+        As in `psd`.
+    block_s : float
+        Length of a block, s: a turn of the shaft.
+
+    Returns
+    -------
+    dict
+        By name: ``value``, ``unit``, ``low``, ``high``, ``blocks``.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> x = np.sin(2 * np.pi * np.arange(1000) / 100.0)
+    >>> found = brinell.indicators(x, rate_hz=1000.0, unit="m/s^2", block_s=0.1)
+    >>> round(found["rms"]["value"], 4), found["rms"]["unit"], found["rms"]["blocks"]
+    (0.7071, 'm/s^2', 10)
+    """
+    return _brinell.indicators(np.asarray(x, dtype=float), rate_hz, unit, block_s)
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """A verdict on one signal, with its evidence."""
+
+    verdict: str
+    """In words."""
+    damage: list[str]
+    """Components whose damage stands out, the strongest first: ``outer_race``, ``inner_race``, ``rolling_element``, ``cage``."""
+    findings: list[dict[str, Any]]
+    """Frequencies that stand, their harmonics and sidebands, the chance of noise."""
+    envelope: Spectrum
+    """The envelope spectrum that shows most."""
+    report: dict[str, Any] = field(repr=False)
+    """Everything, as ``brinell analyze --json`` writes it."""
+
+    def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
+        """The envelope spectrum with what was looked for."""
+        from brinell import plot
+
+        return plot.analysis(self, to_hz=to_hz, ax=ax)
+
+
+def analyze(
+    x: npt.ArrayLike,
+    *,
+    rate_hz: float,
+    unit: str,
+    speed_rpm: float,
+    bearing: str | Scenario | None = None,
+    bpfo: float | None = None,
+    bpfi: float | None = None,
+    bsf: float | None = None,
+    ftf: float | None = None,
+    tolerance: float = 0.02,
+    level: float = 0.01,
+    band_hz: tuple[float, float] | None = None,
+) -> Analysis:
+    """Which component's defect frequencies stand out of a vibration signal, or that nothing does.
+
+    Parameters
+    ----------
+    x, rate_hz, unit
+        As in `psd`.
+    speed_rpm : float
+        Of the shaft.
+    bearing : str or Scenario, optional
+        A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing.
+    bpfo, bpfi, bsf, ftf : float, optional
+        Frequencies as multiples of the shaft's, over those of the bearing.
+    tolerance : float
+        How far slip and an inexact speed may move a frequency, relative.
+    level : float
+        Chance at most that noise alone is called damage.
+    band_hz : (float, float), optional
+        Band to demodulate; it is searched for unless told.
+
+    Raises
+    ------
+    SignalError
+        Where the signal is too short, its rate too low, or a sample not finite.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np
+    >>> since = np.arange(24000) / 12000.0 % (1.0 / (3.585 * 30.0))
+    >>> x = np.exp(-since / 4e-4) * np.sin(6.283 * 3000.0 * since) + 0.05 * np.random.default_rng(1).normal(size=24000)
+    >>> found = brinell.analyze(x, rate_hz=12000.0, unit="g", speed_rpm=1800.0, bearing="6205-2RS")
+    >>> found.damage
+    ['outer_race']
+    """
+    name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
+    samples = np.asarray(x, dtype=float)
+    orders = [bpfo, bpfi, bsf, ftf]
+    report, found = _brinell.analyze(
+        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, level, band_hz
+    )
+    verdict = report["verdict"]
+    return Analysis(verdict["text"], verdict["damage"], report["findings"], Spectrum._of(found, unit), report)
+
+
+@dataclass(frozen=True, eq=False)
+class Signal:
+    """One channel of a file."""
+
+    values: Array
+    rate_hz: float | None
+    """What the file states; None where it does not."""
+    unit: str | None
+    """As the file spells it; None where it does not."""
+    channel: str
+
+
+def read_signal(path: str | os.PathLike[str], channel: str | None = None) -> Signal:
+    """One channel of a measured signal's file: CSV and text, Parquet, MAT, HDF5, NPY, NPZ, UFF 58 or WAV.
+
+    Parameters
+    ----------
+    path : path
+        The file; its content says the format.
+    channel : str, optional
+        Which one; needed where there are several.
+
+    Raises
+    ------
+    ReadError
+        Where the file cannot be read or has no such channel; it names those that are there.
+
+    Examples
+    --------
+    >>> import brinell, numpy as np, pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "signal.npy"
+    >>> np.save(path, np.arange(5.0))
+    >>> brinell.read_signal(path).values
+    array([0., 1., 2., 3., 4.])
+    """
+    return Signal(**_brinell.read_signal(path, channel))

@@ -1,0 +1,106 @@
+"""What follows from a scenario before anything moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from brinell import _brinell, tables
+from brinell.scenario import Scenario
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+
+__all__ = ["LoadZone", "derived", "frequencies", "static_analysis"]
+
+
+@dataclass(frozen=True, eq=False)
+class LoadZone:
+    """Load distribution of the static balance, the rollers at several positions of the cage."""
+
+    row: npt.NDArray[np.int64]
+    """Row of each point, from 1."""
+    angle_deg: npt.NDArray[np.float64]
+    """Angle of the roller, -180 to 180."""
+    inner_force_n: npt.NDArray[np.float64]
+    outer_force_n: npt.NDArray[np.float64]
+    largest_contact_force_n: float
+    extent_deg: float
+    """Where the inner raceway carries."""
+    shift_inner_to_outer_um: list[float]
+    """Mean offset (x, y), inner ring less outer."""
+    stiffness_n_per_m: list[list[float]]
+    """Of the bearing between its rings."""
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a roller and position."""
+        columns = {name: getattr(self, name) for name in ("row", "angle_deg", "inner_force_n", "outer_force_n")}
+        return tables.to_pandas(columns, {"row": "1", "angle_deg": "deg", "inner_force_n": "N", "outer_force_n": "N"})
+
+    def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """Forces on polar axes."""
+        from brinell import plot
+
+        return plot.statics(self, ax=ax)
+
+
+def static_analysis(scenario: Scenario) -> LoadZone:
+    """Load distribution, ring shift and stiffness under the full load, as the cage turns through a pitch.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Damage counts as it lies.
+
+    Raises
+    ------
+    ScenarioError
+        Where the rings are not held against the load.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> scenario = brinell.Scenario(bearing="NU205", operation={"speed_rpm": 1500.0, "load_n": [1000.0, 0.0]})
+    >>> zone = brinell.static_analysis(scenario)
+    >>> zone.extent_deg < 180.0 < zone.largest_contact_force_n
+    True
+    """
+    return LoadZone(**_brinell.statics(scenario._native))
+
+
+def derived(scenario: Scenario) -> dict[str, Any]:
+    """What ``brinell check`` tells: frequencies, stiffnesses, time scales, the longest step.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> values = brinell.derived(brinell.Scenario.from_toml(brinell.template()))
+    >>> values["longest_step_s"] < values["roller_period_s"]
+    True
+    """
+    return _brinell.derived(scenario._native)
+
+
+def frequencies(bearing: str | Scenario, speed_rpm: float | None = None) -> dict[str, float]:
+    """Shaft, cage and defect frequencies in pure rolling, Hz.
+
+    Parameters
+    ----------
+    bearing : str or Scenario
+        A bearing of the catalogue, or a scenario.
+    speed_rpm : float, optional
+        Needed with a name; the scenario's own unless told.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> round(brinell.frequencies("NN3007", 1800.0)["bpfo"], 2)
+    250.1
+    """
+    if isinstance(bearing, Scenario):
+        return _brinell.frequencies(None, bearing._native, speed_rpm)
+    return _brinell.frequencies(bearing, None, speed_rpm)

@@ -1,0 +1,176 @@
+"""Keys over values: many runs, one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from brinell import _brinell, tables
+from brinell.scenario import Scenario
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import polars
+    import xarray
+
+__all__ = ["Table", "sweep"]
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A row a point, in the plan's order: what it sets, and every number of its run."""
+
+    keys: list[str]
+    """Keys that vary."""
+    columns: dict[str, npt.NDArray[Any]]
+    """Settings by key, then numbers by name (``measured_ax.rms``, its interval ``.low`` and ``.high``); NaN where a run has none."""
+    units: dict[str, str]
+    """SI units of the numbers; 1 where there is none."""
+    failed: dict[int, str]
+    """Why a point failed, by its place from 0."""
+    shape: tuple[int, ...]
+    """Settings of each axis."""
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        """A column."""
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        """Points."""
+        return int(np.prod(self.shape))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame; ``attrs["units"]`` has the units."""
+        return tables.to_pandas(self.columns, self.units)
+
+    def to_polars(self) -> polars.DataFrame:
+        """A data frame."""
+        return tables.to_polars(self.columns)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dimension an axis; of keys that change together the first names it."""
+        xr = tables.need("xarray")
+        names: list[str] = []
+        coordinates: dict[str, Any] = {}
+        for place, axis in enumerate(self._axes):
+            names.append(axis[0])
+            for key in axis:
+                grid = self.columns[key].reshape(self.shape)
+                first = tuple(slice(None) if k == place else 0 for k in range(len(self.shape)))
+                coordinates[key] = (axis[0], grid[first])
+        variables = {
+            name: (names, values.reshape(self.shape), {"units": self.units[name]})
+            for name, values in self.columns.items()
+            if name not in coordinates
+        }
+        dataset: xarray.Dataset = xr.Dataset(variables, coords=coordinates)
+        return dataset
+
+    def plot(self, y: str, x: str | None = None, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """A number over a key, with its intervals; a line for each value of the other keys.
+
+        Parameters
+        ----------
+        y : str
+            Column.
+        x : str, optional
+            Key; the first one whose values are numbers unless told.
+        ax : matplotlib axes, optional
+            Where to draw; new ones unless told.
+        """
+        from brinell import plot
+
+        return plot.table(self, y, x, ax=ax)
+
+    _axes: tuple[tuple[str, ...], ...] = ()
+
+
+def sweep(
+    scenario: Scenario,
+    vary: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    together: Sequence[Mapping[str, Sequence[Any]]] = (),
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Table:
+    """Runs every combination of settings side by side. Ctrl-C stops it; ``brinell sweep`` is the one that goes on where it stopped.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What the settings change.
+    vary : mapping of str to sequence
+        Values by dotted path; the last key changes fastest.
+    together : sequence of mappings
+        Each mapping's keys change in step: equally many values each.
+    jobs : int, optional
+        Runs at a time; as many as there are cores unless told.
+    progress : callable, optional
+        Gets how many points are done, and of how many.
+
+    Returns
+    -------
+    Table
+        A point that fails is a row with its reason.
+
+    Raises
+    ------
+    ValueError
+        Where there is no plan: a key twice, a value twice, too many points.
+
+    Examples
+    --------
+    >>> import brinell
+    >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
+    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
+    >>> table.shape, list(table["simulation.model"])
+    ((2, 2), ['full', 'reference', 'full', 'reference'])
+    >>> table.units["measured_ax.rms"]
+    'm/s^2'
+    """
+    axes: list[tuple[tuple[str, ...], list[list[Any]]]] = []
+    for key, values in (vary or {}).items():
+        axes.append(((key,), [[value] for value in _listed(values)]))
+    for step in together:
+        keys = tuple(step)
+        lists = [_listed(step[key]) for key in keys]
+        lengths = {len(values) for values in lists}
+        if len(lengths) > 1:
+            told = ", ".join(f"{key} has {len(values)}" for key, values in zip(keys, lists, strict=True))
+            raise ValueError(f"keys that vary together have equally many values; {told}")
+        axes.append((keys, [list(setting) for setting in zip(*lists, strict=True)]))
+    places, reasons, numbers = _brinell.sweep(scenario._native, axes, jobs, progress)
+    columns: dict[str, npt.NDArray[Any]] = {}
+    for number, (keys, settings) in enumerate(axes):
+        for at, key in enumerate(keys):
+            columns[key] = _column([settings[place[number]][at] for place in places])
+    units: dict[str, str] = {}
+    for name, unit, column in numbers:
+        columns[name] = column
+        units[name] = unit
+    return Table(
+        keys=[key for keys, _ in axes for key in keys],
+        columns=columns,
+        units=units,
+        failed={k: reason for k, reason in enumerate(reasons) if reason is not None},
+        shape=tuple(len(settings) for _, settings in axes),
+        _axes=tuple(keys for keys, _ in axes),
+    )
+
+
+def _listed(values: Sequence[Any]) -> list[Any]:
+    return list(values.tolist()) if isinstance(values, np.ndarray) else list(values)
+
+
+def _column(values: list[Any]) -> npt.NDArray[Any]:
+    """Numbers as doubles, words as they are, lists as objects."""
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
+        return np.array(values, dtype=float)
+    column = np.empty(len(values), dtype=object)
+    column[:] = values
+    return column

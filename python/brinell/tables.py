@@ -1,0 +1,117 @@
+"""Columns to pandas, polars and xarray, each where it is installed."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    import xarray
+
+__all__ = ["need", "to_pandas", "to_polars", "to_xarray"]
+
+
+def need(library: str, extra: str | None = None) -> Any:
+    """A library that brinell does without, or an error that says how to get it.
+
+    Parameters
+    ----------
+    library : str
+        What is imported.
+    extra : str, optional
+        The extra of brinell that installs it, where that is called otherwise.
+
+    Raises
+    ------
+    ImportError
+        Where it is not installed.
+
+    Examples
+    --------
+    >>> from brinell.tables import need
+    >>> need("json").dumps([1])
+    '[1]'
+    >>> need("no_such_library", "plot")
+    Traceback (most recent call last):
+    ...
+    ImportError: this needs no_such_library: pip install "brinell[plot]"
+    """
+    try:
+        return importlib.import_module(library)
+    except ModuleNotFoundError as error:
+        if error.name is not None and error.name.split(".")[0] != library.split(".")[0]:
+            raise
+        raise ImportError(f'this needs {library}: pip install "brinell[{extra or library}]"') from None
+
+
+def to_pandas(columns: Mapping[str, Any], units: Mapping[str, str]) -> pandas.DataFrame:
+    """A data frame on the memory of the columns; units are in ``attrs["units"]``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from brinell.tables import to_pandas
+    >>> frame = to_pandas({"t": np.array([0.0, 0.1]), "x": np.array([1.0, 2.0])}, {"t": "s", "x": "m"})
+    >>> list(frame.columns), frame.attrs["units"]["x"]
+    (['t', 'x'], 'm')
+    """
+    pd = need("pandas")
+    frame: pandas.DataFrame = pd.DataFrame(dict(columns), copy=False)
+    frame.attrs["units"] = dict(units)
+    return frame
+
+
+def to_polars(columns: Mapping[str, Any]) -> polars.DataFrame:
+    """A data frame of the columns. Polars keeps no units.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from brinell.tables import to_polars
+    >>> to_polars({"t": np.array([0.0, 0.1])}).shape
+    (2, 1)
+    """
+    pl = need("polars")
+    frame: polars.DataFrame = pl.DataFrame(dict(columns))
+    return frame
+
+
+def to_xarray(
+    columns: Mapping[str, Any],
+    units: Mapping[str, str],
+    along: str,
+    attributes: Mapping[str, Any] | None = None,
+) -> xarray.Dataset:
+    """A data set along one column, each variable with its unit.
+
+    Parameters
+    ----------
+    columns : mapping of str to array
+        Names to values of one length.
+    units : mapping of str to str
+        Names to units.
+    along : str
+        The column that is the coordinate.
+    attributes : mapping, optional
+        Of the whole.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from brinell.tables import to_xarray
+    >>> to_xarray({"t": np.array([0.0, 0.1]), "x": np.array([1.0, 2.0])}, {"x": "m"}, "t").x.attrs
+    {'units': 'm'}
+    """
+    xr = need("xarray")
+    variables = {
+        name: (along, np.asarray(values), {"units": units[name]} if name in units else {})
+        for name, values in columns.items()
+    }
+    coordinate = {along: variables.pop(along)}
+    dataset: xarray.Dataset = xr.Dataset(variables, coords=coordinate, attrs=dict(attributes or {}))
+    return dataset

@@ -1,0 +1,140 @@
+"""Signals, statics, sweeps, pictures."""
+
+import numpy as np
+import pytest
+
+import brinell
+import brinell.plot
+
+
+def test_xval_psd_is_that_of_a_known_tone_in_known_noise():
+    rng = np.random.default_rng(3)
+    x = 0.5 * np.sin(2 * np.pi * 100.0 * np.arange(200_000) / 10_000.0) + rng.normal(scale=0.2, size=200_000)
+    found = brinell.psd(x, rate_hz=10_000.0, unit="m/s^2", length=2000)
+    peak = found.amplitude.argmax()
+    assert found.frequency_hz[peak] == 100.0
+    np.testing.assert_allclose(found.amplitude[peak], 0.5, rtol=0.02)
+    # White noise of variance s^2 has the density 2 s^2 / rate.
+    far = found.frequency_hz > 1000.0
+    np.testing.assert_allclose(found.density[far].mean(), 2 * 0.04 / 10_000.0, rtol=0.02)
+    np.testing.assert_allclose(found.density.sum() * found.frequency_hz[1], np.mean(x**2), rtol=0.01)
+
+
+def test_prop_any_array_of_numbers_will_do():
+    x = np.sin(np.arange(4000) / 7.0)
+    expected = brinell.psd(x, rate_hz=1000.0, unit="g", length=500).amplitude
+    wide = np.zeros((4000, 2))
+    wide[:, 0] = x
+    for other in (x.tolist(), wide[:, 0], x[::-1].copy()[::-1], x.astype(">f8")):
+        np.testing.assert_array_equal(brinell.psd(other, rate_hz=1000.0, unit="g", length=500).amplitude, expected)
+    with pytest.raises(TypeError):
+        brinell.psd(wide, rate_hz=1000.0, unit="g")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda x: brinell.psd(x, rate_hz=0.0, unit="g"),
+        lambda x: brinell.psd(x[:3], rate_hz=10.0, unit="g"),
+        lambda x: brinell.psd(x, rate_hz=10.0, unit="g", length=2),
+        lambda x: brinell.psd(x, rate_hz=10.0, unit="g", overlap=1.0),
+        lambda x: brinell.psd(x, rate_hz=10.0, unit="g", window="kaiser"),
+        lambda x: brinell.psd(x * np.nan, rate_hz=10.0, unit="g"),
+        lambda x: brinell.envelope(x, rate_hz=10.0, band_hz=(5.0, 2.0)),
+        lambda x: brinell.envelope(x[:0], rate_hz=10.0),
+        lambda x: brinell.envelope_spectrum(x, rate_hz=np.inf, unit="g"),
+        lambda x: brinell.spectrogram(x, rate_hz=10.0, unit="g", length=0),
+        lambda x: brinell.kurtogram(0.0 * x, rate_hz=10.0),
+        lambda x: brinell.indicators(x, rate_hz=10.0, unit="g", block_s=0.0),
+        lambda x: brinell.analyze(x, rate_hz=10.0, unit="g", speed_rpm=0.0, bearing="6205"),
+        lambda x: brinell.analyze(x, rate_hz=10.0, unit="g", speed_rpm=1800.0, bearing="6205"),
+        lambda x: brinell.analyze(x, rate_hz=1e4, unit="g", speed_rpm=1800.0),
+    ],
+)
+def test_prop_what_cannot_be_analysed_is_an_error(call):
+    with pytest.raises(brinell.SignalError):
+        call(np.sin(np.arange(1000.0)))
+
+
+def test_prop_unknown_bearings_are_told_with_those_known():
+    with pytest.raises(ValueError, match="NN3007"):
+        brinell.analyze(np.arange(9.0), rate_hz=1e4, unit="g", speed_rpm=1800.0, bearing="X")
+    with pytest.raises(ValueError, match="NN3007"):
+        brinell.frequencies("X", 1800.0)
+    with pytest.raises(ValueError, match="speed_rpm"):
+        brinell.frequencies("NN3007")
+
+
+def test_analytic_static_forces_hold_the_load(base):
+    zone = brinell.static_analysis(base.replace({"defects": []}))
+    angle = np.radians(zone.angle_deg)
+    positions = 16
+    # The outer ring is pushed with the load; supports carry the difference, a few per cent.
+    push = (zone.outer_force_n * np.cos(angle)).sum() / positions
+    across = (zone.outer_force_n * np.sin(angle)).sum() / positions
+    assert 0.0 < push <= 300.0 * 1.05 and abs(across) < 1e-6 * push
+    values = brinell.derived(base)
+    assert values["load_n"] == 300.0 and values["frequencies_hz"] == pytest.approx(brinell.frequencies(base))
+    np.testing.assert_allclose(brinell.frequencies(base, 3600.0)["bpfo"], 2 * brinell.frequencies(base)["bpfo"])
+
+
+def test_regress_sweeps_of_keys_in_step_and_across(base):
+    table = brinell.sweep(
+        base,
+        {"simulation.model": ["full", "reference"]},
+        together=[{"operation.speed_rpm": np.array([900.0, 1800.0]), "operation.load_n": [[200.0, 0.0], [400.0, 0.0]]}],
+    )
+    assert table.shape == (2, 2) and not table.failed
+    assert list(table["simulation.model"]) == ["full", "full", "reference", "reference"]
+    assert table["operation.load_n"][1] == [400.0, 0.0]
+    alone = brinell.simulate(base, settings={"operation.speed_rpm": 1800.0, "operation.load_n": [400.0, 0.0]})
+    for name, value in alone.quantities.items():
+        np.testing.assert_array_equal(table[name][1], value, err_msg=name)
+    pytest.importorskip("xarray")
+    grid = table.to_xarray()
+    assert grid["measured_ax.rms"].dims == ("simulation.model", "operation.speed_rpm")
+    assert float(grid["measured_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["measured_ax.rms"]
+    pytest.importorskip("pandas")
+    assert len(table.to_pandas()) == 4
+
+
+@pytest.mark.parametrize(
+    ("vary", "together"),
+    [
+        ({"operation.speed_rpm": []}, ()),
+        ({"operation.speed_rpm": [900.0, 900.0]}, ()),
+        ({"defects.0": [1], "defects.0.depth_um": [2]}, ()),
+        ({"a.b": range(1000), "a.c": range(1000)}, ()),
+        ({}, [{"a.b": [1, 2], "a.c": [1]}]),
+        ({"a.b": [1]}, [{"a.b": [1], "a.c": [1]}]),
+    ],
+)
+def test_prop_plans_that_cannot_be(base, vary, together):
+    with pytest.raises(ValueError):
+        brinell.sweep(base, vary, together=together)
+
+
+def test_regress_pictures(result, base, tmp_path):
+    pytest.importorskip("matplotlib")
+    table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
+    x = result["measured_ax"]
+    settings = {"rate_hz": result.rate_hz, "unit": "m/s^2", "speed_rpm": 1800.0, "bearing": result.scenario}
+    longer = brinell.simulate(base, settings={"simulation.duration_s": 0.5})
+    pictures = {
+        "signal": result.plot_signal(from_s=0.05, to_s=0.07),
+        "spectrum": result.plot_spectrum(to_hz=8000.0),
+        "envelope": longer.plot_envelope(),
+        "load_zone": longer.plot_load_zone(),
+        "pass": result.plot_pass(),
+        "statics": brinell.static_analysis(base).plot(),
+        "sweep": table.plot("measured_ax.rms"),
+        "analysis": brinell.analyze(longer["measured_ax"], **settings).plot(),
+        "psd": brinell.psd(x, rate_hz=result.rate_hz, unit="m/s^2").plot(),
+    }
+    for name, ax in pictures.items():
+        ax.figure.savefig(tmp_path / f"{name}.png", dpi=110)
+        assert (tmp_path / f"{name}.png").stat().st_size > 5000
+    with pytest.raises(ValueError, match="measured_ax.rms"):
+        table.plot("x.rms")
+    with pytest.raises(ValueError, match="1 to 1"):
+        result.plot_pass(2)

@@ -1,0 +1,112 @@
+"""The same physics, bits and words as the command's."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import brinell
+
+
+def run(command, *args, code=0, cwd=None):
+    done = subprocess.run([command, *map(str, args)], capture_output=True, text=True, cwd=cwd)
+    assert done.returncode == code, done.stderr
+    return done
+
+
+def test_xval_signals_and_summary_have_the_bits_of_the_command(command, examples, tmp_path):
+    overrides = {"simulation.duration_s": 0.1, "simulation.record": ["outer_*", "measured_*", "contact1_01_*"]}
+    sets = ["--set", "simulation.duration_s=0.1", "--set", 'simulation.record=["outer_*", "measured_*", "contact1_01_*"]']
+    run(command, "run", examples / "rectangle.toml", *sets, "-o", tmp_path, "--signals", "npz", "--no-report", "-q")
+    result = brinell.simulate(examples / "rectangle.toml", settings=overrides)
+    with np.load(tmp_path / "signals.npz") as arrays:
+        assert [name for name in arrays.files if name in result.signals] == result.channels
+        for name, values in result.signals.items():
+            np.testing.assert_array_equal(values.view(np.uint64), arrays[name].view(np.uint64), err_msg=name)
+    assert result.summary == json.loads((tmp_path / "summary.json").read_text())
+    assert result.scenario.to_toml() == (tmp_path / "scenario.toml").read_text()
+
+
+def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
+    sets = ["--set", "simulation.duration_s=0.1"]
+    vary = ["--vary", "operation.speed_rpm=900,1800", "--vary", "bearing.radial_clearance_um=5,-500"]
+    run(command, "sweep", examples / "rectangle.toml", *sets, *vary, "-o", tmp_path, "-q", code=1)
+    lines = (tmp_path / "sweep.csv").read_text().splitlines()
+    import csv
+
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    base = brinell.Scenario.from_file(examples / "rectangle.toml", {"simulation.duration_s": 0.1})
+    table = brinell.sweep(base, {"operation.speed_rpm": [900, 1800], "bearing.radial_clearance_um": [5, -500]})
+    assert len(rows) == len(table) == 4
+    for k, row in enumerate(rows):
+        assert (row["status"] == "failed") == (k in table.failed)
+        if k in table.failed:
+            assert row["reason"] == table.failed[k]
+        for name in table.columns:
+            cell = row[name]
+            expected = float(cell) if cell else np.nan
+            np.testing.assert_array_equal(float(table[name][k]), expected, err_msg=f"{name} of point {k}")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("operation.load_ramp_s", -1.0), ("bearing.pitch_diameter_mm", 3.0), ("operation.sped_rpm", 3.0), ("defects.0.depth_um", True)],
+)
+def test_xval_errors_have_the_words_of_the_command(command, examples, key, value):
+    path = examples / "rectangle.toml"
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Scenario.from_file(path, {key: value})
+    told = run(command, "check", path, "--set", f"{key}={json.dumps(value)}", code=2).stderr
+    assert told == f"{caught.value}\n"
+    assert caught.value.problems[0]["severity"] == "error"
+
+
+def test_xval_errors_point_at_the_line(command, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text('name = "bad"\n[bearing]\npreset = "NN3007"\n[operation]\nspeed_rpm = "fast"\nload_n = [1.0, 0.0]\n[simulaton]\n')
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Scenario.from_file(path)
+    assert run(command, "check", path, code=2).stderr == f"{caught.value}\n"
+    assert f"--> {path}:5:13" in str(caught.value)
+    assert caught.value.problems[0]["line"] == 5
+    path = tmp_path / "none.toml"
+    with pytest.raises(brinell.ReadError) as caught:
+        brinell.Scenario.from_file(path)
+    assert run(command, "check", path, code=2).stderr == f"error: {caught.value}\n"
+
+
+def test_xval_a_damage_file_that_is_missing_is_told_alike(command, examples, tmp_path):
+    path = tmp_path / "photo.toml"
+    path.write_text((examples / "photo.toml").read_text())
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Scenario.from_file(path)
+    assert run(command, "check", path, code=2).stderr == f"{caught.value}\n"
+
+
+def test_xval_a_failed_run_has_the_words_of_the_command(command, tmp_path, examples):
+    # No support holds the rings against the load.
+    sets = {"simulation.start": "equilibrium", "support.inner_stiffness_n_per_m": 0.0, "support.outer_stiffness_n_per_m": 0.0}
+    given = [part for key, value in sets.items() for part in ("--set", f"{key}={value}")]
+    told = run(command, "run", examples / "rectangle.toml", *given, "-o", tmp_path, "-q", code=2).stderr
+    with pytest.raises(brinell.ScenarioError) as caught, pytest.warns(brinell.ScenarioWarning):
+        brinell.simulate(examples / "rectangle.toml", settings=sets)
+    assert told.splitlines()[-1] == f"error: {caught.value}"
+
+
+def test_xval_analysis_is_that_of_the_command(command, examples, tmp_path):
+    run(command, "run", examples / "rectangle.toml", "-o", tmp_path, "--signals", "npz", "--no-report", "-q")
+    done = run(command, "analyze", tmp_path / "signals.npz", "--channel", "measured_ax", "--json", "-")
+    expected = json.loads(done.stdout)
+    signal = brinell.read_signal(tmp_path / "signals.npz", "measured_ax")
+    scenario = brinell.Scenario.from_file(examples / "rectangle.toml")
+    assert signal.unit == "m/s^2"
+    rate = expected["signal"]["sample_rate_hz"]
+    # The command leaves out the start of a run.
+    settled = signal.values[-expected["signal"]["samples"]:]
+    found = brinell.analyze(settled, rate_hz=rate, unit=signal.unit, speed_rpm=1800.0, bearing=scenario)
+    assert found.damage == expected["verdict"]["damage"] and found.damage[0] == "outer_race"
+    for part in ("verdict", "findings", "bands", "indicators", "velocity_bands", "kurtogram"):
+        assert found.report[part] == expected[part], part
+    own = brinell.simulate(scenario).analyze()
+    assert own.report["findings"] == found.report["findings"]

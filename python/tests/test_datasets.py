@@ -1,0 +1,195 @@
+"""Data sets, on this machine and on clusters."""
+
+import hashlib
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import brinell
+import brinell.distributed
+
+PLAN = """
+name = "spalls"
+base = "base.toml"
+runs = {runs}
+seed = 5
+design = "sobol"
+runs_per_file = {per_file}
+held_out = 0.25
+signals = ["measured_a*"]
+
+[vary]
+simulation.duration_s = {duration}
+operation.speed_rpm = {{ uniform = [900, 3000] }}
+
+[[classes]]
+name = "healthy"
+defects = []
+
+[[classes]]
+name = "photo"
+[[classes.defects]]
+on = "outer-raceway"
+depth_um = {{ log = [3, 40] }}
+shape.image = {{ file = "photo-spall.png", mm_per_pixel = 0.02 }}
+"""
+
+
+@pytest.fixture
+def plan(tmp_path, examples):
+    """Sixteen short runs in eight files, half of them with damage from a photo."""
+
+    def make(**values):
+        (tmp_path / "plan").mkdir(exist_ok=True)
+        for name in ("rectangle.toml", "photo-spall.png"):
+            target = "base.toml" if name.endswith("toml") else name
+            (tmp_path / "plan" / target).write_bytes((examples / name).read_bytes())
+        text = PLAN.format(**({"runs": 15, "per_file": 2, "duration": 0.05} | values))
+        (tmp_path / "plan" / "plan.toml").write_text(text)
+        return brinell.Plan(tmp_path / "plan" / "plan.toml")
+
+    return make
+
+
+def digests(folder):
+    """Everything that is a data set's: what lies under work is not."""
+    paths = [path for path in folder.rglob("*") if path.is_file() and "work" not in path.relative_to(folder).parts]
+    return {path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+
+
+def test_xval_files_have_the_bytes_of_the_command(command, plan, tmp_path):
+    chosen = plan()
+    told = []
+    data = chosen.run(tmp_path / "python", jobs=2, progress=lambda over, of: told.append((over, of)))
+    assert told[-1] == (15, 15) and data.verify() == []
+    done = [command, "dataset", str(chosen.path), "-o", str(tmp_path / "command"), "-q"]
+    subprocess.run(done, check=True, capture_output=True)
+    assert digests(tmp_path / "python") == digests(tmp_path / "command")
+    frame = data.to_polars(["run", "measured_ax", "speed_rpm", "status"])
+    assert frame["run"].to_list() == list(range(15)) and set(frame["status"]) == {"complete"}
+    # A row's signal is the run's.
+    result = brinell.simulate(chosen.scenario(4))
+    np.testing.assert_array_equal(frame["measured_ax"][4].to_numpy(), result["measured_ax"].astype(frame["measured_ax"][4].to_numpy().dtype))
+    assert chosen.label(0) in ("healthy", "photo") and "measured_ax" in chosen.columns
+
+
+def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):
+    from brinell.datasets import merge
+
+    chosen = plan()
+    whole = chosen.run(tmp_path / "whole")
+    for k in (1, 2, 3):
+        chosen.run(tmp_path / f"shard-{k}", shard=(k, 3))
+    joined = merge([tmp_path / f"shard-{k}" for k in (3, 1, 2)], tmp_path / "joined")
+    assert digests(joined.folder) == digests(whole.folder)
+    with pytest.raises(brinell.ReadError, match="dataset.json"):
+        brinell.DataSet(tmp_path / "shard-1").about
+    for shard in ((0, 3), (4, 3), (1, 0)):
+        with pytest.raises(ValueError, match="expected"):
+            chosen.run(tmp_path / "x", shard=shard)
+
+
+def test_xval_bad_plans_are_told_as_the_command_tells_them(command, plan, tmp_path):
+    with pytest.raises(brinell.ScenarioError) as caught:
+        plan(runs=0)
+    path = tmp_path / "plan" / "plan.toml"
+    done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (2, f"{caught.value}\n")
+    path.write_text(path.read_text().replace("runs = 0", "runs = 4").replace("[900, 3000]", "[900, 1e99]"))
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Plan(path)
+    done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
+    assert done.returncode == 2 and str(caught.value) in done.stderr
+
+
+def test_prop_ctrl_c_keeps_what_is_finished(plan, tmp_path):
+    chosen = plan(runs=40, duration=0.5)
+    program = f"""
+        import brinell, os, signal, threading
+        stop = lambda over, of: over >= 3 and os.kill(os.getpid(), signal.SIGINT)
+        try:
+            brinell.Plan({str(chosen.path)!r}).run({str(tmp_path / "data")!r}, jobs=2, progress=stop)
+        except KeyboardInterrupt:
+            print("stopped")
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, timeout=120)
+    assert done.stdout == "stopped\n", done.stderr
+    told = []
+    chosen.run(tmp_path / "data", progress=lambda over, of: told.append(over))
+    assert told[0] >= 3 and told[-1] == 40 and brinell.DataSet(tmp_path / "data").verify() == []
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
+def test_prop_a_dask_cluster_loses_a_worker_and_nothing_else(plan, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    chosen = plan(runs=31, duration=0.2)
+    expected = chosen.run(tmp_path / "alone")
+    killed, told = [], []
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "host": "127.0.0.1", "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+
+        def progress(over, of):
+            told.append(over)
+            if not killed:
+                # In the midst of its next file.
+                pids = client.run(os.getpid)
+                killed.append(sorted(pids.values())[0])
+                os.kill(killed[0], signal.SIGKILL)
+
+        data = brinell.distributed.on_dask(chosen, tmp_path / "cluster", client, progress=progress)
+        assert killed and killed[0] not in client.run(os.getpid).values()
+    assert data.verify() == []
+    assert digests(data.folder) == digests(expected.folder)
+    assert data.to_polars(["run"])["run"].to_list() == list(range(31))
+    assert told == sorted(set(told)) and told[-1] == 31
+    assert not list((data.folder / "work" / "incoming").iterdir())
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_prop_a_cluster_goes_on_where_one_stopped(plan, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    chosen = plan()
+    expected = chosen.run(tmp_path / "alone")
+    options = {"n_workers": 1, "threads_per_worker": 2, "processes": True, "host": "127.0.0.1", "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+
+        def stop(over, of):
+            if over > 4:
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            brinell.distributed.on_dask(chosen, tmp_path / "cluster", client, progress=stop)
+        there = digests(tmp_path / "cluster")
+        assert 1 <= len([path for path in there if path.startswith("runs/")]) < chosen.parts
+        told = []
+        brinell.distributed.on_dask(chosen, tmp_path / "cluster", client, progress=lambda over, of: told.append(over))
+        assert told[0] > 4
+    assert digests(tmp_path / "cluster") == digests(expected.folder)
+    assert there.items() <= digests(tmp_path / "cluster").items()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_prop_ray_makes_the_same_bytes(plan, tmp_path):
+    ray = pytest.importorskip("ray")
+    chosen = plan()
+    expected = chosen.run(tmp_path / "alone")
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    try:
+        data = brinell.distributed.on_ray(chosen, tmp_path / "cluster")
+    finally:
+        ray.shutdown()
+    assert digests(data.folder) == digests(expected.folder)
+
+
+def test_prop_what_travels_can_be_pickled(plan):
+    from brinell.distributed import _parcel
+
+    name, files = pickle.loads(pickle.dumps(_parcel(plan())))
+    assert name == "plan.toml" and {path for path, _ in files} == {"plan.toml", "base.toml", "photo-spall.png"}

@@ -1,0 +1,134 @@
+"""Scenarios from files, texts and arguments."""
+
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import brinell
+
+OPERATION = {"speed_rpm": 1800.0, "load_n": [300.0, 0.0]}
+
+
+def test_prop_arguments_mean_what_the_file_means(examples):
+    built = brinell.Scenario(
+        name="rectangle",
+        bearing={"preset": "NN3007"},
+        operation={**OPERATION, "load_on": "outer-ring"},
+        defects=[brinell.rectangle(length_mm=3.0, width_mm=4.0, depth_um=20.0, row=1, center_deg=0.0)],
+        simulation={"duration_s": 0.5, "sample_rate_hz": 25600.0},
+    )
+    read = brinell.Scenario.from_file(examples / "rectangle.toml")
+    assert built == read and built.fingerprint == read.fingerprint and hash(built) == hash(read)
+    assert brinell.Scenario.from_toml(read.to_toml()) == read
+    assert read.replace({"defects.0.depth_um": 10.0}) != read
+
+
+def test_prop_numbers_of_any_kind_keep_their_bits():
+    values = [0.1 + 0.2, 1e-300, 5e300, 1.0 / 3.0]
+    for value in values:
+        scenario = brinell.Scenario(bearing="NN3007", operation=OPERATION, lubricant={"viscosity_pa_s": np.float64(value)})
+        assert scenario["lubricant.viscosity_pa_s"] == value
+    for load in ([300, 0], (300.0, 0.0), np.array([300.0, 0.0]), np.array([300, 0]), np.float32([300, 0])):
+        scenario = brinell.Scenario(bearing="NN3007", operation={"speed_rpm": np.int32(1800), "load_n": load})
+        assert scenario["operation.load_n"] == [300.0, 0.0]
+
+
+def test_prop_problems_come_all_at_once_and_without_lines_that_nobody_sees():
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Scenario(bearing={"preset": "NN3007", "rows": 0}, operation={"speed_rpm": "fast", "lod_n": [1.0, 0.0]})
+    keys = [problem["key"] for problem in caught.value.problems]
+    assert {"bearing.rows", "operation.speed_rpm", "operation.lod_n"} <= set(keys)
+    assert all(problem["line"] is None for problem in caught.value.problems)
+    assert "line" not in str(caught.value)
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize("value", [object(), 3 + 4j, {1, 2}, {1: 2}, b"bytes", [[[object()]]]])
+def test_prop_what_no_scenario_holds_is_refused(value):
+    with pytest.raises((TypeError, brinell.ScenarioError)):
+        brinell.Scenario(bearing="NN3007", operation={"speed_rpm": value, "load_n": [1.0, 0.0]})
+
+
+def test_prop_a_list_within_itself_ends():
+    ring: list = []
+    ring.append(ring)
+    with pytest.raises((ValueError, RecursionError)):
+        brinell.Scenario(bearing="NN3007", operation={"speed_rpm": ring, "load_n": [1.0, 0.0]})
+
+
+def test_prop_an_array_of_depths_is_the_grid(base):
+    s, z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(-2.0, 2.0, 41))
+    depth = 20.0 * np.clip(1.0 - (s / 1.4) ** 2 - (z / 1.9) ** 2, 0.0, None)
+    scenario = base.replace({"defects": [brinell.depth_map(depth, ds_mm=0.05, dz_mm=0.1, center_deg=0.0)]})
+    grid = scenario["defects.0.shape.depth_map"]
+    np.testing.assert_array_equal(np.array(grid["depth_um"]).reshape(41, 61), depth)
+    # Any layout of the memory is the same array.
+    for other in (np.asfortranarray(depth), depth[::-1][::-1], depth.astype(">f8")):
+        again = base.replace({"defects": [brinell.depth_map(other, ds_mm=0.05, dz_mm=0.1, center_deg=0.0)]})
+        assert again == scenario
+
+
+def test_xval_shapely_polygons_are_their_points(base):
+    geometry = pytest.importorskip("shapely.geometry")
+    corners = [(-1.5, -2.0), (1.5, -2.0), (1.5, 2.0), (-1.5, 2.0)]
+    hole = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
+    plain = brinell.outline(geometry.Polygon(corners), depth_um=20.0)
+    assert plain == brinell.outline(np.array(corners), depth_um=20.0)
+    holed = brinell.outline(geometry.Polygon(corners, [hole]), depth_um=20.0)
+    assert len(holed["shape"]["outline"]["polygons_mm"]) == 2
+    several = geometry.MultiPolygon([geometry.Polygon(hole), geometry.box(-1.5, 1.0, 1.5, 2.0)])
+    several = brinell.outline(several, depth_um=20.0)
+    for entry in (plain, holed, several):
+        assert brinell.simulate(base.replace({"defects": [entry], "simulation.duration_s": 0.01})).complete
+    # The rectangle as an outline gives the rectangle's run, to round-off that impacts amplify: compare damaged lengths.
+    area = [d["area_mm2"] for d in brinell.simulate(base.replace({"defects": [holed], "simulation.duration_s": 0.01})).summary["defects"]]
+    np.testing.assert_allclose(area, [11.0])
+
+
+@pytest.mark.parametrize("bad", [np.zeros((2, 2)), np.zeros(5), np.zeros((4, 5)), [], [[]]])
+def test_prop_what_is_no_outline_is_refused(bad):
+    with pytest.raises(ValueError):
+        brinell.outline(bad, depth_um=20.0)
+
+
+def test_prop_scenarios_travel_without_their_damage_files(examples, tmp_path):
+    for name in ("photo.toml", "photo-spall.png"):
+        (tmp_path / name).write_bytes((examples / name).read_bytes())
+    with pytest.warns(brinell.ScenarioWarning, match="the threshold was found"):
+        scenario = brinell.Scenario.from_file(tmp_path / "photo.toml", {"simulation.duration_s": 0.02})
+    parcel = pickle.dumps(scenario)
+    (tmp_path / "photo-spall.png").unlink()
+    again = pickle.loads(parcel)
+    assert again == scenario and again.to_toml() == scenario.to_toml() and again.assumed == scenario.assumed
+    # Files of damage are found from the scenario's folder, wherever Python runs.
+    with pytest.raises(brinell.ScenarioError):
+        scenario.replace({"simulation.duration_s": 0.03})
+
+
+def test_prop_warnings_are_warnings():
+    with pytest.warns(brinell.ScenarioWarning, match="sample_rate_hz"):
+        scenario = brinell.Scenario(bearing="NN3007", operation=OPERATION, simulation={"sample_rate_hz": 1000.0},
+                                    defects=[brinell.circle(diameter_mm=2.0, depth_um=10.0)])
+    assert scenario.warnings
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        pickle.loads(pickle.dumps(scenario))
+
+
+def test_regress_reading_values(base):
+    assert base["operation.load_n.0"] == 300.0
+    for key in ("operation.speed", "operation.speed_rpm.0", "defects.7", "defects.x"):
+        with pytest.raises(KeyError):
+            base[key]
+    assert len(brinell.bearings()) >= 7
+    assert any(value["key"].startswith("support.") for value in base.assumed)
+
+
+def test_prop_a_scenario_file_appears_whole_or_not_at_all(base, tmp_path):
+    path = base.write(tmp_path / "scenario.toml")
+    assert brinell.Scenario.from_file(path) == base
+    with pytest.raises(brinell.ReadError):
+        base.write(tmp_path / "no" / "folder.toml")
+    assert [p.name for p in tmp_path.iterdir()] == ["scenario.toml"]
