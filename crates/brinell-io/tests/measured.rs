@@ -91,7 +91,11 @@ fn xval_mat_like_mfpt_and_paderborn() {
         holds(&mut file, &format!("{top}.Y[2].Data"), &signal(6));
         let text = |key: &str| file.metadata().get(&format!("{top}.{key}"));
         assert_eq!(text("Y[2].Name"), Some("vibration_1"));
+        // The name inside serves as well.
+        let label = channel(&file, &format!("{top}.Y[2].Data")).label.as_deref();
+        assert_eq!(label, Some("vibration_1"));
         assert_eq!(text("Info.Application"), Some("made up"));
+        holds(&mut file, "vibration_1", &signal(6));
     }
 }
 

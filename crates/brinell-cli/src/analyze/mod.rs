@@ -16,7 +16,7 @@ use brinell::analysis::{
 };
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
-use measured::{Measured, Wanted};
+use measured::{Beyond, Measured, Reading, Rest, Wanted};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -32,6 +32,8 @@ const HEADLINES: [Indicator; 4] = [
 /// Everything that words, JSON and page are made of.
 struct Result_ {
     measured: Measured,
+    /// What lies beyond the stretch, where the signal is longer than one analysis takes.
+    rest: Option<Rest>,
     analysis: Analysis,
     /// Where the speed comes from.
     speed: String,
@@ -79,8 +81,11 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     if args.speed.is_none() {
         options.rotation = rotation(&measured)?;
     }
+    // The rest of a long signal is read beside the analysis of its beginning.
+    let reading = measured.beyond.take().map(Beyond::start);
     let analysis = look(&measured, &options)?;
-    let last = match measured.rest.as_mut() {
+    let mut rest = reading.map(Reading::finish).transpose()?;
+    let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(
             &measured.path,
             &measured.channel,
@@ -97,6 +102,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     };
     let result = Result_ {
         measured,
+        rest,
         analysis,
         speed: format!("shaft speed {rpm} r/min, from {speed}"),
         bearing,
@@ -176,7 +182,7 @@ fn rotation(measured: &Measured) -> Result<Option<Rotation>, Failure> {
 fn look_at_last(
     path: &Path,
     channel: &str,
-    rest: &mut measured::Rest,
+    rest: &mut Rest,
     rate: f64,
     options: &Options,
 ) -> Result<Analysis, Failure> {
@@ -280,7 +286,7 @@ fn as_json(result: &Result_) -> String {
         "speed": result.speed,
         "bearing": result.bearing,
     });
-    if let (Some(rest), Some(last)) = (&m.rest, &result.last) {
+    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
         value["whole"] = json!({
             "samples": rest.samples,
             "missing": rest.missing,
@@ -305,7 +311,7 @@ fn as_json(result: &Result_) -> String {
 }
 
 /// Headline indicators of a whole long signal.
-fn whole_indicators(rest: &measured::Rest) -> impl Iterator<Item = (&'static str, f64)> {
+fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
     HEADLINES
         .into_iter()
         .filter_map(|i| Some((i.name(), rest.moments.get(i)?)))
@@ -372,7 +378,7 @@ fn tell(result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
-    if let (Some(rest), Some(last)) = (&m.rest, &result.last) {
+    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
         say!(
             "\nThe last {} samples, from {:.1} s on: {}",
             last.samples,

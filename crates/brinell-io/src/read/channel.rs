@@ -27,6 +27,9 @@ pub struct Channel {
     /// The name that [`crate::SignalFile::read`] takes: a column of a table, a path such as `bearing.gs` or `Y[2].Data`.
     /// Indices count from 1, as in MATLAB.
     pub name: String,
+    /// What the file calls it besides: the text `Y[2].Name` that lies beside `Y[2].Data`. [`crate::SignalFile::read`] takes it too, where it is
+    /// one channel's only.
+    pub label: Option<String>,
     /// The size along each dimension, rows first. Empty for a single number, and for a text file, whose length nobody knows before it is read.
     pub shape: Vec<u64>,
     /// The number of values; `None` for a text file.
@@ -112,6 +115,32 @@ pub(crate) fn lend_rates(channels: &mut [Channel], rates: &[(String, f64)]) {
                 hz: *hz,
                 source: RateSource::Variable(path.clone()),
             });
+        }
+    }
+}
+
+/// Gives every signal the name that lies beside it as a text called `Name`, where it is the only signal there. `texts` holds paths and texts.
+pub(crate) fn lend_labels(channels: &mut [Channel], texts: &[(String, String)]) {
+    let labels: std::collections::HashMap<&str, &str> = texts
+        .iter()
+        .filter_map(|(path, text)| {
+            let (folder, last) = path.rsplit_once('.')?;
+            let text = text.trim();
+            (last.eq_ignore_ascii_case("name") && !text.is_empty()).then_some((folder, text))
+        })
+        .collect();
+    let folder = |c: &Channel| c.name.rsplit_once('.').map(|(folder, _)| folder.to_owned());
+    let mut signals = std::collections::HashMap::<String, usize>::new();
+    for channel in channels.iter().filter(|c| c.may_be_signal()) {
+        *signals
+            .entry(folder(channel).unwrap_or_default())
+            .or_default() += 1;
+    }
+    for channel in channels.iter_mut().filter(|c| c.may_be_signal()) {
+        if let Some(folder) = folder(channel)
+            && signals.get(&folder) == Some(&1)
+        {
+            channel.label = labels.get(folder.as_str()).map(|&l| l.to_owned());
         }
     }
 }

@@ -186,7 +186,13 @@ impl SignalFile {
         name: &str,
         sink: impl FnMut(&[f64]) -> ControlFlow<()>,
     ) -> Result<(), IoError> {
-        let find = |name: &str| self.channels.iter().position(|c| c.name == name);
+        let find = |name: &str| {
+            let named = self.channels.iter().position(|c| c.name == name);
+            let called = |c: &Channel| c.label.as_deref() == Some(name);
+            let mut labelled = (0..self.channels.len()).filter(|&i| called(&self.channels[i]));
+            let only = labelled.next().filter(|_| labelled.next().is_none());
+            named.or(only)
+        };
         let (index, pick) = match find(name) {
             Some(index) => (index, pick::Pick::All),
             None => {

@@ -17,6 +17,12 @@ pub(super) fn resolve(
     if let Some(found) = channels.iter().find(|c| c.name == text) {
         return Ok(whole(found));
     }
+    let called: Vec<&Channel> = (channels.iter())
+        .filter(|c| c.label.as_deref() == Some(text))
+        .collect();
+    if let [only] = called[..] {
+        return Ok(whole(only));
+    }
     if let Ok(number) = text.trim().parse::<usize>() {
         return (number
             .checked_sub(1)
@@ -39,7 +45,13 @@ pub(super) fn resolve(
     }
     let lower = text.to_lowercase();
     let partly: Vec<&Channel> = (channels.iter())
-        .filter(|c| c.may_be_signal() && c.name.to_lowercase().contains(&lower))
+        .filter(|c| c.may_be_signal())
+        .filter(|c| {
+            let label = c.label.as_deref().unwrap_or_default();
+            [c.name.as_str(), label]
+                .iter()
+                .any(|name| name.to_lowercase().contains(&lower))
+        })
         .collect();
     match partly[..] {
         [only] => Ok(whole(only)),
@@ -56,7 +68,12 @@ pub(super) fn resolve(
 }
 
 fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
-    let names: Vec<&str> = channels.map(|c| c.name.as_str()).collect();
+    let names: Vec<String> = channels
+        .map(|c| match &c.label {
+            Some(label) => format!("{} ({label})", c.name),
+            None => c.name.clone(),
+        })
+        .collect();
     let more = names.len().saturating_sub(20);
     let shown = names[..names.len() - more].join(", ");
     match more {

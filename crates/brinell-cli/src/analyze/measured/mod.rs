@@ -16,8 +16,8 @@ use rate::rate;
 pub(crate) use speed::StatedSpeed;
 use speed::speed;
 use std::path::{Path, PathBuf};
-pub(crate) use stretch::Rest;
-use stretch::{stretch, whole};
+use stretch::stretch;
+pub(crate) use stretch::{Beyond, Reading, Rest};
 use unit::unit;
 
 /// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
@@ -50,7 +50,7 @@ pub(crate) struct Measured {
     /// What deserves attention.
     pub(crate) warnings: Vec<String>,
     /// What lies beyond the stretch, where the signal is longer than one analysis takes.
-    pub(crate) rest: Option<Rest>,
+    pub(crate) beyond: Option<Beyond>,
     /// Shaft speed that the file states, and where.
     pub(crate) speed: Option<StatedSpeed>,
     /// The scenario of the run that made the file.
@@ -111,13 +111,12 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         (None, None) => 0.0,
     };
     let skip = (start * rate).round() as usize;
-    let (x, rest) = match wanted.duration {
-        Some(d) => {
-            let most = ((d * rate).round() as usize).max(1);
-            (stretch(&mut file, &name, skip, most)?.0, None)
-        }
-        None => whole(&mut file, &name, skip, rate)?,
+    let most = match wanted.duration {
+        Some(d) => ((d * rate).round() as usize).max(1),
+        None => MOST,
     };
+    let (x, more) = stretch(&mut file, &name, skip, most)?;
+    let long = more && wanted.duration.is_none();
     if x.is_empty() {
         return Err(usage(format!(
             "{}: `{name}` holds no samples {}",
@@ -129,13 +128,11 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
             }
         )));
     }
-    if let Some(rest) = &rest {
+    if long {
         warnings.push(format!(
-            "a long signal, {} samples: the verdict is on the first {MOST} ({:.1} s from {start} s on), and one on the last {} follows it; \
+            "a long signal: the verdict is on its first {MOST} samples ({:.1} s from {start} s on), and one on its last follows it; \
              --start and --duration choose another stretch",
-            rest.samples,
-            MOST as f64 / rate,
-            rest.last.len()
+            MOST as f64 / rate
         ));
     }
     let seconds = x.len() as f64 / rate;
@@ -147,13 +144,18 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         (start, seconds, rate),
     )?;
     Ok(Measured {
+        beyond: long.then(|| Beyond {
+            file,
+            name: name.clone(),
+            skip,
+            rate,
+        }),
         path,
         channel: name,
         x,
         rate,
         unit,
         start,
-        rest,
         notes,
         warnings,
         speed,

@@ -3,8 +3,9 @@
 use super::{MOST, bad};
 use crate::failure::Failure;
 use brinell::signal::Moments;
-use brinell_io::SignalFile;
+use brinell_io::{IoError, SignalFile};
 use std::ops::ControlFlow;
+use std::thread::JoinHandle;
 
 /// Up to `most` samples after the first `skip`, and whether there are more.
 pub(super) fn stretch(
@@ -45,14 +46,39 @@ pub(crate) struct Rest {
     pub(crate) last_start: f64,
 }
 
-/// All samples after the first `skip`, in one pass: the first [`MOST`] of them, and what lies beyond.
-pub(super) fn whole(
-    file: &mut SignalFile,
-    name: &str,
-    skip: usize,
-    rate: f64,
-) -> Result<(Vec<f64>, Option<Rest>), Failure> {
-    let (mut first, mut passed) = (Vec::new(), 0);
+/// A long signal beyond its first [`MOST`] samples, not read yet.
+pub(crate) struct Beyond {
+    pub(super) file: SignalFile,
+    pub(super) name: String,
+    /// Samples before the first one analysed.
+    pub(super) skip: usize,
+    pub(super) rate: f64,
+}
+
+/// The same while a thread reads it.
+pub(crate) struct Reading(JoinHandle<Result<Rest, IoError>>);
+
+impl Beyond {
+    /// Begins to read, beside whatever else is done.
+    pub(crate) fn start(mut self) -> Reading {
+        Reading(std::thread::spawn(move || {
+            whole(&mut self.file, &self.name, self.skip, self.rate)
+        }))
+    }
+}
+
+impl Reading {
+    /// Waits for the end of the file.
+    pub(crate) fn finish(self) -> Result<Rest, Failure> {
+        let read = self.0.join();
+        read.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            .map_err(bad)
+    }
+}
+
+/// All samples after the first `skip`, in one pass; of those beyond the first [`MOST`], the last.
+fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64) -> Result<Rest, IoError> {
+    let mut passed = 0;
     let mut rest = Rest {
         samples: 0,
         moments: Moments::new(),
@@ -72,9 +98,10 @@ pub(super) fn whole(
             } else {
                 rest.missing += 1;
             }
-            if first.len() < MOST {
-                first.push(*value);
-            } else if rest.last.len() < MOST {
+            if rest.samples <= MOST as u64 {
+                continue;
+            }
+            if rest.last.len() < MOST {
                 rest.last.push(*value);
             } else {
                 rest.last[at] = *value;
@@ -82,10 +109,8 @@ pub(super) fn whole(
             }
         }
         ControlFlow::Continue(())
-    })
-    .map_err(bad)?;
+    })?;
     rest.last.rotate_left(at);
     rest.last_start = (skip as u64 + rest.samples - rest.last.len() as u64) as f64 / rate;
-    let long = !rest.last.is_empty();
-    Ok((first, long.then_some(rest)))
+    Ok(rest)
 }

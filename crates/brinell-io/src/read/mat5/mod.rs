@@ -10,7 +10,7 @@ mod walk;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
-use super::channel::{Channel, lend_rates};
+use super::channel::{Channel, lend_labels, lend_rates};
 use super::fault::{Fault, damaged};
 use super::numbers::Sink;
 use super::{Listing, Source};
@@ -100,6 +100,7 @@ pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
         ..
     } = found;
     lend_rates(&mut channels, &rates);
+    lend_labels(&mut channels, &texts);
     let metadata = Metadata { pairs: texts };
     lend_units(&mut channels, &metadata);
     Ok(Listing {
