@@ -3,7 +3,7 @@
 //!
 //! [`CASES`] are the scenarios, [`EXPERIMENTS`] group them by figure, [`claims`] are the sentences. [`Numbers`] holds what the cases gave,
 //! and [`judge`] decides a claim from them by the rules of [`verdict`]. [`VARIANTS`] change one unstated assumption each; [`RANGES`] span what
-//! [`Design`] draws whole sets of assumptions from, and [`distance`] says how far such a set stays from the paper's figures.
+//! [`draw`] makes whole sets of assumptions of, and [`distance`] says how far such a set stays from the paper's figures.
 
 mod assumptions;
 mod cases;
