@@ -29,13 +29,18 @@ impl Observer for Measured {
 
 /// Settled part of the measured acceleration along the load.
 fn run(s: &mut Scenario) -> Vec<f64> {
-    s.simulation.duration_s = 2.2;
-    s.simulation.sample_rate_hz = FS;
+    recorded(s, FS, 2.2, SETTLED)
+}
+
+/// The same of a run of `seconds`, from `start` on, at `rate` Hz.
+fn recorded(s: &mut Scenario, rate: f64, seconds: f64, start: f64) -> Vec<f64> {
+    s.simulation.duration_s = seconds;
+    s.simulation.sample_rate_hz = rate;
     let simulation = Simulation::new(s).unwrap();
     let mut measured = Measured(Vec::new());
     let outcome = simulation.run(&mut measured);
     assert_eq!(outcome.end, End::Complete);
-    measured.0.split_off((SETTLED * FS) as usize)
+    measured.0.split_off((start * rate) as usize)
 }
 
 /// Names and frequencies of the NN3007 at 1800 r/min; what is at rest in the load has no sidebands.
@@ -73,8 +78,7 @@ fn damaged(on: Surface) -> Scenario {
     s
 }
 
-/// With white noise of a share of the signal's RMS. Every sensor has some; without any, the sidebands of damage that turns stand at so many
-/// frequencies that the verdict finds nothing special about its own.
+/// With white noise of a share of the signal's RMS, as every sensor has.
 fn with_noise(x: &[f64], share: f64) -> Vec<f64> {
     let rms = (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt();
     // Twelve uniform numbers make a nearly normal one.
@@ -130,6 +134,53 @@ fn analytic_inner_race_damage_and_its_length() {
 #[test]
 fn analytic_roller_damage() {
     found(Surface::Roller(2), Component::Element);
+}
+
+/// What `brinell analyze` says of runs: speeds, lengths, and no noise at all, in which sidebands of damage that turns stand everywhere.
+#[test]
+fn regress_verdicts_on_short_runs_with_and_without_noise() {
+    let rate = 25_600.0;
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for rpm in [1800.0, 2400.0] {
+        for (on, component) in [
+            (None, None),
+            (Some(Surface::OuterRaceway), Some(Component::OuterRace)),
+            (Some(Surface::InnerRaceway), Some(Component::InnerRace)),
+            (Some(Surface::Roller(0)), Some(Component::Element)),
+        ] {
+            let mut s = damaged(on.unwrap_or(Surface::OuterRaceway));
+            match on {
+                None => s.defects.clear(),
+                Some(Surface::Roller(_)) => {
+                    s.defects[0].center_deg = 90.0;
+                    s.defects[0].shape = Shape::Rectangle {
+                        length_mm: 1.0,
+                        width_mm: 4.0,
+                    };
+                }
+                _ => {}
+            }
+            s.operation.speed_rpm = brinell::scenario::Speed::Constant(rpm);
+            let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+            // As the command does: after the load's ramp and a turn of the shaft.
+            let x = recorded(&mut s, rate, 2.12, 0.02 + 60.0 / rpm);
+            for seconds in [0.5, 0.9, 1.0, 2.0] {
+                for noise in [0.0, 0.1, 0.5] {
+                    let x = with_noise(&x[..(seconds * rate) as usize], noise);
+                    let analysis = analyze(&x, rate, &Options::new(rpm / 60.0, orders)).unwrap();
+                    let first = analysis.causes().next().map(|f| f.component);
+                    count += 1;
+                    if first != component {
+                        let verdict = analysis.verdict();
+                        wrong.push(format!("{on:?} {rpm} r/min {seconds} s {noise}: {verdict}"));
+                    }
+                }
+            }
+        }
+    }
+    println!("{} of {count} wrong", wrong.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// One band alone, without the set-aside of shaft lines: enough for damage at rest. Sidebands of damage that turns fill a spectrum without

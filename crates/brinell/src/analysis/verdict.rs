@@ -16,6 +16,9 @@ pub(super) const FAINT: f64 = 0.015;
 const STANDS: f64 = 9.0;
 /// A cage's lines lie close to the shaft's and to zero: fewer than this many are not called the cage's.
 const FEWEST_OF_CAGE: usize = 3;
+/// Chance under noise at which the sidebands of an element count as found. An element passes through the load once for each turn of
+/// the cage, so that lines at its frequency without any sidebands are somebody else's: of slip in BPFO, most often.
+const MODULATED: f64 = 0.01;
 /// A further cause modulates the envelope by at least this share of the strongest one's.
 const FURTHER: f64 = 0.25;
 
@@ -246,7 +249,9 @@ fn standing(
             Component::Cage => FEWEST_OF_CAGE,
             _ => 1,
         };
-        let stands = |e: &Evidence| e.stands && e.standing >= fewest;
+        let stands = |e: &Evidence| {
+            e.stands && e.standing >= fewest && (*component != Component::Element || modulated(e))
+        };
         let standing = || {
             evidence
                 .iter()
@@ -282,6 +287,11 @@ fn standing(
         new
     });
     all
+}
+
+/// Whether the sidebands of something that turns stand by more than chance, where they can be told from their carriers.
+fn modulated(e: &Evidence) -> bool {
+    (e.sidebands.as_ref()).is_none_or(|s| s.standing > 0 && s.false_alarm <= MODULATED)
 }
 
 /// Number and strength of the harmonics that stand.

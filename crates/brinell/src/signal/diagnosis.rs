@@ -22,7 +22,7 @@
 
 mod comb;
 
-use self::comb::Sought;
+use self::comb::{Best, Sought};
 use super::distribution::chi_square_tail;
 use super::error::{SignalError, require};
 use super::lines::{Floor, Line, LineSet};
@@ -129,8 +129,8 @@ pub struct Evidence {
     /// Upper bound of the chance that noise alone shows such harmonics for any candidate of the list; 1 where none of its
     /// lines lies within the spectrum. Its complement is the confidence that there is more than noise.
     pub false_alarm: f64,
-    /// By how much lines at frequencies that nobody asked for stand higher than noise would show them: 1 in noise. The
-    /// logarithm of the chance has been divided by it.
+    /// By how much lines at frequencies that nobody asked for, and that are not sidebands of this one's, stand higher than
+    /// noise would show them: 1 in noise. The logarithm of the chance has been divided by it.
     pub crowding: f64,
     /// Its sidebands, where it has a spacing wide enough to resolve.
     pub sidebands: Option<SidebandEvidence>,
@@ -315,7 +315,11 @@ fn examine(
         spacing,
         harmonics: options.harmonics,
     };
-    let best = comb::best(floor, &sought);
+    let best = comb::best(floor, &sought).unwrap_or(Best {
+        frequency: candidate.frequency,
+        chance: 1.0,
+        power: 0.0,
+    });
     let lines = (1..=options.harmonics)
         .filter_map(|h| floor.line(h as i32, h as f64 * best.frequency, 0.0));
     let found = LineSet {
@@ -324,17 +328,22 @@ fn examine(
     let standing = found.standing(LINE_LEVEL).count();
     let frequency = common_frequency(&found).unwrap_or(best.frequency);
     let many = candidates.len() as f64;
+    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
     // What any other frequency shows, in place of noise alone: less what this one accounts for.
     let crowding = match best.chance * many <= options.level {
         true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
             let left = without(floor.spectrum(), frequency, spacing.as_slice())?;
             let left = comb::beside(left, frequency);
-            comb::crowding(&Floor::within(&left, RANGE)?, &sought, candidates)
+            let floor = Floor::within(&left, RANGE)?;
+            let shown = |floor: &Floor| comb::crowding(floor, &sought, candidates);
+            let family = comb::family(&floor, frequency, &found, sidebands.as_ref());
+            let apart = shown(&Floor::within(&left, RANGE)?.hiding(&family));
+            // Where its family leaves too little to compare with, all of the rest, its own remains included.
+            apart.or_else(|| shown(&floor)).unwrap_or(1.0)
         }
         _ => 1.0,
     };
     let chance = (best.chance.ln() / crowding).exp();
-    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
     let false_alarm = (chance * many).min(1.0);
     let beside = sidebands.as_ref().map_or(0, |s| s.standing);
     let low = (found.standing(LINE_LEVEL)).any(|l| l.order <= 2);

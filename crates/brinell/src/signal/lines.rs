@@ -134,6 +134,8 @@ pub fn sidebands(
 /// The noise of a spectrum, place by place.
 pub(super) struct Floor<'a> {
     spectrum: &'a Spectrum,
+    /// Bins that are no part of what is looked at, where there are any.
+    hidden: Option<&'a [bool]>,
     freedom: f64,
     /// Median of chi-square over its degrees of freedom.
     median: f64,
@@ -174,11 +176,24 @@ impl<'a> Floor<'a> {
         )?;
         Ok(Floor {
             spectrum,
+            hidden: None,
             freedom,
             median: chi_square_quantile(0.5, freedom) / freedom,
             correlation: spectrum.noise_bandwidth / spectrum.frequency_step,
             lowest: lowest * strongest * strongest,
         })
+    }
+
+    /// The same noise, measured without the bins marked in `hidden`, one mark a bin.
+    pub(super) fn hiding(self, hidden: &'a [bool]) -> Self {
+        Floor {
+            hidden: Some(hidden),
+            ..self
+        }
+    }
+
+    pub(super) fn hides(&self, bin: usize) -> bool {
+        self.hidden.is_some_and(|hidden| hidden[bin])
     }
 
     /// The bin of a frequency; `None` outside the spectrum, or where the line would merge with zero frequency.
@@ -213,6 +228,7 @@ impl<'a> Floor<'a> {
         let start_above = last + SKIRT + 1;
         let mut powers: Vec<f64> = (start_below..start_below + take_below)
             .chain(start_above..start_above + take_above)
+            .filter(|k| !self.hides(*k))
             .map(|k| self.power(k))
             .collect();
         if powers.is_empty() {

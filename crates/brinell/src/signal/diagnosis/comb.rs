@@ -2,8 +2,9 @@
 
 use super::super::distribution::chi_square_tail;
 use super::super::lines::Floor;
+use super::super::lines::LineSet;
 use super::super::spectrum::Spectrum;
-use super::{CAP, CLOSEST_SIDEBAND, Candidate};
+use super::{CAP, CLOSEST_SIDEBAND, Candidate, LINE_LEVEL, REACH, SidebandEvidence};
 
 /// Combs at other frequencies are tried from this share of the candidate's frequency to its inverse: an octave and a bit.
 const FARTHEST: f64 = 0.62;
@@ -46,7 +47,7 @@ struct Row {
     /// Distance from its harmonic, Hz.
     offset: f64,
     first: usize,
-    /// -2 ln p of each bin, p capped.
+    /// -2 ln p of each bin, p capped; NaN where the bin is hidden.
     scores: Vec<f64>,
     /// Power over noise of each bin.
     ratios: Vec<f64>,
@@ -69,8 +70,11 @@ impl Row {
             order,
             offset,
             first,
-            scores: (powers.clone())
-                .map(|p| -2.0 * floor.chance(p, level).max(CAP).ln())
+            scores: (first..=last)
+                .map(|k| match floor.hides(k) {
+                    true => f64::NAN,
+                    false => -2.0 * floor.chance(floor.power(k), level).max(CAP).ln(),
+                })
                 .collect(),
             ratios: powers.map(|p| p / level.power).collect(),
             noise: level.power,
@@ -84,21 +88,15 @@ impl Row {
     }
 }
 
-/// The common frequency at which the lines stand highest together: the harmonics alone, or with their sidebands.
-pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
+/// The common frequency at which the lines stand highest together: the harmonics alone, or with their sidebands. `None` where
+/// most of them are hidden at every place, or none lies within the spectrum.
+pub(super) fn best(floor: &Floor, sought: &Sought) -> Option<Best> {
     let step = floor.step();
     let mut rows: Vec<Row> = (1..=sought.harmonics)
         .filter_map(|h| Row::new(floor, sought, h as f64, 0.0))
         .collect();
     let harmonics = rows.len();
-    let nothing = Best {
-        frequency: sought.frequency,
-        chance: 1.0,
-        power: 0.0,
-    };
-    let Some(highest) = rows.last().map(|r| r.order) else {
-        return nothing;
-    };
+    let highest = rows.last().map(|r| r.order)?;
     if let Some(spacing) = sought.spacing.filter(|s| *s >= CLOSEST_SIDEBAND * step) {
         for h in 1..=harmonics {
             for offset in [-spacing, spacing] {
@@ -124,12 +122,20 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
             .sum()
     };
     let of = |count: usize| {
-        let score = |p: &(f64, Vec<usize>)| sum(p, count, |r| &r.scores);
-        let top = places
-            .iter()
-            .map(|p| (score(p), p.0))
-            .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let chance = chi_square_tail(top.0, 2.0 * count as f64);
+        // The highest sum for each number of lines that are not hidden: fewer than half say nothing of the comb.
+        let mut tops: Vec<Option<(f64, f64)>> = vec![None; count + 1];
+        for place in &places {
+            let scores = (rows.iter().zip(&place.1).take(count)).map(|(r, bin)| r.scores[*bin]);
+            let (seen, score) = (scores.filter(|s| !s.is_nan()))
+                .fold((0, 0.0), |(n, sum), score| (n + 1, sum + score));
+            let top = &mut tops[seen];
+            if 2 * seen >= count && top.is_none_or(|t| score >= t.0) {
+                *top = Some((score, place.0));
+            }
+        }
+        let (chance, top) = (tops.iter().enumerate())
+            .filter_map(|(n, top)| top.map(|t| (chi_square_tail(t.0, 2.0 * n as f64), t)))
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
         // The cap makes neighbouring places equal: of those within a bin, the one with the most power.
         let finest = (places.iter())
             .filter(|p| (p.0 - top.1).abs() <= step)
@@ -148,7 +154,7 @@ pub(super) fn best(floor: &Floor, sought: &Sought) -> Best {
         .into_iter()
         .flatten()
         .min_by(|a, b| a.chance.total_cmp(&b.chance));
-    better.map_or(nothing, |b| {
+    better.map(|b| {
         // Of so many tries, taken as independent; exact for the small chances too.
         let tries = ways * places.len() as f64;
         let any = -(tries * (-b.chance.min(1.0 - 1e-15)).ln_1p()).exp_m1();
@@ -189,21 +195,63 @@ pub(super) fn beside(mut spectrum: Spectrum, frequency: f64) -> Spectrum {
     spectrum
 }
 
+/// The bins of a source's own lines, wherever they lie: of each order h that stands, and of 0, the places h f + m s with s the spacing
+/// of its sidebands and m any whole number. None where nothing modulates it.
+///
+/// A source that turns makes lines at all of n f + m s. Without noise they stand far beyond the nearest sidebands, and a comb at
+/// f' = f + k s has the very same lines: held against such combs, the source would be held against itself.
+pub(super) fn family(
+    floor: &Floor,
+    frequency: f64,
+    harmonics: &LineSet,
+    sidebands: Option<&SidebandEvidence>,
+) -> Vec<bool> {
+    let step = floor.step();
+    let mut marks = vec![false; floor.spectrum().amplitude.len()];
+    let Some(sidebands) = sidebands.filter(|s| s.spacing >= CLOSEST_SIDEBAND * step) else {
+        return marks;
+    };
+    let carriers = harmonics.standing(LINE_LEVEL).map(|l| l.expected);
+    let carried = (sidebands.lines.iter())
+        .filter(|l| l.false_alarm <= LINE_LEVEL)
+        .map(|l| l.expected - f64::from(l.order) * sidebands.spacing);
+    let mut orders: Vec<i64> = (carriers.chain(carried))
+        .map(|f| (f / frequency).round() as i64)
+        .chain([0])
+        .collect();
+    orders.sort_unstable();
+    orders.dedup();
+    let apart = sidebands.spacing / step;
+    for order in orders {
+        let lowest = (order as f64 * frequency / step).rem_euclid(apart);
+        let count = (marks.len() as f64 / apart) as usize + 1;
+        for middle in (0..=count).map(|m| lowest + m as f64 * apart) {
+            let first = (middle - REACH).ceil().max(0.0) as usize;
+            let end = (((middle + REACH).floor() + 1.0).max(0.0) as usize).min(marks.len());
+            if first < end {
+                marks[first..end].fill(true);
+            }
+        }
+    }
+    marks
+}
+
 /// By how much combs of the same kind at frequencies that nobody asked for stand higher than in noise: the upper quartile
 /// of -ln(chance) over that of noise, 1 at the least.
 ///
 /// Other machines' lines, skirts and noise that is not smooth raise every comb. As in genomic control (B. Devlin, K. Roeder,
-/// Biometrics 55 (1999) 997-1004), a candidate's evidence is deflated by what arbitrary ones show.
-pub(super) fn crowding(floor: &Floor, sought: &Sought, candidates: &[Candidate]) -> f64 {
+/// Biometrics 55 (1999) 997-1004), a candidate's evidence is deflated by what arbitrary ones show. `None` where too few can be
+/// looked at.
+pub(super) fn crowding(floor: &Floor, sought: &Sought, candidates: &[Candidate]) -> Option<f64> {
     let mut shown: Vec<f64> = (others(sought, candidates).iter())
-        .map(|other| -best(floor, other).chance.ln())
+        .filter_map(|other| Some(-best(floor, other)?.chance.ln()))
         .collect();
     if shown.len() < FEWEST {
-        return 1.0;
+        return None;
     }
     let at = (QUANTILE * (shown.len() - 1) as f64).round() as usize;
     let upper = *shown.select_nth_unstable_by(at, f64::total_cmp).1;
-    (upper / -(1.0 - QUANTILE).ln()).max(1.0)
+    Some((upper / -(1.0 - QUANTILE).ln()).max(1.0))
 }
 
 /// Whether lines of such power dwarf those of any comb of the same kind at a frequency that nobody asked for.
@@ -211,7 +259,7 @@ pub(super) fn dwarfs(floor: &Floor, sought: &Sought, candidates: &[Candidate], p
     let around = 1.5 * sought.spacing.unwrap_or(0.0);
     let shown: Vec<f64> = (others(sought, candidates).iter())
         .filter(|o| (o.frequency - sought.frequency).abs() > around)
-        .map(|o| best(floor, o).power)
+        .filter_map(|o| Some(best(floor, o)?.power))
         .collect();
     shown.len() >= FEWEST && shown.iter().all(|other| DWARFED * other <= power)
 }
