@@ -147,7 +147,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
             (None, None),
             (Some(Surface::OuterRaceway), Some(Component::OuterRace)),
             (Some(Surface::InnerRaceway), Some(Component::InnerRace)),
-            (Some(Surface::Roller(0)), Some(Component::Element)),
+            (Some(Surface::Roller(1)), Some(Component::Element)),
         ] {
             let mut s = damaged(on.unwrap_or(Surface::OuterRaceway));
             match on {
