@@ -5,8 +5,8 @@ use super::frequencies::Component;
 use super::known_lines;
 use super::{AnalysisError, Options, fast_length};
 use crate::signal::{
-    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, diagnose, envelope, psd, resample,
-    whitened,
+    Candidate, Diagnosis, DiagnosisOptions, Envelopes, Segments, Spectrum, Transformed, diagnose,
+    psd, resample,
 };
 
 /// Bins from one line of the cage to the next, at the coarse and at the fine resolution.
@@ -105,26 +105,39 @@ pub(super) fn all(
         .map(|r| fast_length(((r * rate / cage) as usize).clamp(64, longest.max(64))))
         .collect();
     lengths.dedup();
-    let one = |band: &ChosenBand| spectra(x, fs, *band, factor, &lengths, shaft.hz, options);
-    let parts = halves(bands, &one)?;
+    let transformed = Transformed::of(x, fs)?;
+    let one = |envelopes: &mut Envelopes, band: &ChosenBand| {
+        spectra(envelopes, fs, *band, factor, &lengths, shaft.hz, options)
+    };
+    let parts = halves(bands, || transformed.envelopes(), &one)?;
+    drop(transformed);
     let plain: Vec<(ChosenBand, f64, Spectrum)> = parts.into_iter().flatten().collect();
     let only: Vec<Spectrum> = plain.iter().map(|p| p.2.clone()).collect();
     let combs = known_lines::combs(&only, shaft.hz, shaft.tolerance)?;
     let tests = plain.len() as f64;
-    let one = |part: &(ChosenBand, f64, Spectrum)| search(part, &combs, shaft.hz, tests, options);
-    halves(&plain, &one)
+    let one = |(): &mut (), part: &(ChosenBand, f64, Spectrum)| {
+        search(part, &combs, shaft.hz, tests, options)
+    };
+    halves(&plain, || (), &one)
 }
 
-/// A job for each, on two threads.
-fn halves<T: Sync, R: Send>(
+/// A job for each, on two threads; what `room` makes is one thread's to work in.
+fn halves<T: Sync, R: Send, W>(
     of: &[T],
-    one: &(impl Fn(&T) -> Result<R, AnalysisError> + Sync),
+    room: impl Fn() -> W + Sync,
+    one: &(impl Fn(&mut W, &T) -> Result<R, AnalysisError> + Sync),
 ) -> Result<Vec<R>, AnalysisError> {
     let (first, second) = of.split_at(of.len().div_ceil(2));
+    let all = |part: &[T]| {
+        if part.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut room = room();
+        (part.iter().map(|t| one(&mut room, t))).collect::<Result<Vec<R>, AnalysisError>>()
+    };
     let (first, second) = std::thread::scope(|scope| {
-        let other = scope.spawn(|| second.iter().map(one).collect::<Result<Vec<_>, _>>());
-        let mine = first.iter().map(one).collect::<Result<Vec<_>, _>>();
-        (mine, other.join())
+        let other = scope.spawn(|| all(second));
+        (all(first), other.join())
     });
     let second = second.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
     Ok(first?.into_iter().chain(second).collect())
@@ -132,7 +145,7 @@ fn halves<T: Sync, R: Send>(
 
 /// The envelope spectra of a band, with the envelope's mean.
 fn spectra(
-    x: &[f64],
+    envelopes: &mut Envelopes,
     fs: f64,
     band: ChosenBand,
     factor: usize,
@@ -140,15 +153,10 @@ fn spectra(
     shaft: f64,
     options: &Options,
 ) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
-    let white;
-    let x = match band.choice {
-        BandChoice::Whitened => {
-            white = whitened(x, fs, band.band)?;
-            &white[..]
-        }
-        _ => x,
+    let full = match band.choice {
+        BandChoice::Whitened => envelopes.of_whitened(band.band),
+        _ => envelopes.in_band(band.band),
     };
-    let full = envelope(x, fs, band.band).unwrap_or_default();
     let mean = full.iter().sum::<f64>() / full.len().max(1) as f64;
     // The mean of `factor` neighbours is filter enough: what folds back is noise, and the floor is measured with it.
     let coarse: Vec<f64> = (full.chunks_exact(factor))

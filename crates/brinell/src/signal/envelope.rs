@@ -118,13 +118,26 @@ pub(super) struct Demodulator {
 
 impl Demodulator {
     pub(super) fn new(fs: f64, length: usize, band: Band) -> Self {
+        let fft = FftPlanner::new().plan_fft_inverse(length);
+        let mut new = Demodulator {
+            bins: (1, 1),
+            values: vec![Complex::ZERO; length],
+            scratch: vec![Complex::ZERO; fft.get_inplace_scratch_len()],
+            fft,
+        };
+        new.aim(fs, band);
+        new
+    }
+
+    /// Another band.
+    fn aim(&mut self, fs: f64, band: Band) {
         assert!(
             0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
             "band from {} to {} Hz, sampled at {fs} Hz",
             band.low,
             band.high
         );
-        let fft = FftPlanner::new().plan_fft_inverse(length);
+        let length = self.values.len();
         // Zero frequency and half the sampling rate have no quadrature: they never belong to the band.
         let most = length.div_ceil(2);
         let step = fs / length as f64;
@@ -132,23 +145,28 @@ impl Demodulator {
         let end = ((band.high / step).floor() as usize)
             .saturating_add(1)
             .clamp(first, most);
-        Demodulator {
-            bins: (first, end),
-            values: vec![Complex::ZERO; length],
-            scratch: vec![Complex::ZERO; fft.get_inplace_scratch_len()],
-            fft,
-        }
+        self.bins = (first, end);
     }
 
     /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's positive frequencies
     /// twice and nothing else.
     pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
         let twice = 2.0 / envelope.len() as f64;
+        self.transform_back(transform, envelope, |bin| bin * twice);
+    }
+
+    /// The same of the band with each of its bins made by `scaled`.
+    fn transform_back(
+        &mut self,
+        transform: &[Complex<f64>],
+        envelope: &mut [f64],
+        scaled: impl Fn(&Complex<f64>) -> Complex<f64>,
+    ) {
         let (first, end) = self.bins;
         self.values.fill(Complex::ZERO);
         let band = self.values[first..end].iter_mut();
         for (value, bin) in band.zip(&transform[first..end]) {
-            *value = bin * twice;
+            *value = scaled(bin);
         }
         self.fft
             .process_with_scratch(&mut self.values, &mut self.scratch);
@@ -158,15 +176,97 @@ impl Demodulator {
     }
 }
 
+/// A signal transformed once, whose envelopes in many bands are wanted.
+pub struct Transformed {
+    fs: f64,
+    length: usize,
+    transform: Vec<Complex<f64>>,
+    backward: Arc<dyn Fft<f64>>,
+}
+
+impl Transformed {
+    /// Of `x`, sampled at `fs` Hz. Takes as much memory as `x`.
+    ///
+    /// # Errors
+    /// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples or samples that are not finite.
+    pub fn of(x: &[f64], fs: f64) -> Result<Self, SignalError> {
+        check(x, fs, FEWEST_SAMPLES, "an envelope")?;
+        Ok(Transformed::unchecked(x, fs))
+    }
+
+    fn unchecked(x: &[f64], fs: f64) -> Self {
+        let forward = RealFftPlanner::new().plan_fft_forward(x.len());
+        let (mut values, mut transform) = (x.to_vec(), forward.make_output_vec());
+        forward
+            .process(&mut values, &mut transform)
+            .expect("buffers were made by the plan");
+        Transformed {
+            fs,
+            length: x.len(),
+            transform,
+            backward: FftPlanner::new().plan_fft_inverse(x.len()),
+        }
+    }
+
+    /// What takes its envelopes, one after the other; each thread needs its own.
+    pub fn envelopes(&self) -> Envelopes<'_> {
+        let scratch = self.backward.get_inplace_scratch_len();
+        Envelopes {
+            of: self,
+            demodulator: Demodulator {
+                bins: (1, 1),
+                fft: self.backward.clone(),
+                values: vec![Complex::ZERO; self.length],
+                scratch: vec![Complex::ZERO; scratch],
+            },
+            envelope: vec![0.0; self.length],
+        }
+    }
+}
+
+/// Takes the envelopes of a [`Transformed`] signal.
+pub struct Envelopes<'a> {
+    of: &'a Transformed,
+    demodulator: Demodulator,
+    envelope: Vec<f64>,
+}
+
+impl Envelopes<'_> {
+    /// As [`envelope()`].
+    ///
+    /// # Panics
+    /// Where the band does not satisfy 0 <= low < high and low < fs / 2.
+    pub fn in_band(&mut self, band: Band) -> &[f64] {
+        self.demodulator.aim(self.of.fs, band);
+        (self.demodulator).envelope(&self.of.transform, &mut self.envelope);
+        &self.envelope
+    }
+
+    /// The envelope in a band of what [`whitened`](super::whitened) makes of the signal in it.
+    ///
+    /// # Panics
+    /// As [`in_band`](Self::in_band).
+    pub fn of_whitened(&mut self, band: Band) -> &[f64] {
+        self.demodulator.aim(self.of.fs, band);
+        let (first, end) = self.demodulator.bins;
+        // As many bins as hold anything, of one size, make unit RMS.
+        let bins = (self.of.transform[first..end].iter()).filter(|bin| bin.norm() > 0.0);
+        let size = (2.0 / bins.count().max(1) as f64).sqrt();
+        let scaled = |bin: &Complex<f64>| match bin.norm() {
+            0.0 => Complex::ZERO,
+            norm => bin * (size / norm),
+        };
+        (self.demodulator).transform_back(&self.of.transform, &mut self.envelope, scaled);
+        &self.envelope
+    }
+}
+
 /// The envelope of a whole signal.
-pub(super) fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
-    let mut demodulator = Demodulator::new(fs, x.len(), band);
-    let fft = RealFftPlanner::new().plan_fft_forward(x.len());
-    let (mut envelope, mut transform) = (x.to_vec(), fft.make_output_vec());
-    fft.process(&mut envelope, &mut transform)
-        .expect("buffers were made by the plan");
-    demodulator.envelope(&transform, &mut envelope);
-    envelope
+fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
+    let transformed = Transformed::unchecked(x, fs);
+    let mut envelopes = transformed.envelopes();
+    envelopes.in_band(band);
+    envelopes.envelope
 }
 
 #[cfg(test)]

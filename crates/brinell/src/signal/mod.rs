@@ -49,7 +49,7 @@ pub use diagnosis::{
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
-pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
+pub use envelope::{Band, EnvelopeSpectrum, Envelopes, Transformed, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};
