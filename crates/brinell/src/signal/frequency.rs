@@ -22,17 +22,19 @@
 //! harmonic, so timing errors do not average out over the comb as additive noise does. For one harmonic, a rectangular
 //! window and white noise the formula is the Cramer-Rao bound 24 sigma^2 / (A^2 n^3).
 
+mod padded;
+
 use std::f64::consts::{LN_2, TAU};
 
 use realfft::num_complex::Complex;
 
-use super::envelope::{Band, Demodulator};
+use self::padded::PADDING;
+pub(super) use self::padded::Padded;
+use super::envelope::Band;
 use super::indicators::Moments;
 use super::spectrum::FEWEST_SAMPLES;
 use super::stream::SegmentSpectra;
 
-/// Points of the padded spectrum for each bin of the segment; even.
-const PADDING: usize = 8;
 /// Half-width of the band around a harmonic from which its noise is taken, in bins of the segment; in short records
 /// less, so as to stay clear of the next harmonic.
 const NOISE_BINS: usize = 48;
@@ -162,76 +164,6 @@ impl LineAverage {
             segments: count as usize,
             ..latest
         })
-    }
-}
-
-/// Transforms of the windowed, mean-free envelope of segments of one length, interpolated by zero padding, below a highest frequency.
-pub(super) struct Padded {
-    fs: f64,
-    length: usize,
-    /// E: padded bin m stands for frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so that it is smooth.
-    values: Vec<Complex<f64>>,
-}
-
-impl Padded {
-    /// For whatever the combs look at.
-    pub(super) fn new(fs: f64, length: usize, combs: &[Comb]) -> Self {
-        let highest = combs.iter().map(Comb::highest).fold(0.0, f64::max);
-        // The cubic takes a point below and two above.
-        let count = (highest / fs * (PADDING * length) as f64) as usize + 4;
-        Padded {
-            fs,
-            length,
-            values: vec![Complex::ZERO; count.min(PADDING * length / 2 + 1)],
-        }
-    }
-
-    /// Of an envelope less its mean, `window` not yet applied. The transform padded to PADDING times the length is that of the values turned
-    /// by r / PADDING of a bin, r = 0, 1, ..., bin by bin; as they are real, the turn by r has that by -r in its negative frequencies. The
-    /// demodulator lends its backward plan, which gives the complex conjugate.
-    pub(super) fn transform(&mut self, envelope: &[f64], window: &[f64], room: &mut Demodulator) {
-        let n = self.length;
-        let turn = TAU / (PADDING * n) as f64;
-        for r in 0..=PADDING / 2 {
-            for (t, (value, (e, w))) in (room.values.iter_mut())
-                .zip(envelope.iter().zip(window))
-                .enumerate()
-            {
-                let (sin, cos) = (turn * (r * t) as f64).sin_cos();
-                *value = Complex::new(e * w * cos, e * w * sin);
-            }
-            room.fft
-                .process_with_scratch(&mut room.values, &mut room.scratch);
-            for k in 0..=n / 2 {
-                let above = PADDING * k + r;
-                if let Some(place) = self.values.get_mut(above) {
-                    *place = room.values[k].conj();
-                }
-                if k > 0
-                    && r > 0
-                    && let Some(place) = self.values.get_mut(PADDING * k - r)
-                {
-                    *place = room.values[n - k];
-                }
-            }
-        }
-        let half = (n / 2) as u64;
-        let period = (PADDING * n) as u64;
-        for (m, value) in self.values.iter_mut().enumerate() {
-            let (sin, cos) = (turn * (m as u64 * half % period) as f64).sin_cos();
-            *value *= Complex::new(cos, sin);
-        }
-    }
-
-    /// E at a frequency, by the cubic through the four points around it.
-    fn at(&self, f: f64) -> Complex<f64> {
-        let position = f / self.fs * (PADDING * self.length) as f64;
-        let at = (position as usize).clamp(1, self.values.len() - 3);
-        let t = position - at as f64;
-        let e = &self.values[at - 1..at + 3];
-        e[0] * (-t * (t - 1.0) * (t - 2.0) / 6.0) + e[1] * ((t * t - 1.0) * (t - 2.0) / 2.0)
-            - e[2] * (t * (t + 1.0) * (t - 2.0) / 2.0)
-            + e[3] * (t * (t * t - 1.0) / 6.0)
     }
 }
 
@@ -430,185 +362,4 @@ fn gamma_tail(count: usize, s: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::StreamSpectra;
-    use super::super::test_signals::{ImpactTrain, Noise, cosine};
-    use super::*;
-
-    const FS: f64 = 25_600.0;
-
-    /// Half a second of impacts as from a raceway defect of the NN3007 at 1800 r/min.
-    fn train(rate: f64, jitter: f64, noise: f64) -> ImpactTrain {
-        ImpactTrain {
-            fs: FS,
-            rate,
-            jitter,
-            resonance: 4000.0,
-            decay: 6e-4,
-            noise,
-        }
-    }
-
-    const BAND: Band = Band {
-        low: 2000.0,
-        high: f64::INFINITY,
-    };
-
-    fn search() -> LineSearch {
-        LineSearch::new(250.102)
-    }
-
-    fn tracked(x: &[f64], length: usize) -> Option<LineFrequency> {
-        StreamSpectra::of(x, FS, length, BAND, &[search()]).lines[0]
-    }
-
-    #[test]
-    fn analytic_clean_train() {
-        for rate in [246.31, 249.6, 250.102, 254.7] {
-            let found = line_frequency(
-                &train(rate, 0.0, 0.0).generate(12_800, 1),
-                FS,
-                BAND,
-                &search(),
-            )
-            .unwrap();
-            assert!((found.frequency - rate).abs() < 5e-3, "{rate}: {found:?}");
-            assert_eq!((found.harmonics, found.resolution), (8, 4.0));
-        }
-    }
-
-    #[test]
-    fn analytic_half_a_second_with_jitter_and_noise_is_good_to_a_fifth_of_a_percent() {
-        // 1 % of a period of timing error and noise of a third of the signal's RMS.
-        let mut worst: f64 = 0.0;
-        for (i, rate) in [248.0, 249.6, 250.39, 252.0].into_iter().enumerate() {
-            for seed in 0..25 {
-                let x = train(rate, 0.01, 0.1).generate(12_800, 100 * i as u64 + seed);
-                let found = line_frequency(&x, FS, BAND, &search()).unwrap();
-                worst = worst.max((found.frequency / rate - 1.0).abs());
-            }
-        }
-        assert!(worst < 2e-3, "{worst}");
-    }
-
-    #[test]
-    fn analytic_uncertainty_is_the_scatter() {
-        for (jitter, noise) in [(0.0, 0.3), (0.02, 0.05), (0.01, 0.3)] {
-            let (mut scores, trials) = (Moments::new(), 300);
-            for seed in 0..trials {
-                let x = train(249.6, jitter, noise).generate(12_800, 7000 + seed);
-                let found = line_frequency(&x, FS, BAND, &search()).unwrap();
-                scores.push((found.frequency - 249.6) / found.uncertainty);
-            }
-            let rms = scores.rms();
-            assert!(
-                (0.75..1.33).contains(&rms),
-                "jitter {jitter}, noise {noise}: {rms}"
-            );
-        }
-    }
-
-    #[test]
-    fn analytic_variance_of_one_line_follows_the_formula() {
-        // One harmonic of an amplitude-modulated carrier in white noise.
-        let (n, trials) = (6400, 300);
-        let band = Band::between(5000.0, 7000.0);
-        let mut one = LineSearch::new(250.0);
-        one.harmonics = 1;
-        let mut noise = Noise::new(21);
-        let carrier = cosine(n, FS, 6000.0, 1.0, 0.0);
-        let modulation = cosine(n, FS, 250.0, 0.5, 1.0);
-        let (mut errors, mut predicted) = (Moments::new(), Moments::new());
-        for _ in 0..trials {
-            let x: Vec<f64> = (0..n)
-                .map(|i| carrier[i] * (1.0 + modulation[i]) + 0.5 * noise.normal())
-                .collect();
-            let found = line_frequency(&x, FS, band, &one).unwrap();
-            errors.push(found.frequency - 250.0);
-            predicted.push(found.uncertainty);
-        }
-        let ratio = errors.rms() / predicted.rms();
-        assert!((0.8..1.25).contains(&ratio), "{ratio}");
-    }
-
-    #[test]
-    fn prop_noise_alone_shows_no_line() {
-        let mut alarms = 0;
-        for seed in 0..600 {
-            let x = Noise::new(9000 + seed).normals(12_800);
-            alarms += u32::from(line_frequency(&x, FS, BAND, &search()).is_some());
-        }
-        assert!(alarms <= 1, "{alarms} of 600");
-    }
-
-    #[test]
-    fn prop_line_outside_the_range_is_not_found_at_its_edge() {
-        let mut narrow = search();
-        narrow.tolerance = 0.004;
-        let found = line_frequency(
-            &train(252.5, 0.0, 0.05).generate(12_800, 3),
-            FS,
-            BAND,
-            &narrow,
-        );
-        assert_eq!(found, None);
-        narrow.tolerance = 0.012;
-        assert!(
-            line_frequency(
-                &train(252.5, 0.0, 0.05).generate(12_800, 3),
-                FS,
-                BAND,
-                &narrow
-            )
-            .is_some()
-        );
-    }
-
-    #[test]
-    fn prop_too_short_a_record_is_refused() {
-        let x = train(250.0, 0.0, 0.0).generate(2457, 1);
-        assert_eq!(line_frequency(&x[..2456], FS, BAND, &search()), None);
-        assert!(line_frequency(&x, FS, BAND, &search()).is_some());
-        assert_eq!(line_frequency(&[], FS, BAND, &search()), None);
-    }
-
-    #[test]
-    fn analytic_tracker_averages_a_long_run() {
-        let rate = 249.6;
-        let x = train(rate, 0.01, 0.3).generate(256_000, 5);
-        let found = tracked(&x, 16_384).unwrap();
-        assert_eq!(found.segments, 30);
-        assert!(found.uncertainty < 0.03, "{found:?}");
-        assert!(
-            (found.frequency - rate).abs() < 3.0 * found.uncertainty,
-            "{found:?}"
-        );
-    }
-
-    #[test]
-    fn analytic_tracker_owns_its_interpolation_error() {
-        // Exactly periodic: all segments agree to round-off, so their scatter says nothing.
-        let one = |i| (-0.05 * f64::from(i % 103)).exp() * f64::from(i % 103 % 7);
-        let x: Vec<f64> = (0..131_072).map(one).collect();
-        let found = tracked(&x, 16_384).unwrap();
-        let error = (found.frequency - FS / 103.0).abs();
-        assert!(
-            found.uncertainty < 2e-3 && error < found.uncertainty,
-            "{found:?} {error}"
-        );
-    }
-
-    #[test]
-    fn prop_tracker_takes_a_short_run_whole() {
-        let x = train(249.6, 0.01, 0.1).generate(12_801, 5);
-        let found = tracked(&x, 65_536);
-        assert!(found.is_some());
-        assert_eq!(found, line_frequency(&x, FS, BAND, &search()));
-    }
-
-    #[test]
-    fn analytic_gamma_tail() {
-        assert!((gamma_tail(1, 3.0) - (-3.0f64).exp()).abs() < 1e-16);
-        assert!((gamma_tail(3, 2.0) - 5.0 * (-2.0f64).exp()).abs() < 1e-15);
-    }
-}
+mod tests;
