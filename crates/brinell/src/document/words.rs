@@ -3,6 +3,7 @@
 use super::leaf::Choice;
 use crate::scenario::*;
 
+/// Gives a closed choice its words: value, word, meaning.
 macro_rules! words {
     ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
         impl Choice for $type {
@@ -11,6 +12,7 @@ macro_rules! words {
         }
     };
 }
+pub(crate) use words;
 
 words! { Guidance:
     OuterRing = "outer-ring", "a land on the outer ring";
