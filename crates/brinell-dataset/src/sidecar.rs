@@ -15,7 +15,12 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
     let plan = campaign.plan();
     let (draws, first) = (campaign.draws(), campaign.first());
     let classes = plan.classes.iter().enumerate().map(|(label, class)| {
-        json!({ "name": class.name, "label": label, "runs": draws.runs_of(label) })
+        // Of all runs the counts would tell how many labels of each kind are held out.
+        let (count, runs) = match plan.holds_out() {
+            true => ("open_runs", draws.open_runs_of(label)),
+            false => ("runs", draws.runs_of(label)),
+        };
+        json!({ "name": class.name, "label": label, count: runs })
     });
     let columns = campaign.columns().iter().map(|c| {
         let column = &c.record.column;

@@ -1,10 +1,10 @@
 //! Data sets: a plan to files, alone or a share at a time.
 
 use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
+use crate::run::threads;
 use brinell_dataset::{self as dataset, DatasetError, Listener, RunListener, Shard};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -56,10 +56,7 @@ struct Stop<'a>(&'a AtomicBool);
 
 impl RunListener for Stop<'_> {
     fn at(&mut self, _: f64) -> ControlFlow<()> {
-        match self.0.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        brinell::many::go_on(self.0)
     }
 }
 
@@ -169,11 +166,7 @@ impl Campaign {
         let shard = Shard { index, of };
         let parts = (0..self.0.parts()).filter(|part| shard.has(*part));
         let runs: usize = parts.map(|part| self.0.runs_of(part).len()).sum();
-        let threads = match jobs {
-            None => brinell::many::threads(runs),
-            Some(jobs) => NonZeroUsize::new(jobs)
-                .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))?,
-        };
+        let threads = threads(jobs, runs)?;
         let watch = Watch::default();
         let (went, heard) = py.detach(|| {
             std::thread::scope(|scope| {

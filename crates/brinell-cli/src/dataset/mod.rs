@@ -16,7 +16,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::PoisonError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Exit code where something is missing or wrong in what is there, or Ctrl-C stopped the work.
@@ -178,6 +178,9 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     for problem in &found.problems {
         complain!("{problem}");
     }
+    if !found.problems.is_empty() {
+        complain!("what is missing or was removed, the plan's own command makes again, with the same bytes");
+    }
     Ok(match found.problems.is_empty() {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(NOT_WHOLE),
@@ -225,10 +228,7 @@ struct Shown<'a> {
 impl RunListener for Shown<'_> {
     fn at(&mut self, t: f64) -> ControlFlow<()> {
         self.progress.at(t);
-        match self.stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        brinell::many::go_on(self.stop)
     }
 }
 

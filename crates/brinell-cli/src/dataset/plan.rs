@@ -85,7 +85,10 @@ pub(super) fn tell(
             survey.unfit,
             plural(survey.runs, "run")
         );
-        tell_misses(survey);
+        // Where the plan is refused for them, that says which.
+        if survey.is_sound(plan.out_of_range) {
+            tell_misses(survey);
+        }
     }
     let good = (survey.runs - survey.hopeless).max(1) as f64;
     let seconds = survey.simulated / good * runs as f64;

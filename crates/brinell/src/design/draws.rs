@@ -1,6 +1,6 @@
 //! What each run of a plan draws.
 
-use super::distribution::{Distribution, Value};
+use super::distribution::{Distribution, KINDS, Value};
 use super::plan::{Design, OutOfRange, Plan};
 use super::sequence::{Sequence, Sobol};
 use super::stream::{bits, seed, unit, word};
@@ -9,6 +9,8 @@ use crate::document::{Loaded, Problem, read};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
+/// Seeds below this one are tried in an afternoon.
+const GUESSED: u64 = 1 << 40;
 
 /// A seed that every run has one of its own of.
 struct Seeded {
@@ -64,19 +66,31 @@ struct Axis {
 }
 
 struct Drawn {
+    /// All of its runs, and those of them that the design spreads.
     runs: usize,
+    open: usize,
     axes: Vec<Axis>,
     sequence: Sequence,
     /// Settings of all grids together.
     combinations: usize,
 }
 
+/// Where a run stands in its plan.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    class: u32,
+    /// Its number among the runs of its class that the design spreads; [`APART`] where its labels are held out.
+    number: u32,
+}
+
+/// No place in the design.
+const APART: u32 = u32::MAX;
+
 /// The runs of a plan.
 pub struct Draws {
     plan: Plan,
     classes: Vec<Drawn>,
-    /// Class of each run, and its number within the class.
-    places: Vec<(u32, u32)>,
+    places: Vec<Place>,
     parameters: Vec<Parameter>,
 }
 
@@ -89,10 +103,11 @@ impl Draws {
         let places = places(&plan);
         let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for (c, class) in plan.classes.iter().enumerate() {
-            let runs = places
-                .iter()
-                .filter(|(class, _)| *class as usize == c)
-                .count();
+            let mine = || places.iter().filter(|place| place.class as usize == c);
+            let (all, runs) = (
+                mine().count(),
+                mine().filter(|place| place.number != APART).count(),
+            );
             let mut found = Vec::new();
             plan.vary.distributions("", &mut found);
             let common = found.len();
@@ -115,8 +130,13 @@ impl Draws {
                         _ => product,
                     });
             if combinations > runs && runs > 0 {
+                let apart = if plan.holds_out() {
+                    " whose labels are not held out"
+                } else {
+                    ""
+                };
                 let message = format!(
-                    "class {:?} has {runs} of the plan's {} runs, and its grids have {combinations} combinations",
+                    "class {:?} has {runs} of the plan's {} runs{apart}, and its grids have {combinations} combinations",
                     class.name, plan.runs
                 );
                 problems.push(
@@ -149,7 +169,8 @@ impl Draws {
                 Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
             };
             classes.push(Drawn {
-                runs,
+                runs: all,
+                open: runs,
                 axes,
                 sequence,
                 combinations,
@@ -179,7 +200,7 @@ impl Draws {
 
     /// Class of a run, from 0.
     pub fn class(&self, run: usize) -> usize {
-        self.places[run].0 as usize
+        self.places[run].class as usize
     }
 
     /// Runs of a class.
@@ -192,35 +213,46 @@ impl Draws {
         &self.parameters
     }
 
-    /// Whether a run's labels are held out.
-    pub fn is_held_out(&self, run: usize) -> bool {
-        unit(bits(&[self.plan.seed, word("held_out"), run as u64])) < self.plan.held_out
+    /// Runs of a class whose labels are not held out.
+    pub fn open_runs_of(&self, class: usize) -> usize {
+        self.classes[class].open
     }
 
-    /// What the author should know: grids whose combinations come unequally often.
+    /// Whether a run's labels are held out.
+    pub fn is_held_out(&self, run: usize) -> bool {
+        self.places[run].number == APART
+    }
+
+    /// What the author should know: grids whose combinations come unequally often, held-out labels behind a seed that can be guessed.
     pub fn notes(&self) -> Vec<String> {
         let uneven = |(class, drawn): (&super::Class, &Drawn)| {
-            (drawn.runs % drawn.combinations != 0).then(|| {
+            (drawn.open % drawn.combinations != 0).then(|| {
                 format!(
                     "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",
-                    class.name, drawn.runs, drawn.combinations
+                    class.name, drawn.open, drawn.combinations
                 )
             })
         };
-        self.plan
-            .classes
-            .iter()
-            .zip(&self.classes)
-            .filter_map(uneven)
-            .collect()
+        let classes = self.plan.classes.iter().zip(&self.classes);
+        let mut notes: Vec<String> = classes.filter_map(uneven).collect();
+        if self.plan.holds_out() && self.plan.seed < GUESSED {
+            notes.push(format!(
+                "seed = {}: whoever has the open runs can try such seeds until one fits, and then has the labels that are held out; a number of \
+                 15 digits drawn at random is safer",
+                self.plan.seed
+            ));
+        }
+        notes
     }
 
     /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
     fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
-        let (c, n) = self.places[run];
-        let class = &self.classes[c as usize];
+        let Place { class, number } = self.places[run];
+        let class = &self.classes[class as usize];
+        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
+        let apart = number == APART;
         // Grids are walked through in order, the last one changing from run to run; whatever the attempt.
-        let mut rest = n as usize % class.combinations;
+        let mut rest = number as usize % class.combinations;
         let mut of_grid = vec![0; class.axes.len()];
         for (k, axis) in class.axes.iter().enumerate().rev() {
             if let Distribution::Grid { values } = &axis.distribution {
@@ -229,15 +261,15 @@ impl Draws {
             }
         }
         let value = |(k, axis): (usize, &Axis)| {
-            if let Distribution::Grid { values } = &axis.distribution {
+            if let (Distribution::Grid { values }, false) = (&axis.distribution, apart) {
                 return values[of_grid[k]].clone();
             }
             let key = &self.parameters[axis.parameter].key;
             let own = [self.plan.seed, run as u64, attempt, word(key)];
-            axis.distribution.value(match attempt {
-                0 => class.sequence.place(n as usize, k, &own),
-                // A second draw has no place in the design.
-                _ => unit(bits(&own)),
+            axis.distribution.value(if attempt > 0 || apart {
+                unit(bits(&own))
+            } else {
+                class.sequence.place(number as usize, k, &own)
             })
         };
         class.axes.iter().enumerate().map(value).collect()
@@ -260,7 +292,7 @@ impl Draws {
         if let Some(defects) = &class.defects {
             settings.push(("defects".into(), defects.toml(&mut next)));
         }
-        let seeds = self.seeds(base, &settings, run)?;
+        let seeds = self.seeds(base, &settings, run).map_err(no_place)?;
         settings.extend(seeds);
         let mut values = vec![None; self.parameters.len()];
         for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
@@ -339,22 +371,59 @@ impl Draws {
     }
 }
 
+/// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key below a number.
+fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
+    let hinted = |problem: Problem| match problem.allowed {
+        None => problem.allowed(format!("a value, or {{ {} = ... }}", KINDS.join(" | "))),
+        Some(_) => problem,
+    };
+    problems.into_iter().map(hinted).collect()
+}
+
 /// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
 /// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
-fn places(plan: &Plan) -> Vec<(u32, u32)> {
+///
+/// A run whose labels are held out draws its class, and takes no turn: neither its own place nor the gaps between the others tell what it is.
+fn places(plan: &Plan) -> Vec<Place> {
     let total: f64 = plan.classes.iter().map(|class| class.share).sum();
     let mut counts = vec![0_u32; plan.classes.len()];
-    (0..plan.runs)
+    let mut open = 0;
+    (0..plan.runs as u64)
         .map(|run| {
+            let draw = |what: &str| unit(bits(&[plan.seed, word(what), run]));
+            if draw("held_out") < plan.held_out {
+                return Place {
+                    class: drawn_class(plan, draw("class") * total),
+                    number: APART,
+                };
+            }
+            open += 1;
             let behind =
-                |c: usize| plan.classes[c].share / total * (run + 1) as f64 - f64::from(counts[c]);
+                |c: usize| plan.classes[c].share / total * f64::from(open) - f64::from(counts[c]);
             let next = (0..counts.len())
                 .fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
-            let place = (next as u32, counts[next]);
             counts[next] += 1;
-            place
+            Place {
+                class: next as u32,
+                number: counts[next] - 1,
+            }
         })
         .collect()
+}
+
+/// The class at `place` of all shares laid end to end.
+fn drawn_class(plan: &Plan, mut place: f64) -> u32 {
+    let mut last = 0;
+    for (c, class) in plan.classes.iter().enumerate() {
+        if class.share > 0.0 {
+            last = c as u32;
+            if place < class.share {
+                break;
+            }
+        }
+        place -= class.share;
+    }
+    last
 }
 
 /// The parameter of that key, made where there is none yet.

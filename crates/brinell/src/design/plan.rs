@@ -1,7 +1,9 @@
 //! The plan file: keys, ranges, defaults, and what no single key can say.
 
 use super::template::Template;
-use crate::document::reading::{Choice, Fallback, Finder, Keys, Reader, key, parse, stated};
+use crate::document::reading::{
+    Choice, Fallback, Finder, Keys, Reader, key, parse, stated, word_of,
+};
 use crate::document::{Problem, Severity, locate};
 use std::collections::HashSet;
 
@@ -53,10 +55,7 @@ words! { OutOfRange:
 impl Design {
     /// As the plan says it.
     pub fn word(self) -> &'static str {
-        Self::WORDS
-            .iter()
-            .find(|(_, design, _)| *design == self)
-            .map_or("", |w| w.0)
+        word_of(self)
     }
 }
 

@@ -13,6 +13,8 @@ pub(crate) struct Misfit {
     pub(crate) allowed: String,
     /// The element at fault, where the value is a list.
     pub(crate) element: Option<Node>,
+    /// Path of the key at fault below the one that is read, where that holds keys of any name.
+    pub(crate) under: String,
 }
 
 impl Misfit {
@@ -21,7 +23,16 @@ impl Misfit {
             message: message.into(),
             allowed: allowed.into(),
             element: None,
+            under: String::new(),
         }
+    }
+
+    pub(crate) fn under(mut self, name: &str) -> Misfit {
+        self.under = match self.under.as_str() {
+            "" => name.to_owned(),
+            rest => format!("{name}.{rest}"),
+        };
+        self
     }
 
     pub(crate) fn in_element(mut self, node: &Node) -> Misfit {
@@ -424,8 +435,7 @@ impl<T: Choice> Leaf for T {
     }
 
     fn write(&self) -> String {
-        let word = T::WORDS.iter().find(|(_, value, _)| value == self);
-        quote(word.unwrap_or(&T::WORDS[0]).0)
+        quote(super::words::word_of(*self))
     }
 
     fn schema(_: &Spec) -> Json {

@@ -27,7 +27,7 @@ mod writer;
 pub use example::template;
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
-pub use pointed::pointed_out;
+pub use pointed::{on_one_line, one_line, pointed_out};
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
@@ -40,4 +40,5 @@ pub(crate) mod reading {
     pub(crate) use super::leaf::{Choice, Leaf, Misfit};
     pub(crate) use super::reader::Reader;
     pub(crate) use super::source::{Node, Value as Toml, key_text, parse, quote};
+    pub(crate) use super::words::word_of;
 }

@@ -182,6 +182,10 @@ impl<'a> Reader<'a> {
         } else {
             ""
         };
+        let path = match misfit.under.as_str() {
+            "" => path,
+            under => join(&path, under),
+        };
         let problem = Problem::error(path, misfit.message + source)
             .value(element.brief())
             .allowed(misfit.allowed)

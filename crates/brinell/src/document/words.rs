@@ -3,6 +3,12 @@
 use super::leaf::Choice;
 use crate::scenario::*;
 
+/// The word that a scenario file has for a value.
+pub(crate) fn word_of<T: Choice>(value: T) -> &'static str {
+    let known = T::WORDS.iter().find(|(_, known, _)| *known == value);
+    known.unwrap_or(&T::WORDS[0]).0
+}
+
 macro_rules! words {
     ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
         impl Choice for $type {
@@ -113,4 +119,28 @@ words! { SurfaceWord:
     OuterRaceway = "outer-raceway", "fixed in space";
     InnerRaceway = "inner-raceway", "turns with the ring";
     Roller = "roller", "turns with that roller";
+}
+
+impl From<Surface> for SurfaceWord {
+    fn from(surface: Surface) -> Self {
+        match surface {
+            Surface::OuterRaceway => Self::OuterRaceway,
+            Surface::InnerRaceway => Self::InnerRaceway,
+            Surface::Roller(_) => Self::Roller,
+        }
+    }
+}
+
+impl Surface {
+    /// As the scenario file says it, without the roller's number: `outer-raceway`, `inner-raceway` or `roller`.
+    pub fn word(self) -> &'static str {
+        word_of(SurfaceWord::from(self))
+    }
+}
+
+impl Accuracy {
+    /// As the scenario file says it: `standard` or `reference`.
+    pub fn word(self) -> &'static str {
+        word_of(self)
+    }
 }
