@@ -382,7 +382,11 @@ fn prop_held_out_labels_lie_apart() {
     );
     // The classes' numbers are those of the runs whose labels anybody sees.
     let classes = json(&out.join("dataset.json"))["classes"].clone();
-    let counted = classes.as_array().unwrap().iter().map(|c| c["open_runs"].as_u64().unwrap());
+    let counted = classes
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["open_runs"].as_u64().unwrap());
     assert_eq!(counted.sum::<u64>(), 12 - apart);
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
     // All labels may be elsewhere, and not one file of them.
@@ -472,7 +476,9 @@ fn regress_bad_input_is_told() {
         (
             "uniform = [1400, 1600]",
             "uniform = [1400]",
-            vec!["vary.operation.speed_rpm = { uniform = [1400] }: expected two numbers, found 1 of them"],
+            vec![
+                "vary.operation.speed_rpm = { uniform = [1400] }: expected two numbers, found 1 of them",
+            ],
         ),
         (
             "\"outer-raceway\"",

@@ -9,11 +9,7 @@ use brinell::document::Problem;
 ///
 /// # Errors
 /// Each kind of problem once, at the plan's line, and how often.
-pub(crate) fn refused(
-    draws: &Draws,
-    plan: &Document,
-    survey: &Survey,
-) -> Result<(), DatasetError> {
+pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result<(), DatasetError> {
     let out_of_range = draws.plan().out_of_range;
     if survey.is_sound(out_of_range) {
         return Ok(());

@@ -65,8 +65,8 @@ impl Draft {
         self.draw = Some(draw);
         let (scenario, cells) = (&loaded.scenario, &mut self.cells);
         about(scenario, cells);
-        let simulation =
-            Simulation::new(scenario).map_err(|error| Short::Failed(one_line(&error.to_string())))?;
+        let simulation = Simulation::new(scenario)
+            .map_err(|error| Short::Failed(one_line(&error.to_string())))?;
         let signals = campaign.signals();
         let mut channels = simulation.channels().iter();
         if let Some(channel) = channels.find(|c| signals.iter().all(|s| s.name != c.name)) {

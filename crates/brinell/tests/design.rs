@@ -310,8 +310,7 @@ fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
         .replace("runs = 60", &format!("runs = {RUNS}\nheld_out = 0.5"))
         .replace("share = 2", "share = 1");
     let draws = draws(&plan);
-    let (held, open): (Vec<usize>, Vec<usize>) =
-        (0..RUNS).partition(|run| draws.is_held_out(*run));
+    let (held, open): (Vec<usize>, Vec<usize>) = (0..RUNS).partition(|run| draws.is_held_out(*run));
     // Those that are open take turns, as if there were no others: their order has no gaps to read.
     for (n, run) in open.iter().enumerate() {
         assert_eq!(draws.class(*run), n % 2, "run {run}");
@@ -330,11 +329,19 @@ fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
         let of_class = open.iter().filter(mine).count();
         assert_eq!(of_class, draws.open_runs_of(class));
         let slice = |run: &usize| ((speeds[*run] - 1000.0) / 2000.0 * of_class as f64) as usize;
-        let slices: std::collections::HashSet<usize> = open.iter().filter(mine).map(slice).collect();
+        let slices: std::collections::HashSet<usize> =
+            open.iter().filter(mine).map(slice).collect();
         // Nine digits may move one over an edge.
-        assert!(slices.len() + 5 > of_class, "{} of {of_class}", slices.len());
+        assert!(
+            slices.len() + 5 > of_class,
+            "{} of {of_class}",
+            slices.len()
+        );
         let apart: std::collections::HashSet<usize> = held.iter().filter(mine).map(slice).collect();
-        assert!(apart.len() < 3 * of_class / 4, "at random, two fall into one slice");
+        assert!(
+            apart.len() < 3 * of_class / 4,
+            "at random, two fall into one slice"
+        );
     }
     // Small seeds can be tried one by one.
     assert!(draws.notes()[0].starts_with("seed = 5: whoever has the open runs can try such seeds"));
@@ -368,7 +375,9 @@ fn regress_bad_plans_are_told_with_key_line_and_range() {
         ),
         (
             "base = 'b'\nruns = 3\nvary.a.b = { uniform = [3, 1] }",
-            vec!["line 3: vary.a.b = { uniform = [3, 1] }: the ends are reversed; [1.0, 3.0] is meant"],
+            vec![
+                "line 3: vary.a.b = { uniform = [3, 1] }: the ends are reversed; [1.0, 3.0] is meant",
+            ],
         ),
         (
             "base = 'b'\nruns = 3\nvary.a.b = [0, { uniform = [3, 3] }]",

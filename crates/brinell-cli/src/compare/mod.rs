@@ -20,7 +20,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 
-
 /// Exit code where a run failed or was broken off.
 const NOT_DONE: u8 = 1;
 

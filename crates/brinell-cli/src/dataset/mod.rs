@@ -179,7 +179,9 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         complain!("{problem}");
     }
     if !found.problems.is_empty() {
-        complain!("what is missing or was removed, the plan's own command makes again, with the same bytes");
+        complain!(
+            "what is missing or was removed, the plan's own command makes again, with the same bytes"
+        );
     }
     Ok(match found.problems.is_empty() {
         true => ExitCode::SUCCESS,
