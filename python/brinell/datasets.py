@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -202,6 +203,11 @@ def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str
     ValueError
         Where a folder is of another campaign or version, or a file is damaged.
 
+    Warns
+    -----
+    UserWarning
+        Where files are in none of the folders.
+
     Examples
     --------
     >>> from brinell.datasets import merge
@@ -210,5 +216,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str
     ...
     ValueError: no folders to merge
     """
-    _brinell.merge([Path(folder) for folder in folders], Path(into))
+    lack = _brinell.merge([Path(folder) for folder in folders], Path(into))
+    if lack is not None:
+        warnings.warn(lack, stacklevel=2)
     return DataSet(into)

@@ -11,6 +11,8 @@ import textwrap
 import numpy as np
 import pytest
 
+from conftest import blocks
+
 import brinell
 import brinell.distributed
 
@@ -86,6 +88,8 @@ def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):
     whole = chosen.run(tmp_path / "whole")
     for k in (1, 2, 3):
         chosen.run(tmp_path / f"shard-{k}", shard=(k, 3))
+    with pytest.warns(UserWarning, match=r"not whole: 3 files in none of the folders \(part 1, 4, 7\); run their shards again"):
+        merge([tmp_path / f"shard-{k}" for k in (3, 1)], tmp_path / "joined")
     joined = merge([tmp_path / f"shard-{k}" for k in (3, 1, 2)], tmp_path / "joined")
     assert digests(joined.folder) == digests(whole.folder)
     with pytest.raises(brinell.ReadError, match="dataset.json"):
@@ -193,3 +197,24 @@ def test_prop_what_travels_can_be_pickled(plan):
 
     name, files = pickle.loads(pickle.dumps(_parcel(plan())))
     assert name == "plan.toml" and {path for path, _ in files} == {"plan.toml", "base.toml", "photo-spall.png"}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_prop_examples_of_the_book_run(plan, tmp_path, monkeypatch):
+    pytest.importorskip("pandas")
+    distributed = pytest.importorskip("distributed")
+    chosen = plan(runs=4)
+    monkeypatch.chdir(chosen.path.parent)
+    program = blocks("docs/src/cluster.md")
+    address = '"tcp://10.0.0.1:8786"'
+    assert program.count(address) == 1
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "host": "127.0.0.1", "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster:
+        exec(compile(program.replace(address, repr(cluster.scheduler_address)), "cluster.md", "exec"), {})
+    assert brinell.DataSet("data").verify() == []
+    # The same data set, where the other page has its own.
+    os.makedirs("out")
+    os.rename("data", "out/nu206")
+    seen: dict = {}
+    exec(compile(blocks("docs/src/datasets.md"), "datasets.md", "exec"), seen)
+    assert len(seen["x"]) == 0.05 * seen["fs"] + 1 and seen["y"] in ("healthy", "photo", None)

@@ -229,16 +229,15 @@ fn named(value: &serde_json::Value, under: bool, names: &mut Vec<String>) {
     }
 }
 
-/// Joins folders in which shares ran apart: files brought, there before, and missing.
+/// Joins folders in which shares ran apart; what is still to do, where something is.
 #[pyfunction]
 pub(crate) fn merge(
     py: Python<'_>,
     folders: Vec<PathBuf>,
     into: PathBuf,
-) -> PyResult<(usize, usize, Vec<usize>)> {
+) -> PyResult<Option<String>> {
     let merged = py.detach(|| dataset::merge(&folders, &into));
-    let merged = merged.map_err(|error| failed(py, error))?;
-    Ok((merged.brought, merged.before, merged.missing))
+    Ok(merged.map_err(|error| failed(py, error))?.lack())
 }
 
 /// Checks a data set: files, of how many, rows, failed runs, and everything that is wrong.

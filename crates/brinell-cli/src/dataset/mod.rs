@@ -141,25 +141,10 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
             merged.before
         );
     }
-    if merged.missing.is_empty() {
+    let Some(lack) = merged.lack() else {
         return Ok(ExitCode::SUCCESS);
-    }
-    let first: Vec<String> = merged
-        .missing
-        .iter()
-        .take(SHOWN)
-        .map(ToString::to_string)
-        .collect();
-    complain!(
-        "not whole: {} in none of the folders (part {}{}); run their shards again",
-        plural(merged.missing.len(), "file"),
-        first.join(", "),
-        if merged.missing.len() > SHOWN {
-            ", ..."
-        } else {
-            ""
-        }
-    );
+    };
+    complain!("{lack}");
     Ok(ExitCode::from(NOT_WHOLE))
 }
 
