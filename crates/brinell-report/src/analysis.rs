@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
-use crate::frame::{Opening, THINNED, close, figure, open, section};
+use crate::frame::{THINNED, close, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
 use crate::plots::{Layout, legend, marker_lanes, time_unit};
@@ -232,14 +232,12 @@ pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn analysis_html(report: &AnalysisReport) -> String {
-    let opening = Opening {
-        title: &report.title,
-        subtitle: &report.subtitle,
-        done: "Analysed",
-        version: &report.version,
-    };
-    let alerts: Vec<_> = report.warnings.iter().map(|w| ("", w.as_str())).collect();
-    let mut page = open(&opening, &alerts);
+    let mut page = open(
+        &report.title,
+        &report.subtitle,
+        ("Analysed", &report.version),
+        plain(&report.warnings),
+    );
     page.push_str("<main>\n");
     section(&mut page, "verdict", "Verdict", |page| {
         verdict(page, report)

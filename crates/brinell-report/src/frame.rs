@@ -11,35 +11,25 @@ use crate::plots::Layout;
 /// At the foot of pages with curves.
 pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
 
-/// What a page begins with.
-#[derive(Default)]
-pub(crate) struct Opening<'a> {
-    pub(crate) title: &'a str,
-    /// One line under it; may be empty.
-    pub(crate) subtitle: &'a str,
-    /// "Simulated" or "Analysed".
-    pub(crate) done: &'a str,
-    /// The version of the program that did it; may be empty.
-    pub(crate) version: &'a str,
-}
-
-/// A page up to the end of its header. Each of `alerts` is a few words that stand out, and what is to be said of them; either may be empty.
-pub(crate) fn open(opening: &Opening, alerts: &[(&str, &str)]) -> String {
+/// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated"); both may be empty.
+/// Each of `alerts` is a few words that stand out, and what is to be said of them; either may be empty.
+pub(crate) fn open<'a>(
+    title: &str,
+    subtitle: &str,
+    (done, version): (&str, &str),
+    alerts: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> String {
     let mut page = String::with_capacity(1 << 20);
-    head(&mut page, opening.title);
-    if !opening.subtitle.is_empty() {
-        let _ = writeln!(
-            page,
-            "<p class=\"subtitle\">{}</p>",
-            escape(opening.subtitle)
-        );
+    head(&mut page, title);
+    if !subtitle.is_empty() {
+        let _ = writeln!(page, "<p class=\"subtitle\">{}</p>", escape(subtitle));
     }
-    if !opening.version.is_empty() {
+    if !version.is_empty() {
         let _ = writeln!(
             page,
             "<p class=\"version\">{} by brinell {}</p>",
-            opening.done,
-            escape(opening.version)
+            done,
+            escape(version)
         );
     }
     for (strong, words) in alerts {
@@ -47,6 +37,11 @@ pub(crate) fn open(opening: &Opening, alerts: &[(&str, &str)]) -> String {
     }
     page.push_str("</header>\n");
     page
+}
+
+/// Warnings as [`open`] takes them.
+pub(crate) fn plain(warnings: &[String]) -> impl Iterator<Item = (&str, &str)> {
+    warnings.iter().map(|words| ("", words.as_str()))
 }
 
 /// What must not be overlooked.

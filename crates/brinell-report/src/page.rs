@@ -6,7 +6,7 @@ use crate::chart::Domain;
 use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::Report;
 use crate::embedded::Chart;
-use crate::frame::{Opening, THINNED, alert, close, code, figure, none, open, section};
+use crate::frame::{THINNED, alert, close, code, figure, none, open, section};
 use crate::load::load_distribution;
 use crate::number::significant;
 use crate::picture::escape;
@@ -23,18 +23,15 @@ pub fn html(report: &Report) -> String {
     } else {
         &report.title
     };
-    let opening = Opening {
+    let mut page = open(
         title,
-        subtitle: &report.subtitle,
-        done: "Simulated",
-        version: &report.version,
-    };
-    let partial = report.partial.as_deref();
-    let alerts: Vec<_> = partial
-        .map(|why| ("This run is partial.", why))
-        .into_iter()
-        .collect();
-    let mut page = open(&opening, &alerts);
+        &report.subtitle,
+        ("Simulated", &report.version),
+        report
+            .partial
+            .as_deref()
+            .map(|why| ("This run is partial.", why)),
+    );
     let mut sections: Vec<Section> = vec![
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),

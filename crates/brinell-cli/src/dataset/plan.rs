@@ -2,14 +2,12 @@
 
 use super::DatasetArgs;
 use crate::say::{complain, say, short};
-use crate::sweep::cost::pace;
+use crate::sweep::cost::mean_pace;
 use crate::sweep::{duration, plural};
 use brinell::design::{Misses, OutOfRange, Survey};
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 
-/// Runs that are tried for a moment, to see what they cost.
-const TRIED: usize = 5;
 /// Share of a 32-bit float that is left after compression, about: the low mantissa bytes are noise.
 const COMPRESSED: f64 = 0.9;
 /// Bytes of a row beside its signals, about.
@@ -132,15 +130,8 @@ fn tell_misses(survey: &Survey) {
 
 /// Wall time of so many simulated seconds, s; `None` where no trial ran.
 fn cost(campaign: &Campaign, seconds: f64, runs: usize, threads: NonZeroUsize) -> Option<f64> {
-    let all = campaign.draws().runs();
-    let tried = all.min(TRIED);
-    let chosen = (0..tried).map(|k| k * (all - 1) / (tried - 1).max(1));
-    let scenarios = chosen.filter_map(|run| Some(campaign.scenario(run).ok()?.0.scenario));
-    let paces: Vec<f64> = scenarios.filter_map(pace).collect();
-    if paces.is_empty() {
-        return None;
-    }
-    let pace = paces.iter().sum::<f64>() / paces.len() as f64;
+    let scenario = |run| Some(campaign.scenario(run).ok()?.0.scenario);
+    let pace = mean_pace(campaign.draws().runs(), scenario)?;
     Some(pace * seconds / threads.get().min(runs.max(1)) as f64)
 }
 

@@ -21,7 +21,7 @@ use brinell::paper::{
 use brinell_io::atomic_write;
 use claims::Told;
 use points::{FromPaper, Point, numbers, point};
-use sensitivity::{Plan, Sensitivity, open};
+use sensitivity::{Plan, Sensitivity};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -197,9 +197,15 @@ impl Runner<'_> {
         self.all(open_tasks, ledger)
     }
 
+    /// What is not done, each once.
     fn open<'t>(&self, tasks: impl Iterator<Item = &'t Task>, ledger: &Ledger) -> Vec<Task> {
-        let mut open_tasks = Vec::new();
-        open(tasks, self.work, ledger, &mut open_tasks);
+        let mut open_tasks: Vec<Task> = Vec::new();
+        for task in tasks {
+            let known = open_tasks.iter().any(|t| t.fingerprint == task.fingerprint);
+            if !known && !self.work.is_done(task, ledger) {
+                open_tasks.push(task.clone());
+            }
+        }
         open_tasks
     }
 

@@ -1,4 +1,4 @@
-//! What a sweep will cost: some of its points are run for a moment, and the clock is read. Nothing of that enters the results.
+//! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the results.
 
 use crate::campaign::{Task, Work};
 use brinell::campaign::finish;
@@ -8,32 +8,29 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// Points that are tried: the first, the last, and some between.
+/// Runs that are tried: the first, the last, and some between.
 const TRIED: usize = 5;
 /// Wall time of one trial.
 const MOMENT: Duration = Duration::from_millis(60);
 
 /// Wall time of all tasks, s; `None` where no trial ran.
 pub(crate) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
-    let tried = tasks.len().min(TRIED);
-    let chosen = (0..tried).map(|k| k * (tasks.len() - 1) / (tried - 1).max(1));
-    let costs: Vec<f64> = chosen.filter_map(|k| trial(&tasks[k], work)).collect();
-    if costs.is_empty() {
-        return None;
-    }
-    let per_second = costs.iter().sum::<f64>() / costs.len() as f64;
     let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
     let at_once = threads.get().min(tasks.len().max(1));
-    Some(per_second * simulated / at_once as f64)
+    let pace = mean_pace(tasks.len(), |k| work.scenario(&tasks[k]).ok())?;
+    Some(pace * simulated / at_once as f64)
 }
 
-/// Wall time of a simulated second of a task, s.
-fn trial(task: &Task, work: &impl Work) -> Option<f64> {
-    pace(work.scenario(task).ok()?)
+/// Wall time of a simulated second, s, of a few of `count` scenarios; `None` where no trial ran.
+pub(crate) fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> Option<f64> {
+    let tried = count.min(TRIED);
+    let chosen = (0..tried).map(|k| k * (count - 1) / (tried - 1).max(1));
+    let paces: Vec<f64> = chosen.filter_map(|k| pace(scenario(k)?)).collect();
+    (!paces.is_empty()).then(|| paces.iter().sum::<f64>() / paces.len() as f64)
 }
 
 /// Wall time of a simulated second, s; `None` where the scenario does not run.
-pub(crate) fn pace(scenario: Scenario) -> Option<f64> {
+fn pace(scenario: Scenario) -> Option<f64> {
     let simulation = Simulation::new(&scenario).ok()?;
     let mut trial = Trial {
         begin: Instant::now(),

@@ -5,7 +5,7 @@ mod plot;
 use std::fmt::Write as _;
 
 use crate::data::Fact;
-use crate::frame::{Opening, close, figure, none, open, scenario, section};
+use crate::frame::{close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, fact_table, facts, failures, table};
@@ -90,15 +90,12 @@ fn sentences(page: &mut String, all: &[String]) {
 
 /// The self-contained page.
 pub fn calibration_html(report: &CalibrationReport) -> String {
-    let opening = Opening {
-        title: &report.title,
-        subtitle: &report.subtitle,
-        done: "Simulated",
-        version: &report.version,
-    };
-    let unmet = ("The targets are not met within the bounds.", "");
-    let alerts = [unmet];
-    let mut page = open(&opening, if report.met { &[] } else { &alerts });
+    let mut page = open(
+        &report.title,
+        &report.subtitle,
+        ("Simulated", &report.version),
+        (!report.met).then_some(("The targets are not met within the bounds.", "")),
+    );
     page.push_str("<main>\n");
     facts(&mut page, &report.facts);
     section(&mut page, "outcome", "Outcome", |page| {

@@ -5,7 +5,7 @@ mod overlay;
 use std::fmt::Write as _;
 
 use crate::data::{Fact, Marker};
-use crate::frame::{Opening, THINNED, close, figure, none, open};
+use crate::frame::{THINNED, close, figure, none, open, plain};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, table};
@@ -126,14 +126,12 @@ pub fn side_by_side_pictures(report: &SideBySide) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn side_by_side_html(report: &SideBySide) -> String {
-    let opening = Opening {
-        title: &report.title,
-        subtitle: &report.subtitle,
-        done: "Simulated",
-        version: &report.version,
-    };
-    let alerts: Vec<_> = report.warnings.iter().map(|w| ("", w.as_str())).collect();
-    let mut page = open(&opening, &alerts);
+    let mut page = open(
+        &report.title,
+        &report.subtitle,
+        ("Simulated", &report.version),
+        plain(&report.warnings),
+    );
     page.push_str("<main>\n");
     facts(&mut page, &report.facts);
     let mut count = 0;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::data::Fact;
-use crate::frame::{Opening, close, figure, none, open, section};
+use crate::frame::{close, figure, none, open, plain, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::side_by_side::{Overlay, overlay};
@@ -136,14 +136,12 @@ fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
 
 /// The self-contained page.
 pub fn study_html(study: &Study) -> String {
-    let opening = Opening {
-        title: &study.title,
-        subtitle: &study.subtitle,
-        done: "Simulated",
-        version: &study.version,
-    };
-    let alerts: Vec<_> = study.warnings.iter().map(|w| ("", w.as_str())).collect();
-    let mut page = open(&opening, &alerts);
+    let mut page = open(
+        &study.title,
+        &study.subtitle,
+        ("Simulated", &study.version),
+        plain(&study.warnings),
+    );
     page.push_str("<nav aria-label=\"Contents\"><ul>");
     for chapter in &study.chapters {
         let _ = write!(

@@ -5,7 +5,7 @@ mod plot;
 use std::fmt::Write as _;
 
 use crate::data::Fact;
-use crate::frame::{Opening, close, figure, none, open, scenario, section};
+use crate::frame::{close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, failures, table};
@@ -85,18 +85,15 @@ pub fn sweep_pictures(report: &SweepReport) -> Vec<Picture> {
 
 /// The self-contained page.
 pub fn sweep_html(report: &SweepReport) -> String {
-    let opening = Opening {
-        title: &report.title,
-        subtitle: &report.subtitle,
-        done: "Simulated",
-        version: &report.version,
-    };
-    let partial = report.partial.as_deref();
-    let alerts: Vec<_> = partial
-        .map(|why| ("This sweep is not whole.", why))
-        .into_iter()
-        .collect();
-    let mut page = open(&opening, &alerts);
+    let mut page = open(
+        &report.title,
+        &report.subtitle,
+        ("Simulated", &report.version),
+        report
+            .partial
+            .as_deref()
+            .map(|why| ("This sweep is not whole.", why)),
+    );
     page.push_str("<main>\n");
     facts(&mut page, &report.facts);
     section(&mut page, "indicators", "Indicators", |page| {

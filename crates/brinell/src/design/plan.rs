@@ -1,9 +1,7 @@
 //! The plan file: keys, ranges, defaults, and what no single key can say.
 
 use super::template::Template;
-use crate::document::reading::{
-    Choice, Fallback, Finder, Keys, Reader, key, parse, stated, word_of,
-};
+use crate::document::reading::{Choice, Fallback, Finder, Keys, Reader, key, parse, stated, words};
 use crate::document::{Problem, Severity, locate};
 use std::collections::HashSet;
 
@@ -32,14 +30,6 @@ pub enum OutOfRange {
     Fail,
 }
 
-macro_rules! words {
-    ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
-        impl Choice for $type {
-            const WORDS: &'static [(&'static str, Self, &'static str)] = &[$(($word, $type::$variant, $meaning)),+];
-        }
-    };
-}
-
 words! { Design:
     Random = "random", "each run for itself";
     LatinHypercube = "latin-hypercube", "one run of a class in each slice";
@@ -55,7 +45,7 @@ words! { OutOfRange:
 impl Design {
     /// As the plan says it.
     pub fn word(self) -> &'static str {
-        word_of(self)
+        Choice::word(self)
     }
 }
 

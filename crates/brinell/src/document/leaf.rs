@@ -400,6 +400,12 @@ impl Leaf for Speed {
 pub(crate) trait Choice: Copy + PartialEq + 'static {
     /// Word, value, meaning; the first stands in where none could be read.
     const WORDS: &'static [(&'static str, Self, &'static str)];
+
+    /// Its word.
+    fn word(self) -> &'static str {
+        let own = Self::WORDS.iter().find(|(_, value, _)| *value == self);
+        own.unwrap_or(&Self::WORDS[0]).0
+    }
 }
 
 fn word_list<T: Choice>() -> String {
@@ -435,7 +441,7 @@ impl<T: Choice> Leaf for T {
     }
 
     fn write(&self) -> String {
-        quote(super::words::word_of(*self))
+        quote(self.word())
     }
 
     fn schema(_: &Spec) -> Json {

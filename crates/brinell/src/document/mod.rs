@@ -40,5 +40,5 @@ pub(crate) mod reading {
     pub(crate) use super::leaf::{Choice, Leaf, Misfit};
     pub(crate) use super::reader::Reader;
     pub(crate) use super::source::{Node, Value as Toml, key_text, parse, quote};
-    pub(crate) use super::words::word_of;
+    pub(crate) use super::words::words;
 }

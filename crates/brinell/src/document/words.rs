@@ -3,12 +3,7 @@
 use super::leaf::Choice;
 use crate::scenario::*;
 
-/// The word that a scenario file has for a value.
-pub(crate) fn word_of<T: Choice>(value: T) -> &'static str {
-    let known = T::WORDS.iter().find(|(_, known, _)| *known == value);
-    known.unwrap_or(&T::WORDS[0]).0
-}
-
+/// Gives a closed choice its words: value, word, meaning.
 macro_rules! words {
     ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
         impl Choice for $type {
@@ -17,6 +12,7 @@ macro_rules! words {
         }
     };
 }
+pub(crate) use words;
 
 words! { Guidance:
     OuterRing = "outer-ring", "a land on the outer ring";
@@ -134,13 +130,13 @@ impl From<Surface> for SurfaceWord {
 impl Surface {
     /// As the scenario file says it, without the roller's number: `outer-raceway`, `inner-raceway` or `roller`.
     pub fn word(self) -> &'static str {
-        word_of(SurfaceWord::from(self))
+        Choice::word(SurfaceWord::from(self))
     }
 }
 
 impl Accuracy {
     /// As the scenario file says it: `standard` or `reference`.
     pub fn word(self) -> &'static str {
-        word_of(self)
+        Choice::word(self)
     }
 }

@@ -2,7 +2,7 @@
 
 mod tell;
 
-use super::points::{FromPaper, Point, numbers, point};
+use super::points::{Point, numbers, point};
 use crate::campaign::{Ledger, Task};
 use crate::failure::Failure;
 use brinell::calibrate::{Settings, Unfit, fit, least_budget};
@@ -270,20 +270,5 @@ impl Sensitivity {
             })
         });
         all.collect()
-    }
-}
-
-/// Points whose signals nobody asks for: only their numbers are kept.
-pub(super) fn open<'a>(
-    tasks: impl Iterator<Item = &'a Task>,
-    work: &FromPaper,
-    ledger: &Ledger,
-    already: &mut Vec<Task>,
-) {
-    for task in tasks {
-        let known = already.iter().any(|t| t.fingerprint == task.fingerprint);
-        if !known && !work.is_done(task, ledger) {
-            already.push(task.clone());
-        }
     }
 }
