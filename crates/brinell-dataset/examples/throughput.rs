@@ -89,7 +89,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let one = |k: usize| Simulation::new(&scenarios[k]).map(|s| s.run(&mut Nobody).rows);
             times.push(timed(|| {
                 let mut failed = None;
-                many::each(runs, threads, one, |_, ran| failed = ran.err().or(failed.take()));
+                many::each(runs, threads, one, |_, ran| {
+                    failed = ran.err().or(failed.take())
+                });
                 failed.map_or(Ok(()), |error| Err(error.into()))
             })?);
         }
