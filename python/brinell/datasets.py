@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from brinell import _brinell, tables
-from brinell.scenario import Scenario
+from brinell.scenario import Scenario, ScenarioWarning
 
 if TYPE_CHECKING:
     import pandas
@@ -33,6 +33,11 @@ class Plan:
     ------
     ScenarioError
         With everything that is wrong with plan or base scenario, and the lines that it is about.
+
+    Warns
+    -----
+    ScenarioWarning
+        What its author should know: runs that would mislead, grids that come unequally often, a seed that gives held-out labels away.
 
     Examples
     --------
@@ -66,6 +71,8 @@ class Plan:
     def __init__(self, path: str | os.PathLike[str], *, check: bool = True) -> None:
         self.path = Path(path)
         self._native = _brinell.Campaign.open(self.path, check)
+        for text in self._native.warnings:
+            warnings.warn(text.removeprefix("warning: "), ScenarioWarning, stacklevel=2)
 
     @property
     def name(self) -> str:

@@ -20,7 +20,7 @@ PLAN = """
 name = "spalls"
 base = "base.toml"
 runs = {runs}
-seed = 5
+seed = 804613592207415
 design = "sobol"
 runs_per_file = {per_file}
 held_out = 0.25
@@ -110,6 +110,14 @@ def test_xval_bad_plans_are_told_as_the_command_tells_them(command, plan, tmp_pa
         brinell.Plan(path)
     done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
     assert done.returncode == 2 and str(caught.value) in done.stderr
+
+
+def test_regress_what_a_plans_author_should_know_is_a_warning(plan):
+    path = plan().path
+    path.write_text(path.read_text().replace("seed = 8046", "seed = 7 # "))
+    with pytest.warns(brinell.ScenarioWarning, match="seed = 7: whoever has the open runs"):
+        brinell.Plan(path)
+    brinell.Plan(path, check=False)
 
 
 def test_prop_ctrl_c_keeps_what_is_finished(plan, tmp_path):

@@ -307,7 +307,7 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
         ])
         .complains(&[
             "lubricant.viscosity_pa_s: 2 of 6 runs",
-            "failed: error: lubricant.viscosity_pa_s = -1.0: out of range",
+            "failed: lubricant.viscosity_pa_s = -1.0: out of range",
         ]);
     let all: Vec<Row> = (0..2)
         .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
@@ -485,7 +485,7 @@ fn regress_bad_input_is_told() {
             "\"outer\"",
             vec![
                 "defects.0.on = \"outer\": unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
-                "plan.toml:17:",
+                "plan.toml:18:",
             ],
         ),
         (

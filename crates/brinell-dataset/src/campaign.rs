@@ -164,6 +164,24 @@ impl Campaign {
         survey(self.draws(), &self.sources.base.text)
     }
 
+    /// What the plan's author should know, by what a survey found.
+    pub fn warnings(&self, survey: &Survey) -> Vec<String> {
+        let of_runs = survey.warnings.iter().map(|miss| {
+            format!(
+                "{}\n  (in {} of {} run{} looked at, the first of them run {})",
+                miss.problem,
+                miss.count,
+                survey.runs,
+                if survey.runs == 1 { "" } else { "s" },
+                miss.run
+            )
+        });
+        let notes = self.draws().notes().into_iter();
+        of_runs
+            .chain(notes.map(|note| format!("warning: {note}")))
+            .collect()
+    }
+
     /// That the plan may be run, by what a survey found.
     ///
     /// # Errors

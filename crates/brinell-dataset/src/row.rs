@@ -6,7 +6,7 @@ use crate::run::Listener;
 use crate::truth::{Instant, Truth};
 use brinell::campaign::digest;
 use brinell::defect::{Defect, Shape};
-use brinell::design::{Draw, Value};
+use brinell::design::{Draw, Value, unsaid};
 use brinell::document::{on_one_line, one_line};
 use brinell::scenario::{self, Scenario, Speed, Surface};
 use brinell::simulate::{End, Outcome, Simulation};
@@ -60,7 +60,7 @@ impl Draft {
     ) -> Result<(), Short> {
         let (loaded, draw) = campaign.try_scenario(run).map_err(|(problems, draw)| {
             self.draw = draw;
-            Short::Failed(on_one_line(&problems))
+            Short::Failed(unsaid(&on_one_line(&problems)))
         })?;
         self.draw = Some(draw);
         let (scenario, cells) = (&loaded.scenario, &mut self.cells);

@@ -33,10 +33,8 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         entry
     });
     let varies = |key: &str| {
-        draws
-            .parameters()
-            .iter()
-            .any(|p| p.key == key || p.key.starts_with(&format!("{key}.")))
+        let mut drawn = draws.parameters().iter();
+        drawn.any(|p| p.key == key || p.key.starts_with(&format!("{key}."))) || draws.is_seed(key)
     };
     let rate = &first.scenario.simulation.sample_rate_hz;
     let keys = first.provenance.iter().filter(|p| {
@@ -67,8 +65,8 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         "frame": "planar; x right, y up, angles counter-clockwise from +x, origin at the bearing's centre; rows, rollers and defects count from 1",
         "columns": columns.collect::<Vec<_>>(),
         "geometry": {
-            "meaning": "every key of the first run; the keys that vary have null here and a column of their own, and what derives from them differs from \
-                        run to run: the column `scenario` has every run's",
+            "meaning": "every key of the first run; the keys that vary have null here and a column of their own (seeds have none), and what derives from \
+                        them differs from run to run: the column `scenario` has every run's",
             "keys": keys.map(|p| key(p, varies(&p.key))).collect::<Vec<_>>(),
         },
         "held_out": plan.holds_out(),

@@ -27,9 +27,9 @@ fn failed(py: Python, error: DatasetError) -> PyErr {
     }
 }
 
-/// A plan with its base scenario.
+/// A plan with its base scenario, and what its author should know.
 #[pyclass(frozen, module = "brinell._brinell", name = "Campaign")]
-pub(crate) struct Campaign(dataset::Campaign);
+pub(crate) struct Campaign(dataset::Campaign, Vec<String>);
 
 /// What the threads of a data set and the thread that waits for them share.
 #[derive(Default)]
@@ -67,12 +67,21 @@ impl Campaign {
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
         py.detach(|| {
             let campaign = dataset::Campaign::open(&path)?;
+            let mut warnings = Vec::new();
             if check {
-                campaign.sound(&campaign.survey())?;
+                let survey = campaign.survey();
+                campaign.sound(&survey)?;
+                warnings = campaign.warnings(&survey);
             }
-            Ok(Self(campaign))
+            Ok(Self(campaign, warnings))
         })
         .map_err(|error| failed(py, error))
+    }
+
+    /// What its author should know, where runs were tried.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.1.clone()
     }
 
     /// Name of the data set.

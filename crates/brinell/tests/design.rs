@@ -111,6 +111,9 @@ fn prop_a_sensors_noise_is_another_in_every_run() {
     assert_eq!(seeds(&format!("{noisy}noise_seed = 4\n"), PLAN).len(), 60);
     let fixed = PLAN.replace("[vary]", "[vary]\nsensor.noise_seed = 9");
     assert_eq!(seeds(&noisy, &fixed), [9]);
+    let [own, set] = [PLAN, &*fixed].map(|plan| draws(plan).is_seed("sensor.noise_seed"));
+    assert!(own && !set && draws(PLAN).is_seed("defects.0.shape.random.seed"));
+    assert!(!draws(PLAN).is_seed("defects.0.shape.random.length_mm"));
     // Without noise there is nothing to seed.
     assert_eq!(seeds(&format!("{BASE}[sensor]\n"), PLAN).len(), 1);
 }

@@ -4,6 +4,7 @@ use super::distribution::{Distribution, KINDS, Value};
 use super::plan::{Design, OutOfRange, Plan};
 use super::sequence::{Sequence, Sobol};
 use super::stream::{bits, seed, unit, word};
+use super::turns::{APART, Place, places};
 use crate::document::reading::{Node, Toml, parse, quote};
 use crate::document::{Loaded, Problem, read};
 
@@ -74,17 +75,6 @@ struct Drawn {
     /// Settings of all grids together.
     combinations: usize,
 }
-
-/// Where a run stands in its plan.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    class: u32,
-    /// Its number among the runs of its class that the design spreads; [`APART`] where its labels are held out.
-    number: u32,
-}
-
-/// No place in the design.
-const APART: u32 = u32::MAX;
 
 /// The runs of a plan.
 pub struct Draws {
@@ -314,24 +304,38 @@ impl Draws {
         run: usize,
     ) -> Result<Vec<(String, String)>, Vec<Problem>> {
         let root = Node::table(parse(base, settings)?);
-        let class = &self.plan.classes[self.class(run)];
         let mut seeds = Vec::new();
         for Seeded { table, name, with } in &SEEDED_PER_RUN {
             let mut holders = Vec::new();
             holding(&root, table, with, "", &mut holders);
             for holder in holders {
                 let key = format!("{holder}.{name}");
-                let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
-                let set = self.plan.vary.sets(&key)
-                    || class.vary.sets(&key)
-                    || in_class.is_some_and(|(rest, defects)| defects.sets(rest));
-                if !set {
+                if !self.sets(self.class(run), &key) {
                     let own = seed(bits(&[self.plan.seed, run as u64, word(&key)]));
                     seeds.push((key, own.to_string()));
                 }
             }
         }
         Ok(seeds)
+    }
+
+    /// Whether the plan sets a key in a class.
+    fn sets(&self, class: usize, key: &str) -> bool {
+        let class = &self.plan.classes[class];
+        let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
+        self.plan.vary.sets(key)
+            || class.vary.sets(key)
+            || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
+    }
+
+    /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
+    pub fn is_seed(&self, key: &str) -> bool {
+        let is = |seeded: &Seeded| {
+            let (pattern, words) = (seeded.table.split('.').chain([seeded.name]), key.split('.'));
+            pattern.clone().count() == words.clone().count()
+                && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
+        };
+        SEEDED_PER_RUN.iter().any(is) && (0..self.classes.len()).any(|c| !self.sets(c, key))
     }
 
     /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says so.
@@ -378,52 +382,6 @@ fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
         Some(_) => problem,
     };
     problems.into_iter().map(hinted).collect()
-}
-
-/// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
-/// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
-///
-/// A run whose labels are held out draws its class, and takes no turn: neither its own place nor the gaps between the others tell what it is.
-fn places(plan: &Plan) -> Vec<Place> {
-    let total: f64 = plan.classes.iter().map(|class| class.share).sum();
-    let mut counts = vec![0_u32; plan.classes.len()];
-    let mut open = 0;
-    (0..plan.runs as u64)
-        .map(|run| {
-            let draw = |what: &str| unit(bits(&[plan.seed, word(what), run]));
-            if draw("held_out") < plan.held_out {
-                return Place {
-                    class: drawn_class(plan, draw("class") * total),
-                    number: APART,
-                };
-            }
-            open += 1;
-            let behind =
-                |c: usize| plan.classes[c].share / total * f64::from(open) - f64::from(counts[c]);
-            let next = (0..counts.len())
-                .fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
-            counts[next] += 1;
-            Place {
-                class: next as u32,
-                number: counts[next] - 1,
-            }
-        })
-        .collect()
-}
-
-/// The class at `place` of all shares laid end to end.
-fn drawn_class(plan: &Plan, mut place: f64) -> u32 {
-    let mut last = 0;
-    for (c, class) in plan.classes.iter().enumerate() {
-        if class.share > 0.0 {
-            last = c as u32;
-            if place < class.share {
-                break;
-            }
-        }
-        place -= class.share;
-    }
-    last
 }
 
 /// The parameter of that key, made where there is none yet.

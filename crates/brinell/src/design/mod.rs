@@ -11,6 +11,7 @@ mod sequence;
 mod stream;
 mod survey;
 mod template;
+mod turns;
 
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
