@@ -293,7 +293,7 @@ fn prop_a_row_in_pieces_is_run_again() {
 
 #[test]
 fn prop_a_failed_run_is_a_row_with_its_reason() {
-    // A damping that no step is short enough for, in one run of three.
+    // Values that make no scenario, in two runs of six.
     let plan = PLAN.replace("runs = 7", "runs = 6").replace(
         "[vary]",
         "out_of_range = \"fail\"\n[vary]\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0, 0.02] }",
@@ -306,7 +306,7 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
             "6 runs in",
         ])
         .complains(&[
-            "lubricant.viscosity_pa_s: 2 of 6 runs",
+            "2 of 6 runs, such as run 2: lubricant.viscosity_pa_s = -1.0: out of range; allowed: >= 0 Pa s",
             "failed: lubricant.viscosity_pa_s = -1.0: out of range",
         ]);
     let all: Vec<Row> = (0..2)
@@ -329,6 +329,20 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
     brinell(folder.path(), &["dataset", "verify", "out"])
         .exits(0)
         .says(&["6 runs with 2 failed"]);
+    // A scenario that is sound, and has nothing to start from.
+    let loose = "[vary]\nsimulation.start = \"equilibrium\"\nsupport.inner_stiffness_n_per_m = 0.0\nsupport.outer_stiffness_n_per_m = 0.0";
+    let folder = folder_with(
+        &PLAN
+            .replace("[vary]", loose)
+            .replace("runs = 7", "runs = 2"),
+    );
+    make(folder.path(), &["-o", "out"]).exits(0);
+    for row in rows(&folder.path().join("out/runs/part-00000.parquet")) {
+        assert_eq!(text(&row, "status").as_deref(), Some("failed"));
+        let reason = text(&row, "reason").unwrap();
+        assert!(reason.contains("no static balance") && !reason.contains('\n'));
+        assert!(text(&row, "scenario").is_some() && list(&row, "measured_ax").is_none());
+    }
 }
 
 #[test]
