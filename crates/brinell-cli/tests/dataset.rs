@@ -330,19 +330,21 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
         .exits(0)
         .says(&["6 runs with 2 failed"]);
     // A scenario that is sound, and has nothing to start from.
-    let loose = "[vary]\nsimulation.start = \"equilibrium\"\nsupport.inner_stiffness_n_per_m = 0.0\nsupport.outer_stiffness_n_per_m = 0.0";
-    let folder = folder_with(
-        &PLAN
-            .replace("[vary]", loose)
-            .replace("runs = 7", "runs = 2"),
-    );
+    let loose = "vary.simulation.start = \"equilibrium\"\nvary.support = { inner_stiffness_n_per_m = 0.0, outer_stiffness_n_per_m = 0.0 }";
+    let plan = PLAN.replace("name = \"outer\"", &format!("name = \"outer\"\n{loose}"));
+    let folder = folder_with(&plan.replace("runs = 7", "runs = 2"));
     make(folder.path(), &["-o", "out"]).exits(0);
-    for row in rows(&folder.path().join("out/runs/part-00000.parquet")) {
-        assert_eq!(text(&row, "status").as_deref(), Some("failed"));
-        let reason = text(&row, "reason").unwrap();
-        assert!(reason.contains("no static balance") && !reason.contains('\n'));
-        assert!(text(&row, "scenario").is_some() && list(&row, "measured_ax").is_none());
-    }
+    let row = &rows(&folder.path().join("out/runs/part-00000.parquet"))[1];
+    assert_eq!(text(row, "status").as_deref(), Some("failed"));
+    let reason = text(row, "reason").unwrap();
+    assert!(reason.contains("no static balance") && !reason.contains('\n'));
+    assert!(text(row, "scenario").is_some() && list(row, "measured_ax").is_none());
+    // Nothing to start from in any run.
+    let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
+    let folder = folder_with(&plan);
+    make(folder.path(), &["-o", "out"])
+        .exits(2)
+        .complains(&["none of the first runs can begin; run 0: start = \"equilibrium\": no static balance"]);
 }
 
 #[test]

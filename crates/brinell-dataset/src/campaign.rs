@@ -224,8 +224,9 @@ impl Sources {
         let (mut first, mut failure, mut signals) = (None, None, Vec::new());
         let (mut known, mut seen) = (HashSet::new(), HashSet::new());
         let mut idle: Option<HashSet<String>> = None;
+        let mut unable = None;
         // Where none of these makes a scenario, some later one may.
-        let further = runs.len()..ASKED.min(draws.runs()).max(runs.len());
+        let further = asked..ASKED.min(draws.runs());
         let asked = runs.len();
         for (k, run) in runs.into_iter().chain(further).enumerate() {
             if k >= asked && first.is_some() {
@@ -241,25 +242,36 @@ impl Sources {
             if seen.insert(draws.class(run)) {
                 meaning.push(fingerprint(&loaded.scenario));
             }
-            if let Ok(simulation) = Simulation::new(&loaded.scenario) {
-                let these = simulation.idle_patterns().iter().cloned();
-                idle = Some(match idle {
-                    None => these.collect(),
-                    Some(idle) => these.filter(|pattern| idle.contains(pattern)).collect(),
-                });
-                for channel in simulation.channels() {
-                    if known.insert(channel.name.clone()) {
-                        signals.push(Column::new(
-                            &channel.name,
-                            channel.unit,
-                            &channel.description,
-                        ));
-                    }
+            let simulation = match Simulation::new(&loaded.scenario) {
+                Ok(simulation) => simulation,
+                Err(error) => {
+                    unable.get_or_insert((run, error));
+                    continue;
+                }
+            };
+            let these = simulation.idle_patterns().iter().cloned();
+            idle = Some(match idle {
+                None => these.collect(),
+                Some(idle) => these.filter(|pattern| idle.contains(pattern)).collect(),
+            });
+            for channel in simulation.channels() {
+                if known.insert(channel.name.clone()) {
+                    signals.push(Column::new(
+                        &channel.name,
+                        channel.unit,
+                        &channel.description,
+                    ));
                 }
             }
             first.get_or_insert(loaded);
         }
         let Some(first) = first else {
+            if let Some((run, error)) = unable {
+                return Err(DatasetError::Refused(format!(
+                    "{}: none of the first runs can begin; run {run}: {error}",
+                    self.plan.path.display()
+                )));
+            }
             // Said of all runs, where that can be: which keys, and of how many runs.
             let survey = survey(draws, &self.base.text);
             refused(draws, &self.plan, &survey)?;

@@ -155,9 +155,9 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     for (part, told) in labels.into_iter().enumerate().filter(|_| are_here) {
         let (path, name) = (folder.held_out(part), file_name(part));
         if !path.exists() {
-            found
-                .problems
-                .push(format!("held_out/{name} is missing, and others are here"));
+            found.problems.push(format!(
+                "held_out/{name} is missing, and others are here: remove runs/{name} as well, and both are made again"
+            ));
         } else if Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str() {
             found.problems.push(format!(
                 "held_out/{name}: its checksum is another than when it was written"

@@ -165,7 +165,7 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     }
     if !found.problems.is_empty() {
         complain!(
-            "what is missing or was removed, the plan's own command makes again, with the same bytes"
+            "remove what is damaged: the plan's own command makes again what is missing, with the same bytes"
         );
     }
     Ok(match found.problems.is_empty() {
