@@ -237,7 +237,7 @@ def test_prop_examples_of_the_book_run(plan, tmp_path, monkeypatch):
     program = blocks("docs/src/cluster.md")
     address = '"tcp://10.0.0.1:8786"'
     assert program.count(address) == 1
-    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "host": "127.0.0.1", "dashboard_address": None}
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": True, "host": "127.0.0.1", "dashboard_address": None}
     with distributed.LocalCluster(**options) as cluster:
         exec(compile(program.replace(address, repr(cluster.scheduler_address)), "cluster.md", "exec"), {})
     assert brinell.DataSet("data").verify() == []
