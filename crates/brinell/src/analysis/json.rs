@@ -21,6 +21,15 @@ pub fn to_json(
             "level": analysis.options.level,
         },
         "findings": analysis.findings.iter().map(|f| finding(analysis, f)).collect::<Vec<_>>(),
+        "beyond_tolerance": analysis.beyond.as_ref().map(|b| json!({
+            "component": b.component.key(),
+            "name": b.name,
+            "expected_hz": b.expected,
+            "found_hz": b.evidence.frequency,
+            "false_alarm": b.false_alarm,
+            "shaft_hz_if_its": b.shaft,
+            "harmonics": b.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
+        })),
         "searched": candidates(analysis.shaft, &analysis.options).iter().enumerate().map(|(i, (component, name, c))| {
             let best = analysis.views.iter().map(|v| v.diagnosis.evidence[i].false_alarm).fold(1.0, f64::min);
             json!({

@@ -29,6 +29,7 @@
 //! ```
 
 mod bands;
+mod beyond;
 mod compare;
 mod error;
 mod frequencies;
@@ -39,6 +40,7 @@ mod verdict;
 mod view;
 
 pub use bands::{BandChoice, ChosenBand};
+pub use beyond::Beyond;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
@@ -120,6 +122,8 @@ pub struct Analysis {
     pub best: usize,
     /// What stands out, the strongest first; empty where nothing does.
     pub findings: Vec<Finding>,
+    /// Where no damage is called: lines farther from a defect frequency than the tolerance, if any stand.
+    pub beyond: Option<Beyond>,
 }
 
 impl Analysis {
@@ -178,6 +182,10 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     // Half the main lobe of a Hann window over the whole record.
     let resolution = 2.0 * fs / x.len() as f64;
     let (findings, best) = verdict::find(&views, shaft, resolution, options)?;
+    let beyond = match findings.iter().any(Finding::is_cause) {
+        true => None,
+        false => beyond::find(&views, shaft, options)?,
+    };
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,
@@ -192,6 +200,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         views,
         best,
         findings,
+        beyond,
     })
 }
 

@@ -1,10 +1,8 @@
 //! From what stands in the envelope spectra to findings, and to words.
 
-use super::Analysis;
-use super::AnalysisError;
-use super::Options;
 use super::frequencies::Component;
 use super::view::{View, candidates, looking};
+use super::{Analysis, AnalysisError, Beyond, Options};
 use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose, without};
 
 /// A line stands where noise would show as much less often than this.
@@ -298,10 +296,7 @@ fn finding(
     expected: f64,
 ) -> Finding {
     let evidence = from.evidence.clone();
-    let power: f64 = (evidence.harmonics.standing(LINE_LEVEL))
-        .map(|l| l.amplitude * l.amplitude)
-        .sum();
-    let modulation = power.sqrt() / views[from.view].mean.max(f64::MIN_POSITIVE);
+    let modulation = evidence.modulation() / views[from.view].mean.max(f64::MIN_POSITIVE);
     let names: Vec<&str> = options.orders.strikes().map(|s| s.1).collect();
     Finding {
         component,
@@ -384,7 +379,26 @@ pub(super) fn words(analysis: &Analysis) -> String {
             other.evidence.frequency
         ));
     }
+    if let Some(beyond) = &analysis.beyond {
+        text.push(doubt(analysis, beyond));
+    }
     text.join(" ")
+}
+
+/// What stands beyond the tolerance, and what would make sense of it.
+fn doubt(analysis: &Analysis, beyond: &Beyond) -> String {
+    let orders: Vec<String> = beyond.standing().map(|o| o.to_string()).collect();
+    format!(
+        "But lines stand at {:.2} Hz and its multiples ({}), {:+.1} % from {}, beyond the tolerance of {} %: is the speed right? At {:.0} r/min \
+         they would be the {}'s.",
+        beyond.evidence.frequency,
+        orders.join(", "),
+        100.0 * beyond.distance(),
+        beyond.name,
+        100.0 * analysis.options.tolerance,
+        60.0 * beyond.shaft,
+        beyond.component.words(),
+    )
 }
 
 fn told(analysis: &Analysis, finding: &Finding) -> String {

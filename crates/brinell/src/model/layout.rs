@@ -5,8 +5,7 @@
 //! slot, then (x, y, theta) of each cage, then (x, y) of the inner and of the outer ring. Roller j of row i (both from 0)
 //! has slot j N_r + i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
 
-/// Slots are padded to a multiple of this many.
-pub const LANES: usize = crate::lanes::WIDTH;
+use crate::lanes::WIDTH;
 
 /// Index arithmetic of the state vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +24,7 @@ impl Layout {
         Self {
             rows,
             rollers_per_row,
-            slots: (rows * rollers_per_row).next_multiple_of(LANES),
+            slots: (rows * rollers_per_row).next_multiple_of(WIDTH),
         }
     }
 
@@ -51,9 +50,9 @@ impl Layout {
 
     /// Slots after which the pattern of rows over groups of lanes repeats.
     pub fn row_period(&self) -> usize {
-        let mut period = LANES;
+        let mut period = WIDTH;
         while !period.is_multiple_of(self.rows) {
-            period += LANES;
+            period += WIDTH;
         }
         period
     }
@@ -62,7 +61,7 @@ impl Layout {
     ///
     /// Padded to a multiple of eight, so that the rates stand on cache lines if the positions do; the last few are inert.
     pub fn dof(&self) -> usize {
-        (self.outer() + 2).next_multiple_of(LANES)
+        (self.outer() + 2).next_multiple_of(WIDTH)
     }
 
     /// First r.

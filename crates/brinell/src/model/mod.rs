@@ -14,7 +14,7 @@ mod workspace;
 
 pub use energy::{Energy, Power};
 pub use exposure::Exposure;
-pub use layout::{LANES, Layout};
+pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
 pub use workspace::{Kernel, Workspace};

@@ -158,6 +158,12 @@ impl Evidence {
             .sum()
     }
 
+    /// Amplitude of one line with the power of its standing harmonics: over the envelope's mean, the depth of modulation.
+    pub fn modulation(&self) -> f64 {
+        let standing = self.harmonics.standing(LINE_LEVEL);
+        standing.map(|l| l.amplitude.powi(2)).sum::<f64>().sqrt()
+    }
+
     fn lines(&self) -> impl Iterator<Item = &Line> {
         let sidebands = self.sidebands.iter().flat_map(|s| &s.lines);
         self.harmonics.lines.iter().chain(sidebands)

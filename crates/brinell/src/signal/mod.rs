@@ -40,7 +40,7 @@ pub mod whiten;
 pub mod window;
 
 #[cfg(test)]
-mod test_signals;
+pub(crate) mod test_signals;
 
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
 pub use diagnosis::{

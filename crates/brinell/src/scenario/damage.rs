@@ -1,0 +1,279 @@
+//! `[[defects]]`: where damage lies and what shape it has.
+
+/// Where a defect lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surface {
+    /// Outer raceway: fixed in space.
+    OuterRaceway,
+    /// Inner raceway: turns with the ring.
+    InnerRaceway,
+    /// One roller of the row, counted from 1.
+    Roller(usize),
+}
+
+/// Outline and floor of a defect. Length runs along the rolling direction, width along the axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// L_s = width for |s| <= length / 2.
+    Rectangle {
+        /// Along the rolling direction, mm.
+        length_mm: f64,
+        /// Along the axis, mm.
+        width_mm: f64,
+    },
+    /// L_s = 2 sqrt(a^2 - s^2).
+    Circle {
+        /// 2 a, mm.
+        diameter_mm: f64,
+    },
+    /// Linear between points; where the arc repeats, it jumps.
+    Profile {
+        /// s, mm, never decreasing.
+        arc_mm: Vec<f64>,
+        /// L_s at each s, mm.
+        width_mm: Vec<f64>,
+        /// h_s at each s, um; left out: the defect's depth.
+        depth_um: Option<Vec<f64>>,
+    },
+    /// The paper's Eq. (27), made whole.
+    Li2023Irregular {
+        /// Largest L_s, mm (4 in the paper).
+        max_width_mm: f64,
+    },
+    /// Seen from above: the inside of closed polygons, each closing on its first point. The even-odd rule makes holes.
+    Outline {
+        /// Points (s, z) of each polygon, mm, from the defect's centre: s along the rolling direction, z along the axis.
+        polygons_mm: Vec<Vec<[f64; 2]>>,
+    },
+    /// Depths on a grid, a profilometer's scan for one; the defect's own depth is not used.
+    DepthMap {
+        /// The scan.
+        grid: DepthGrid,
+    },
+    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area asked for.
+    Grown {
+        /// Polygons as in [`Shape::Outline`], mm.
+        outline: Vec<Vec<[f64; 2]>>,
+        /// Largest L_s wanted, mm. Either this or the area is given.
+        max_width_mm: Option<f64>,
+        /// Area wanted, mm^2.
+        area_mm2: Option<f64>,
+    },
+    /// A ragged spall drawn from a seed, the same on every machine; the mean of its depths is the defect's depth.
+    Random {
+        /// Which one.
+        seed: u64,
+        /// Extent along the rolling direction, mm.
+        length_mm: f64,
+        /// Extent along the axis, mm.
+        width_mm: f64,
+        /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets.
+        roughness: f64,
+    },
+    /// A photo or a mask, not read yet: the core opens no files. `brinell-damage` puts an outline in its place.
+    Image(ImageFile),
+    /// A drawing, not read yet; becomes an outline.
+    Svg(SvgFile),
+    /// A profilometer's file, not read yet; becomes a depth map.
+    Scan(ScanFile),
+}
+
+impl Shape {
+    /// The file that this shape is still to be read from.
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Image(image) => Some(&image.file),
+            Self::Svg(drawing) => Some(&drawing.file),
+            Self::Scan(scan) => Some(&scan.file),
+            _ => None,
+        }
+    }
+}
+
+/// Where the roller passes to, in a picture as it is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RollingDirection {
+    /// To the right.
+    Right,
+    /// Upwards.
+    Up,
+    /// To the left.
+    Left,
+    /// Downwards.
+    Down,
+}
+
+/// How an outline runs between the pixels of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImageEdges {
+    /// Where the brightness crosses the threshold: photos.
+    SubPixel,
+    /// Along pixel edges: masks drawn pixel by pixel.
+    PixelEdges,
+}
+
+/// `image`: damage in a PNG or JPEG.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// The side of a pixel, mm.
+    pub mm_per_pixel: f64,
+    /// Brightness (0 to 1) below which is damage; `None`: the level that divides the picture best.
+    pub threshold: Option<f64>,
+    /// The alpha channel is the mask.
+    pub use_alpha: bool,
+    /// Lighter, or more transparent, is damage.
+    pub invert: bool,
+    /// Where the roller passes to.
+    pub rolling_direction: RollingDirection,
+    /// Puts the damage's bounding box at the defect's centre; else the image's middle.
+    pub center: bool,
+    /// How outlines run.
+    pub edges: ImageEdges,
+    /// Standard deviation of the blur before, pixels; none along pixel edges.
+    pub blur_px: Option<f64>,
+    /// Spots and holes smaller than this are dropped, mm^2.
+    pub speck_mm2: f64,
+}
+
+/// `svg`: damage drawn in a vector editor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SvgFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// One path, shape or group of the drawing; `None`: all of it.
+    pub path_id: Option<String>,
+    /// Scale; `None`: the drawing's own.
+    pub mm_per_unit: Option<f64>,
+    /// How far polygons may stray from curves, mm.
+    pub tolerance_mm: f64,
+    /// Puts the damage's bounding box at the defect's centre; else the page's middle.
+    pub center: bool,
+}
+
+/// What the numbers of a scan count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanUnit {
+    /// Micrometres.
+    Um,
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
+    /// Whole numbers of a PNG or an array, `nm_per_count` each.
+    Counts,
+}
+
+/// What to do about points that a scan lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanFill {
+    /// Refuse them.
+    None,
+    /// Join their neighbours.
+    Neighbours,
+}
+
+/// The raceway's own form under a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanForm {
+    /// Stays.
+    None,
+    /// A tilted plane, taken off.
+    Plane,
+    /// A tilted cylinder, taken off.
+    Cylinder,
+}
+
+/// What counts as depth 0 of a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScanZero {
+    /// The median of the rim.
+    RimMedian,
+    /// The scan's own zero.
+    AsIs,
+    /// The depth that `zero_percentile` of the points do not exceed.
+    Percentile,
+}
+
+/// Where a scan's first row lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FirstRow {
+    /// On top, as in print.
+    Top,
+    /// At the bottom, rows counting upwards.
+    Bottom,
+}
+
+/// `depth_map` with `file`: heights in CSV, NPY or 16-bit PNG.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScanFile {
+    /// Path, from the scenario's folder.
+    pub file: String,
+    /// From point to point along the rolling direction, mm.
+    pub ds_mm: f64,
+    /// From point to point along the axis, mm.
+    pub dz_mm: f64,
+    /// What the numbers count.
+    pub unit: ScanUnit,
+    /// nm, where `unit` is `Counts`.
+    pub nm_per_count: Option<f64>,
+    /// Heights out of the material; else depths into it.
+    pub height_positive_up: bool,
+    /// A number that marks missing points, beside empty cells and NaN.
+    pub missing: Option<f64>,
+    /// What to do about them.
+    pub fill: ScanFill,
+    /// The form to take off.
+    pub remove_form: ScanForm,
+    /// The cylinder's radius where known, mm.
+    pub radius_mm: Option<f64>,
+    /// Depth 0.
+    pub zero: ScanZero,
+    /// Percent, where `zero` is `Percentile`.
+    pub zero_percentile: Option<f64>,
+    /// First row of the file.
+    pub first_row: FirstRow,
+    /// Where the roller passes to.
+    pub rolling_direction: RollingDirection,
+    /// Shallower than this is undamaged, um.
+    pub threshold_um: f64,
+    /// Spots smaller than this are noise, mm^2.
+    pub speck_mm2: f64,
+    /// Puts the damage's bounding box at the defect's centre; else the scan's middle.
+    pub center: bool,
+}
+
+/// Depths at the nodes of a rectangular grid, bilinear between them, 0 beyond its border.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthGrid {
+    /// s of the first column, mm.
+    pub s0_mm: f64,
+    /// z of the first row, mm.
+    pub z0_mm: f64,
+    /// Distance of columns, mm.
+    pub ds_mm: f64,
+    /// Distance of rows, mm.
+    pub dz_mm: f64,
+    /// Nodes along s.
+    pub columns: usize,
+    /// Nodes along z.
+    pub rows: usize,
+    /// `depth_um[row * columns + column]` at (s0 + column ds, z0 + row dz), um; 0 is undamaged, negative a raised edge.
+    pub depth_um: Vec<f64>,
+}
+
+/// One `[[defects]]` entry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Defect {
+    /// Damaged surface.
+    pub on: Surface,
+    /// Row, from 1.
+    pub row: usize,
+    /// psi, degrees.
+    pub center_deg: f64,
+    /// h, um; the depths of a profile or a depth map override it.
+    pub depth_um: f64,
+    /// Outline.
+    pub shape: Shape,
+}

@@ -1,0 +1,268 @@
+//! The resolved scenario: every key of the file, with every default filled in.
+//!
+//! Fields carry the file's names and units; [`crate::model`] converts to SI once. A value here has passed the
+//! range checks of the reader, but a scenario built in code has not: [`crate::model::Model::new`] checks again what
+//! it cannot work with.
+
+mod damage;
+mod sensor;
+
+pub use damage::{
+    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, RollingDirection, ScanFile, ScanFill,
+    ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
+};
+pub use sensor::{NoiseColour, PathMode, Range, Sensor};
+
+/// One run, completely described.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Name of the run, free text.
+    pub name: String,
+    /// Geometry and masses of the bearing.
+    pub bearing: Bearing,
+    /// Cage geometry, mass and contact.
+    pub cage: Cage,
+    /// Roller-raceway normal contact.
+    pub contact: Contact,
+    /// Roller-raceway friction.
+    pub friction: Friction,
+    /// Oil.
+    pub lubricant: Lubricant,
+    /// Supports of the two rings.
+    pub support: Support,
+    /// Speed, load and gravity.
+    pub operation: Operation,
+    /// Damage, none or any number.
+    pub defects: Vec<Defect>,
+    /// From the ring to the record.
+    pub sensor: Sensor,
+    /// What to compute and to record.
+    pub simulation: Simulation,
+}
+
+/// `[bearing]`: geometry and masses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bearing {
+    /// Catalogue name that filled the keys not given, if any.
+    pub preset: Option<String>,
+    /// D_i, mm.
+    pub inner_raceway_diameter_mm: f64,
+    /// D_o, mm.
+    pub outer_raceway_diameter_mm: f64,
+    /// D_m, mm.
+    pub pitch_diameter_mm: f64,
+    /// d, mm.
+    pub roller_diameter_mm: f64,
+    /// L, effective contact length, mm.
+    pub roller_length_mm: f64,
+    /// Z, rollers in each row.
+    pub rollers_per_row: usize,
+    /// N_r, rows.
+    pub rows: usize,
+    /// Angle by which row i lags row i - 1, degrees.
+    pub row_stagger_deg: f64,
+    /// C_r, radial gap on one side (half of ISO 5753's diametral value), um; negative is preload.
+    pub radial_clearance_um: f64,
+    /// Gap subtracted at the outer contact too, um.
+    pub outer_gap_um: f64,
+    /// m_i, kg.
+    pub inner_ring_mass_kg: f64,
+    /// m_o, kg.
+    pub outer_ring_mass_kg: f64,
+    /// m, kg.
+    pub roller_mass_kg: f64,
+}
+
+/// What centres the cage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Guidance {
+    /// Land on the outer ring (the paper).
+    OuterRing,
+    /// Land on the inner ring.
+    InnerRing,
+    /// No land: the rollers carry the cage.
+    Rollers,
+}
+
+/// `[cage]`: one cage for each row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cage {
+    /// m_c, kg.
+    pub mass_kg: f64,
+    /// 2 a, mm.
+    pub inner_diameter_mm: f64,
+    /// 2 b, mm.
+    pub outer_diameter_mm: f64,
+    /// C_p to each side, mm.
+    pub pocket_clearance_mm: f64,
+    /// Guiding ring.
+    pub guidance: Guidance,
+    /// C_g, radial, mm.
+    pub guide_clearance_mm: f64,
+    /// L_1, mm.
+    pub guide_width_mm: f64,
+    /// k_c, N/m, of pockets and land.
+    pub contact_stiffness_n_per_m: f64,
+    /// c_c, N s/m, of pockets.
+    pub contact_damping_ns_per_m: f64,
+}
+
+/// Law of a roller on a damaged raceway.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Law {
+    /// Effective contact length (the paper, made continuous).
+    Ecl,
+    /// Independent slices across the roller, each at its own depth (in the manner of ISO/TS 16281).
+    Sliced,
+}
+
+/// How a roller follows the damage's floor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RollerPath {
+    /// The depth under the contact line (the paper).
+    Point,
+    /// The depth that a roller of finite radius can reach.
+    Envelope,
+}
+
+/// `edge_reaction`: whether the damage's slopes push the rollers along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeReaction {
+    /// No (the paper); the energy audit carries the parametric work.
+    None,
+    /// The generalised force -dE/du on what turns; only with `sliced` and `envelope`.
+    Conservative,
+}
+
+/// `[contact]`: normal contact of rollers and raceways.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Law of a damaged contact.
+    pub law: Law,
+    /// Path of the roller through damage.
+    pub roller_path: RollerPath,
+    /// Slices across the roller; `ecl` does not use them.
+    pub slices: usize,
+    /// Tangential push of the damage's slopes.
+    pub edge_reaction: EdgeReaction,
+    /// n.
+    pub exponent: f64,
+    /// K_in of a healthy contact, N/m^n.
+    pub inner_stiffness: f64,
+    /// K_out of a healthy contact, N/m^n.
+    pub outer_stiffness: f64,
+    /// c, N s/m.
+    pub damping_ns_per_m: f64,
+}
+
+/// `[friction]`: rollers on raceways.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Friction {
+    /// mu.
+    pub raceway_coefficient: f64,
+    /// v_s, m/s.
+    pub slip_velocity_m_per_s: f64,
+}
+
+/// `[lubricant]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lubricant {
+    /// eta, Pa s, of the guidance film.
+    pub viscosity_pa_s: f64,
+    /// C_d of a roller.
+    pub drag_coefficient: f64,
+    /// rho_f of the oil-air mixture, kg/m^3.
+    pub effective_density_kg_per_m3: f64,
+}
+
+/// `[support]`: isotropic springs and dampers of the rings to ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Support {
+    /// k_i, N/m.
+    pub inner_stiffness_n_per_m: f64,
+    /// c_i, N s/m.
+    pub inner_damping_ns_per_m: f64,
+    /// k_o, N/m.
+    pub outer_stiffness_n_per_m: f64,
+    /// c_o, N s/m.
+    pub outer_damping_ns_per_m: f64,
+}
+
+/// `speed_rpm`: a number, or points (t in s, r/min) joined by lines and held beyond both ends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Speed {
+    /// Constant, r/min.
+    Constant(f64),
+    /// Points (t_s, rpm), t strictly increasing.
+    Profile(Vec<[f64; 2]>),
+}
+
+/// The ring that the load acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadOn {
+    /// -F on the outer ring (the paper's rig).
+    OuterRing,
+    /// +F on the inner ring.
+    InnerRing,
+}
+
+/// `[operation]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operation {
+    /// Speed of the inner ring, counter-clockwise positive.
+    pub speed_rpm: Speed,
+    /// F, N: from the bearing centre to the middle of the load zone.
+    pub load_n: [f64; 2],
+    /// Which ring carries it.
+    pub load_on: LoadOn,
+    /// Time over which the load rises linearly, s; 0 is at once.
+    pub load_ramp_s: f64,
+    /// g, m/s^2.
+    pub gravity_m_per_s2: [f64; 2],
+}
+
+/// Which equations are integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelKind {
+    /// Every part a moving body.
+    Full,
+    /// The lumped model that the paper compares against.
+    Reference,
+}
+
+/// State at t = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// Pure rolling, rings displaced by 1 um (the paper).
+    Rolling,
+    /// Everything at rest but the inner ring.
+    Rest,
+    /// Pure rolling, rings and rollers in static balance under the full load.
+    Equilibrium,
+}
+
+/// Tolerance of the integrator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Accuracy {
+    /// About 1 % of an acceleration over 2.5 ms.
+    Standard,
+    /// As tight as round-off amplified by impacts makes sensible.
+    Reference,
+}
+
+/// `[simulation]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// Equations.
+    pub model: ModelKind,
+    /// Simulated time, s.
+    pub duration_s: f64,
+    /// f_s, Hz.
+    pub sample_rate_hz: f64,
+    /// Initial state.
+    pub start: Start,
+    /// Tolerance.
+    pub accuracy: Accuracy,
+    /// Channel names to record, `*` matches any run of characters.
+    pub record: Vec<String>,
+}

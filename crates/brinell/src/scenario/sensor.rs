@@ -1,0 +1,122 @@
+//! `[sensor]`: what stands between the outer ring and the record.
+
+/// Colour of a sensor's noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoiseColour {
+    /// The same density everywhere.
+    White,
+    /// Density ~ 1/f above the corner.
+    Pink,
+    /// Density ~ 1/f^2 above the corner.
+    Brown,
+}
+
+/// One mode of the structure between ring and sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathMode {
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// Participation at the sensor: 1 and one mode is a mass on a spring; negative moves against the ring.
+    pub gain: f64,
+}
+
+/// `[sensor]`: what stands between the outer ring's acceleration and the record. What is not given is not there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// The axis of a channel of its own, degrees counter-clockwise from +X.
+    pub direction_deg: Option<f64>,
+    /// mV for each m/s^2, of that channel and of the converter.
+    pub sensitivity_mv_per_m_per_s2: Option<f64>,
+    /// Resonance of the sensor on its mounting, Hz.
+    pub mounting_resonance_hz: Option<f64>,
+    /// Its share of critical damping.
+    pub mounting_damping_ratio: f64,
+    /// Lower end of the band, Hz, -3 dB, first order.
+    pub low_cut_hz: Option<f64>,
+    /// Upper end of the band, Hz, -3 dB, second-order Butterworth.
+    pub high_cut_hz: Option<f64>,
+    /// Standard deviation of the noise, m/s^2; or the next two.
+    pub noise_rms_m_per_s2: Option<f64>,
+    /// Level of a signal of the next key's RMS over the noise, dB.
+    pub noise_snr_db: Option<f64>,
+    /// The RMS that the ratio refers to, m/s^2.
+    pub noise_reference_rms_m_per_s2: f64,
+    /// Its colour.
+    pub noise_colour: NoiseColour,
+    /// Below this the noise's density is flat, Hz; white noise does not use it.
+    pub noise_corner_hz: f64,
+    /// Which noise.
+    pub noise_seed: u64,
+    /// Bits of the converter.
+    pub converter_bits: Option<usize>,
+    /// Its ends, plus and minus, m/s^2; or the next one.
+    pub converter_range_m_per_s2: Option<f64>,
+    /// Its ends, mV.
+    pub converter_range_mv: Option<f64>,
+    /// Modes between ring and sensor.
+    pub path: Vec<PathMode>,
+}
+
+/// The ends of a converter, plus and minus.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Range {
+    /// m/s^2.
+    Acceleration(f64),
+    /// mV.
+    Voltage(f64),
+}
+
+impl Sensor {
+    /// No sensor: the record is the ring's own acceleration.
+    pub fn off() -> Self {
+        Self {
+            direction_deg: None,
+            sensitivity_mv_per_m_per_s2: None,
+            mounting_resonance_hz: None,
+            mounting_damping_ratio: 0.0,
+            low_cut_hz: None,
+            high_cut_hz: None,
+            noise_rms_m_per_s2: None,
+            noise_snr_db: None,
+            noise_reference_rms_m_per_s2: 0.0,
+            noise_colour: NoiseColour::White,
+            noise_corner_hz: 0.0,
+            noise_seed: 0,
+            converter_bits: None,
+            converter_range_m_per_s2: None,
+            converter_range_mv: None,
+            path: Vec::new(),
+        }
+    }
+
+    /// Whether anything is asked for.
+    pub fn is_on(&self) -> bool {
+        let filters = [
+            self.mounting_resonance_hz,
+            self.low_cut_hz,
+            self.high_cut_hz,
+        ];
+        self.direction_deg.is_some()
+            || filters.iter().any(Option::is_some)
+            || self.noise_rms().is_some()
+            || self.range().is_some()
+            || !self.path.is_empty()
+    }
+
+    /// Standard deviation of the noise, m/s^2, whichever way it is given.
+    pub fn noise_rms(&self) -> Option<f64> {
+        let below = |db: f64| self.noise_reference_rms_m_per_s2 * 10f64.powf(-db / 20.0);
+        self.noise_rms_m_per_s2.or(self.noise_snr_db.map(below))
+    }
+
+    /// The converter's ends, where there is one.
+    pub fn range(&self) -> Option<Range> {
+        self.converter_bits?;
+        let volts = self.converter_range_mv.map(Range::Voltage);
+        self.converter_range_m_per_s2
+            .map(Range::Acceleration)
+            .or(volts)
+    }
+}

@@ -1,0 +1,248 @@
+//! One run: from a scenario through the solver to rows of channels, streamed to an observer.
+//!
+//! Memory does not grow with the duration. Dense output at eight times the sample rate feeds the anti-alias filter; every eighth of
+//! those instants is a sample of the instantaneous channels, evaluated from the equations of motion at the interpolated state
+//! (section 11 of the model). To fill the filter at the end, the run goes on for half the filter's length past the last sample.
+
+mod failure;
+mod going;
+mod switches;
+
+use crate::channel::{self, Channel, Frame};
+use crate::model::{Energy, Model, ModelError, Power};
+use crate::scenario::{Accuracy, Scenario};
+use crate::sensor::{Chain, ChannelRecord};
+use crate::solver::Work;
+use crate::start;
+use crate::statics::NoBalance;
+use going::Run;
+use std::ops::ControlFlow;
+
+/// Why a run ended before its time, or never began.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The scenario makes no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// There is no equilibrium to start from.
+    #[error("start = \"equilibrium\": {0}")]
+    NoBalance(#[from] NoBalance),
+    /// The state stopped being finite.
+    #[error("the state stopped being finite at t = {t:.9} s: {body}; {contact}")]
+    NonFinite {
+        /// Time of the last good state, s.
+        t: f64,
+        /// Body and coordinate.
+        body: String,
+        /// The contact that went first or is pressed hardest.
+        contact: String,
+    },
+    /// No step is short enough for the tolerance.
+    #[error(
+        "no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}"
+    )]
+    StepVanished {
+        /// Time of the last good state, s.
+        t: f64,
+        /// Body and coordinate.
+        body: String,
+        /// The contact that is pressed hardest.
+        contact: String,
+    },
+}
+
+/// Receives a run as it goes.
+pub trait Observer {
+    /// After each accepted step.
+    fn step(&mut self, frame: &Frame) {
+        let _ = frame;
+    }
+
+    /// At each sample instant, with the index of the sample.
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        let _ = (index, frame);
+    }
+
+    /// One complete row of the recorded channels, in order; `filtered` are the anti-aliased values of
+    /// [`Simulation::filtered`] at that sample. Breaking ends the run.
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()>;
+
+    /// Every few dozen steps: the simulated time reached. Breaking ends the run.
+    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
+        let _ = (t, work);
+        ControlFlow::Continue(())
+    }
+}
+
+/// Counted work of a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct SolverWork {
+    /// Steps, rejections and right-hand sides of the solver.
+    pub solver: Work,
+    /// Right-hand sides spent on samples.
+    pub sample_evaluations: u64,
+    /// Contacts that opened or closed between steps.
+    pub contact_switches: u64,
+    /// Pockets that opened or closed, or changed side.
+    pub pocket_switches: u64,
+    /// Contacts that went onto or off damage.
+    pub damage_switches: u64,
+}
+
+/// The energy audit of a run, J: the change of the energy held against everything that flowed.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EnergyAudit {
+    /// Held at the start.
+    pub initial: Energy,
+    /// Held at the end.
+    pub last: Energy,
+    /// Flows integrated over the run.
+    pub flows: Power,
+    /// Parametric work of damage under the rollers (section 3).
+    pub parametric: f64,
+}
+
+impl EnergyAudit {
+    /// Energy that no entry explains: the integrator's error.
+    pub fn residual(&self) -> f64 {
+        self.last.total() - self.initial.total() - self.flows.net() - self.parametric
+    }
+
+    /// Everything that moved, as a scale for the residual.
+    pub fn turnover(&self) -> f64 {
+        let f = &self.flows;
+        f.load.abs()
+            + f.drive.abs()
+            + f.film.abs()
+            + f.lever.abs()
+            + f.dissipated()
+            + self.parametric.abs()
+    }
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    /// At its duration.
+    Complete,
+    /// The observer broke off.
+    Stopped,
+    /// The solver could not go on.
+    Failed(RunError),
+}
+
+/// What remains of a run when its rows are gone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// How it ended.
+    pub end: End,
+    /// Complete rows given.
+    pub rows: u64,
+    /// Simulated time reached, s; the filter's tail past the last sample included.
+    pub t: f64,
+    /// Counted work.
+    pub work: SolverWork,
+    /// Energy audit.
+    pub energy: EnergyAudit,
+    /// Largest relative momentum imbalance over the samples; `None` where it cannot be told.
+    pub momentum_imbalance: Option<f64>,
+    /// What the sensor did to each of its channels, in the order of [`Simulation::filtered`]; empty without one.
+    pub sensor: Vec<ChannelRecord>,
+}
+
+/// A run that is ready to go.
+#[derive(Debug)]
+pub struct Simulation {
+    model: Model,
+    channels: Vec<Channel>,
+    filtered: Vec<Channel>,
+    /// Where each slope of the fast grid goes among them, and its entry of the derivative.
+    filtered_entries: Vec<(usize, usize)>,
+    sensor: Option<Chain>,
+    idle_patterns: Vec<String>,
+    initial: Vec<f64>,
+    sample_rate: f64,
+    samples: u64,
+    accuracy: Accuracy,
+}
+
+impl Simulation {
+    /// Builds the model and its initial state.
+    ///
+    /// # Errors
+    /// Where the scenario makes no model or has no equilibrium to start from.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        let model = Model::new(scenario)?;
+        let initial = start::state(&model)?;
+        let (channels, idle_patterns) =
+            channel::select(&model, &scenario.sensor, &scenario.simulation.record);
+        let sample_rate = scenario.simulation.sample_rate_hz;
+        let (ring, others): (Vec<_>, Vec<_>) = channel::filterable(&model)
+            .into_iter()
+            .partition(|c| c.name.starts_with("outer_a"));
+        let others = others
+            .into_iter()
+            .filter(|c| channels.iter().any(|r| r.name == c.name));
+        let mut filtered = channel::measured(&scenario.sensor);
+        let measured = filtered.len();
+        filtered.extend(others);
+        let slopes = ring.iter().chain(&filtered[measured..]);
+        let places = (0..ring.len()).chain(measured..);
+        Ok(Self {
+            filtered_entries: places
+                .zip(slopes.filter_map(Channel::slope_entry))
+                .collect(),
+            sensor: Chain::new(&scenario.sensor, sample_rate),
+            channels,
+            filtered,
+            idle_patterns,
+            initial,
+            sample_rate,
+            samples: (scenario.simulation.duration_s * sample_rate * (1.0 + 1e-12)).floor() as u64
+                + 1,
+            accuracy: scenario.simulation.accuracy,
+            model,
+        })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The recorded channels, in the order of rows; time is not among them.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The accelerations that pass the anti-alias filter: the measured channels, x and y of the outer ring and the sensor's own if it has
+    /// one, then those of the other rings and cages that are recorded.
+    pub fn filtered(&self) -> &[Channel] {
+        &self.filtered
+    }
+
+    /// What stands between the outer ring and the measured channels, if anything does.
+    pub fn sensor(&self) -> Option<&Chain> {
+        self.sensor.as_ref()
+    }
+
+    /// Samples a second.
+    pub fn sample_rate(&self) -> f64 {
+        self.sample_rate
+    }
+
+    /// Patterns of `record` that match no channel.
+    pub fn idle_patterns(&self) -> &[String] {
+        &self.idle_patterns
+    }
+
+    /// Samples of a complete run, t = 0 included.
+    pub fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// Runs to the end, or until the observer breaks off or the solver fails.
+    pub fn run(&self, observer: &mut dyn Observer) -> Outcome {
+        Run::new(self, observer).go()
+    }
+}
