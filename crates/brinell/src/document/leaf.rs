@@ -12,7 +12,7 @@ pub(crate) struct Misfit {
     pub(crate) message: String,
     pub(crate) allowed: String,
     /// The element at fault, where the value is a list.
-    pub(crate) element: Option<Node>,
+    pub(crate) element: Option<Box<Node>>,
     /// Path of the key at fault below the one that is read, where that holds keys of any name.
     pub(crate) under: String,
 }
@@ -36,7 +36,7 @@ impl Misfit {
     }
 
     pub(crate) fn in_element(mut self, node: &Node) -> Misfit {
-        self.element.get_or_insert_with(|| node.clone());
+        self.element.get_or_insert_with(|| Box::new(node.clone()));
         self
     }
 }
