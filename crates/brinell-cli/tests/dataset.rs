@@ -342,9 +342,9 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
     // Nothing to start from in any run.
     let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
     let folder = folder_with(&plan);
-    make(folder.path(), &["-o", "out"])
-        .exits(2)
-        .complains(&["none of the first runs can begin; run 0: start = \"equilibrium\": no static balance"]);
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "none of the first runs can begin; run 0: start = \"equilibrium\": no static balance",
+    ]);
 }
 
 #[test]
