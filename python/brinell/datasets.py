@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from brinell import _brinell, tables
-from brinell.scenario import Scenario
+from brinell.scenario import Scenario, ScenarioWarning
 
 if TYPE_CHECKING:
     import pandas
@@ -32,6 +33,11 @@ class Plan:
     ------
     ScenarioError
         With everything that is wrong with plan or base scenario, and the lines that it is about.
+
+    Warns
+    -----
+    ScenarioWarning
+        What its author should know: runs that would mislead, grids that come unequally often, a seed that gives held-out labels away.
 
     Examples
     --------
@@ -65,6 +71,8 @@ class Plan:
     def __init__(self, path: str | os.PathLike[str], *, check: bool = True) -> None:
         self.path = Path(path)
         self._native = _brinell.Campaign.open(self.path, check)
+        for text in self._native.warnings:
+            warnings.warn(text.removeprefix("warning: "), ScenarioWarning, stacklevel=2)
 
     @property
     def name(self) -> str:
@@ -202,6 +210,11 @@ def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str
     ValueError
         Where a folder is of another campaign or version, or a file is damaged.
 
+    Warns
+    -----
+    UserWarning
+        Where files are in none of the folders.
+
     Examples
     --------
     >>> from brinell.datasets import merge
@@ -210,5 +223,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], into: str | os.PathLike[str
     ...
     ValueError: no folders to merge
     """
-    _brinell.merge([Path(folder) for folder in folders], Path(into))
+    lack = _brinell.merge([Path(folder) for folder in folders], Path(into))
+    if lack is not None:
+        warnings.warn(lack, stacklevel=2)
     return DataSet(into)

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     import matplotlib.axes
 
     from brinell.result import Result
-    from brinell.signals import Analysis, Spectrum
+    from brinell.signals import Analysis, Kurtogram, Spectrogram, Spectrum
     from brinell.statics import LoadZone
     from brinell.sweeps import Table
 
-__all__ = ["analysis", "envelope", "load_zone", "roller_pass", "signal", "spectrum", "statics", "table"]
+__all__ = ["analysis", "envelope", "kurtogram", "load_zone", "roller_pass", "signal", "spectrogram", "spectrum", "statics", "table"]
 
 LINE = "#1f4e79"
 SECOND = "#c0571c"
@@ -38,6 +38,13 @@ def _plain(ax: matplotlib.axes.Axes, x: str, y: str, title: str) -> matplotlib.a
     ax.set_axisbelow(True)
     ax.spines[["top", "right"]].set_visible(False)
     return ax
+
+
+def _bare(ax: Any, x: str, y: str) -> matplotlib.axes.Axes:
+    """A map: no grid over it."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    return cast("matplotlib.axes.Axes", ax)
 
 
 def _unit(text: str) -> str:
@@ -114,6 +121,51 @@ def spectrum(of: Spectrum, *, to_hz: float | None = None, ax: Any = None) -> mat
     ax.set_xlim(0.0, top)
     ax.set_ylim(bottom=0.0)
     return _plain(ax, "frequency (Hz)", f"amplitude ({_unit(of.unit)})", of.channel or "")
+
+
+def spectrogram(of: Spectrogram, *, ax: Any = None) -> matplotlib.axes.Axes:
+    """Density over time and frequency, 80 dB from the strongest down.
+
+    Examples
+    --------
+    >>> import brinell, brinell.plot, numpy as np
+    >>> map_ = brinell.spectrogram(np.sin(np.arange(1024.0)), rate_hz=1024.0, unit="g", length=256)
+    >>> brinell.plot.spectrogram(map_).get_ylabel()
+    'frequency (Hz)'
+    """
+    ax = _axes(ax)
+    top = max(float(of.density.max(initial=0.0)), np.finfo(float).tiny)
+    decibels = 10.0 * np.log10(np.maximum(of.density.T, 1e-8 * top))
+    mesh = ax.pcolormesh(of.time_s, of.frequency_hz, decibels, cmap="viridis", shading="nearest", rasterized=True)
+    ax.figure.colorbar(mesh, ax=ax, label=f"dB re 1 ({_unit(of.unit)})²/Hz")
+    return _bare(ax, "time (s)", "frequency (Hz)")
+
+
+def kurtogram(of: Kurtogram, *, ax: Any = None) -> matplotlib.axes.Axes:
+    """Kurtosis of the envelope in every band; the best one is framed.
+
+    Examples
+    --------
+    >>> import brinell, brinell.plot, numpy as np
+    >>> x = np.random.default_rng(1).normal(size=8192)
+    >>> brinell.plot.kurtogram(brinell.kurtogram(x, rate_hz=8192.0)).get_xlabel()
+    'frequency (Hz)'
+    """
+    ax = _axes(ax)
+    widths = np.round(of.high_hz - of.low_hz, 6)
+    rows = {width: row for row, width in enumerate(sorted(set(widths.tolist()), reverse=True))}
+    places = np.array([rows[width] for width in widths.tolist()])
+    colours = ax.figure.colorbar(ax.scatter([], [], c=[], cmap="viridis", vmin=0.0, vmax=max(float(of.kurtosis.max()), 1e-9)), ax=ax)
+    colours.set_label("kurtosis")
+    shade = colours.mappable.to_rgba(of.kurtosis)
+    ax.barh(places, of.high_hz - of.low_hz, left=of.low_hz, height=1.0, color=shade, linewidth=0)
+    if of.best_hz is not None:
+        low, high = of.best_hz
+        ax.barh(rows[round(high - low, 6)], high - low, left=low, height=1.0, fill=False, edgecolor=SECOND, linewidth=2.0)
+    ax.set_yticks(list(rows.values()), [f"{width:.0f}" for width in rows])
+    ax.invert_yaxis()
+    ax.margins(x=0.0, y=0.0)
+    return _bare(ax, "frequency (Hz)", "width of a band (Hz)")
 
 
 #: Of what is marked first, second, and so on.
@@ -295,14 +347,17 @@ def table(of: Table, y: str, x: str | None = None, *, ax: Any = None) -> matplot
     for k in range(len(of)):
         label = ", ".join(f"{key} = {of.columns[key][k]}" for key in others)
         groups.setdefault(label, []).append(k)
-    for label, points in groups.items():
+    # Lines that lie on each other are still told apart.
+    styles = ("-", "--", ":", "-.")
+    for number, (label, points) in enumerate(groups.items()):
         at, value = of.columns[x][points], of.columns[y][points]
         error = None
         if f"{y}.low" in of.columns:
             ends = of.columns[f"{y}.low"][points], of.columns[f"{y}.high"][points]
             # The interval's own middle differs from the whole run's value.
             error = np.clip([value - ends[0], ends[1] - value], 0.0, None)
-        ax.errorbar(at, value, yerr=error, marker="o", markersize=3.5, linewidth=1.0, capsize=2.5, label=label or None)
+        style = styles[number % len(styles)]
+        ax.errorbar(at, value, yerr=error, marker="o", markersize=3.5, linestyle=style, linewidth=1.2, capsize=2.5, label=label or None)
     if len(groups) > 1:
         ax.legend(fontsize="small", frameon=False)
     unit = of.units.get(y, "1")

@@ -87,6 +87,10 @@ class Spectrum:
 
         return plot.spectrum(self, to_hz=to_hz, ax=ax)
 
+    def __repr__(self) -> str:
+        bins = f"{len(self.frequency_hz)} bins to {self.frequency_hz[-1]:g} Hz" if len(self.frequency_hz) else "no bins"
+        return f"<brinell.Spectrum: {bins}, {self.unit}, {self.segments} segment{'' if self.segments == 1 else 's'}>"
+
 
 def psd(
     x: npt.ArrayLike,
@@ -233,6 +237,16 @@ class Spectrogram:
     unit: str
     """The signal's."""
 
+    def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """Density over time and frequency."""
+        from brinell import plot
+
+        return plot.spectrogram(self, ax=ax)
+
+    def __repr__(self) -> str:
+        frames, bins = self.density.shape
+        return f"<brinell.Spectrogram: {frames} frames of {bins} bins, ({self.unit})^2/Hz>"
+
 
 def spectrogram(
     x: npt.ArrayLike, *, rate_hz: float, unit: str, length: int, overlap: float = 0.5, window: _Window = "hann"
@@ -271,6 +285,16 @@ class Kurtogram:
     best_hz: tuple[float, float] | None
     """The most impulsive band."""
     best_kurtosis: float | None
+
+    def plot(self, *, ax: Any = None) -> matplotlib.axes.Axes:
+        """Kurtosis of every band, a line of bands of one width above the other."""
+        from brinell import plot
+
+        return plot.kurtogram(self, ax=ax)
+
+    def __repr__(self) -> str:
+        best = "none stands out" if self.best_hz is None else f"best {self.best_hz[0]:g} to {self.best_hz[1]:g} Hz"
+        return f"<brinell.Kurtogram: {len(self.kurtosis)} bands, {best}>"
 
 
 def kurtogram(x: npt.ArrayLike, *, rate_hz: float, depth: int = 7, narrowest_hz: float = 0.0) -> Kurtogram:
@@ -347,6 +371,9 @@ class Analysis:
 
         return plot.analysis(self, to_hz=to_hz, ax=ax)
 
+    def __repr__(self) -> str:
+        return f"<brinell.Analysis: {', '.join(self.damage) or 'nothing stands out'}>"
+
 
 def analyze(
     x: npt.ArrayLike,
@@ -416,6 +443,10 @@ class Signal:
     unit: str | None
     """As the file spells it; None where it does not."""
     channel: str
+
+    def __repr__(self) -> str:
+        rate = "an unknown rate" if self.rate_hz is None else f"{self.rate_hz:g} Hz"
+        return f"<brinell.Signal {self.channel!r}: {len(self.values)} samples at {rate}, {self.unit or 'unknown unit'}>"
 
 
 def read_signal(path: str | os.PathLike[str], channel: str | None = None) -> Signal:

@@ -47,6 +47,9 @@ class LoadZone:
 
         return plot.statics(self, ax=ax)
 
+    def __repr__(self) -> str:
+        return f"<brinell.LoadZone: up to {self.largest_contact_force_n:.4g} N over {self.extent_deg:.4g} degrees>"
+
 
 def static_analysis(scenario: Scenario) -> LoadZone:
     """Load distribution, ring shift and stiffness under the full load, as the cage turns through a pitch.

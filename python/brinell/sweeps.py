@@ -87,6 +87,10 @@ class Table:
 
         return plot.table(self, y, x, ax=ax)
 
+    def __repr__(self) -> str:
+        failed = f", {len(self.failed)} failed" if self.failed else ""
+        return f"<brinell.Table: {len(self)} points over {', '.join(self.keys) or 'nothing'}; {len(self.columns)} columns{failed}>"
+
     _axes: tuple[tuple[str, ...], ...] = ()
 
 

@@ -15,6 +15,17 @@ warnings.simplefilter("error")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
+def blocks(name: str) -> str:
+    """Every block of Python in a Markdown file of the repository, as one program."""
+    inside, lines = False, []
+    for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
+        if line.startswith("```"):
+            inside = line == "```python"
+        elif inside:
+            lines.append(line)
+    return "\n".join(lines)
+
+
 @pytest.fixture(scope="session")
 def examples() -> pathlib.Path:
     return ROOT / "examples"

@@ -1,7 +1,9 @@
 """Data sets, on this machine and on clusters."""
 
 import hashlib
+import itertools
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -11,6 +13,8 @@ import textwrap
 import numpy as np
 import pytest
 
+from conftest import blocks
+
 import brinell
 import brinell.distributed
 
@@ -18,7 +22,7 @@ PLAN = """
 name = "spalls"
 base = "base.toml"
 runs = {runs}
-seed = 5
+seed = 804613592207415
 design = "sobol"
 runs_per_file = {per_file}
 held_out = 0.25
@@ -86,6 +90,8 @@ def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):
     whole = chosen.run(tmp_path / "whole")
     for k in (1, 2, 3):
         chosen.run(tmp_path / f"shard-{k}", shard=(k, 3))
+    with pytest.warns(UserWarning, match=r"not whole: 3 files in none of the folders \(part 1, 4, 7\); run their shards again"):
+        merge([tmp_path / f"shard-{k}" for k in (3, 1)], tmp_path / "joined")
     joined = merge([tmp_path / f"shard-{k}" for k in (3, 1, 2)], tmp_path / "joined")
     assert digests(joined.folder) == digests(whole.folder)
     with pytest.raises(brinell.ReadError, match="dataset.json"):
@@ -106,6 +112,14 @@ def test_xval_bad_plans_are_told_as_the_command_tells_them(command, plan, tmp_pa
         brinell.Plan(path)
     done = subprocess.run([command, "dataset", str(path)], capture_output=True, text=True)
     assert done.returncode == 2 and str(caught.value) in done.stderr
+
+
+def test_regress_what_a_plans_author_should_know_is_a_warning(plan):
+    path = plan().path
+    path.write_text(path.read_text().replace("seed = 8046", "seed = 7 # "))
+    with pytest.warns(brinell.ScenarioWarning, match="seed = 7: whoever has the open runs"):
+        brinell.Plan(path)
+    brinell.Plan(path, check=False)
 
 
 def test_prop_ctrl_c_keeps_what_is_finished(plan, tmp_path):
@@ -175,17 +189,36 @@ def test_prop_a_cluster_goes_on_where_one_stopped(plan, tmp_path):
     assert there.items() <= digests(tmp_path / "cluster").items()
 
 
+def ray_workers():
+    """Processes that are at a file, on Linux."""
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if (process / "cmdline").read_bytes().startswith(b"ray::_make"):
+                yield int(process.name)
+        except OSError:
+            pass
+
+
 @pytest.mark.filterwarnings("ignore")
-def test_prop_ray_makes_the_same_bytes(plan, tmp_path):
+def test_prop_ray_loses_a_worker_and_makes_the_same_bytes(plan, tmp_path):
     ray = pytest.importorskip("ray")
-    chosen = plan()
+    chosen = plan(runs=31, duration=0.2)
     expected = chosen.run(tmp_path / "alone")
+    killed, told = [], []
+
+    def progress(over, of):
+        told.append((over, of))
+        for pid in itertools.islice(ray_workers(), 0 if killed else 1):
+            killed.append(pid)
+            os.kill(pid, signal.SIGKILL)
+
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
     try:
-        data = brinell.distributed.on_ray(chosen, tmp_path / "cluster")
+        data = brinell.distributed.on_ray(chosen, tmp_path / "cluster", progress=progress)
     finally:
         ray.shutdown()
-    assert digests(data.folder) == digests(expected.folder)
+    assert killed or sys.platform != "linux"
+    assert told[-1] == (31, 31) and digests(data.folder) == digests(expected.folder)
 
 
 def test_prop_what_travels_can_be_pickled(plan):
@@ -193,3 +226,24 @@ def test_prop_what_travels_can_be_pickled(plan):
 
     name, files = pickle.loads(pickle.dumps(_parcel(plan())))
     assert name == "plan.toml" and {path for path, _ in files} == {"plan.toml", "base.toml", "photo-spall.png"}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_prop_examples_of_the_book_run(plan, tmp_path, monkeypatch):
+    pytest.importorskip("pandas")
+    distributed = pytest.importorskip("distributed")
+    chosen = plan(runs=4)
+    monkeypatch.chdir(chosen.path.parent)
+    program = blocks("docs/src/cluster.md")
+    address = '"tcp://10.0.0.1:8786"'
+    assert program.count(address) == 1
+    options = {"n_workers": 1, "threads_per_worker": 1, "processes": True, "host": "127.0.0.1", "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster:
+        exec(compile(program.replace(address, repr(cluster.scheduler_address)), "cluster.md", "exec"), {})
+    assert brinell.DataSet("data").verify() == []
+    # The same data set, where the other page has its own.
+    os.makedirs("out")
+    os.rename("data", "out/nu206")
+    seen: dict = {}
+    exec(compile(blocks("docs/src/datasets.md"), "datasets.md", "exec"), seen)
+    assert len(seen["x"]) == 0.05 * seen["fs"] + 1 and str(seen["y"]) in ("healthy", "photo", "None", "nan")

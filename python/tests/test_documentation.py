@@ -3,10 +3,10 @@
 import doctest
 import importlib
 import inspect
-import pathlib
 import pkgutil
 
 import pytest
+from conftest import ROOT, blocks
 
 import brinell
 
@@ -36,21 +36,9 @@ def test_prop_every_public_name_is_explained():
                     assert member.__doc__, f"{name}.{part}"
 
 
-def blocks(path):
-    """Every block of Python in a Markdown file, as one program."""
-    inside, lines = False, []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if line.startswith("```"):
-            inside = line == "```python"
-        elif inside:
-            lines.append(line)
-    return "\n".join(lines)
-
-
 @pytest.mark.parametrize("name", ["README.md", "docs/src/python.md"])
 def test_prop_examples_of_the_texts_run(name, monkeypatch):
-    root = pathlib.Path(__file__).resolve().parents[2]
-    monkeypatch.chdir(root)
-    program = blocks(root / name)
+    monkeypatch.chdir(ROOT)
+    program = blocks(name)
     assert "brinell" in program
     exec(compile(program, name, "exec"), {})

@@ -5,11 +5,8 @@ use crate::failure::{Failure, print_problems};
 use crate::say::complain;
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
-use std::io::Read;
+use brinell_io::read_text;
 use std::path::{Path, PathBuf};
-
-/// Largest scenario read, bytes: nobody writes longer ones, and a device file never ends.
-const LARGEST: u64 = 64 << 20;
 
 /// Reads and validates a scenario; its warnings go to standard error unless `quiet`.
 pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failure> {
@@ -121,20 +118,10 @@ fn folder(path: &Path) -> &Path {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    let failed = |error| Failure::Read(path.to_owned(), error);
-    let mut bytes = Vec::new();
-    let mut take = |source: &mut dyn Read| source.take(LARGEST + 1).read_to_end(&mut bytes);
-    if is_stdin(path) {
-        take(&mut std::io::stdin().lock()).map_err(failed)?;
+    let read = if is_stdin(path) {
+        read_text(std::io::stdin().lock())
     } else {
-        take(&mut std::fs::File::open(path).map_err(failed)?).map_err(failed)?;
-    }
-    if bytes.len() as u64 > LARGEST {
-        return Err(Failure::Usage(format!(
-            "{}: larger than {} MiB; a scenario is a text file of a few kilobytes",
-            path.display(),
-            LARGEST >> 20
-        )));
-    }
-    Ok(bytes)
+        std::fs::File::open(path).and_then(read_text)
+    };
+    read.map_err(|error| Failure::Read(path.to_owned(), error))
 }

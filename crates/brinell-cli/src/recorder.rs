@@ -6,7 +6,7 @@ use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{IoError, Outcome, SignalWriter};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 pub(crate) struct Recorder<'a> {
     row: Vec<f64>,
@@ -102,9 +102,6 @@ impl Observer for Recorder<'_> {
 
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
         self.progress.at(t);
-        if self.stop.load(Ordering::Relaxed) {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        brinell::many::go_on(self.stop)
     }
 }

@@ -293,7 +293,7 @@ fn prop_a_row_in_pieces_is_run_again() {
 
 #[test]
 fn prop_a_failed_run_is_a_row_with_its_reason() {
-    // A damping that no step is short enough for, in one run of three.
+    // Values that make no scenario, in two runs of six.
     let plan = PLAN.replace("runs = 7", "runs = 6").replace(
         "[vary]",
         "out_of_range = \"fail\"\n[vary]\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0, 0.02] }",
@@ -306,8 +306,8 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
             "6 runs in",
         ])
         .complains(&[
-            "lubricant.viscosity_pa_s: 2 of 6 runs",
-            "failed: error: lubricant.viscosity_pa_s = -1.0: out of range",
+            "2 of 6 runs, such as run 2: lubricant.viscosity_pa_s = -1.0: out of range; allowed: >= 0 Pa s",
+            "failed: lubricant.viscosity_pa_s = -1.0: out of range",
         ]);
     let all: Vec<Row> = (0..2)
         .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
@@ -329,6 +329,22 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
     brinell(folder.path(), &["dataset", "verify", "out"])
         .exits(0)
         .says(&["6 runs with 2 failed"]);
+    // A scenario that is sound, and has nothing to start from.
+    let loose = "vary.simulation.start = \"equilibrium\"\nvary.support = { inner_stiffness_n_per_m = 0.0, outer_stiffness_n_per_m = 0.0 }";
+    let plan = PLAN.replace("name = \"outer\"", &format!("name = \"outer\"\n{loose}"));
+    let folder = folder_with(&plan.replace("runs = 7", "runs = 2"));
+    make(folder.path(), &["-o", "out"]).exits(0);
+    let row = &rows(&folder.path().join("out/runs/part-00000.parquet"))[1];
+    assert_eq!(text(row, "status").as_deref(), Some("failed"));
+    let reason = text(row, "reason").unwrap();
+    assert!(reason.contains("no static balance") && !reason.contains('\n'));
+    assert!(text(row, "scenario").is_some() && list(row, "measured_ax").is_none());
+    // Nothing to start from in any run.
+    let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
+    let folder = folder_with(&plan);
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "none of the first runs can begin; run 0: start = \"equilibrium\": no static balance",
+    ]);
 }
 
 #[test]
@@ -380,7 +396,20 @@ fn prop_held_out_labels_lie_apart() {
             .unwrap()
             .contains("\"seed\": 11")
     );
+    // The classes' numbers are those of the runs whose labels anybody sees.
+    let classes = json(&out.join("dataset.json"))["classes"].clone();
+    let counted = classes
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["open_runs"].as_u64().unwrap());
+    assert_eq!(counted.sum::<u64>(), 12 - apart);
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
+    // All labels may be elsewhere, and not one file of them.
+    fs::remove_file(out.join("held_out/part-00001.parquet")).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&["held_out/part-00001.parquet is missing, and others are here"]);
     fs::remove_dir_all(out.join("held_out")).unwrap();
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
 }
@@ -395,13 +424,25 @@ fn regress_distributions_that_leave_a_range_are_refused_with_how_often() {
         .replace("runs = 7", "runs = 6");
     let folder = folder_with(&plan);
     make(folder.path(), &["-o", "out"]).exits(2).complains(&[
-        "lubricant.viscosity_pa_s = -1.0: out of range in 2 of 6 runs, such as run 2",
+        "lubricant.viscosity_pa_s = -1.0: out of range (in 2 of 6 runs, such as run 2)",
         "out_of_range = \"redraw\"",
         "allowed: >= 0 Pa s",
         "plan.toml:9:",
         "grid = [0.01, -1.0, 0.02]",
     ]);
     assert!(!folder.path().join("out").exists());
+    // The first run may be one of those.
+    let folder = folder_with(&plan.replace("[0.01, -1.0, 0.02]", "[-1.0, 0.01, 0.02]"));
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "lubricant.viscosity_pa_s = -1.0: out of range (in 2 of 6 runs, such as run 0)",
+        "plan.toml:9:",
+    ]);
+    // All of them.
+    let folder = folder_with(&plan.replace("{ grid = [0.01, -1.0, 0.02] }", "-1.0"));
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "lubricant.viscosity_pa_s = -1.0: out of range (in 6 of 6 runs, such as run 0)\n  allowed: >= 0 Pa s\n",
+        "plan.toml:9:",
+    ]);
     // A grid is not drawn again: the plan is impossible.
     let folder = folder_with(&plan.replace("[vary]", "out_of_range = \"redraw\"\n[vary]"));
     make(folder.path(), &["-o", "out"])
@@ -421,11 +462,47 @@ fn regress_bad_input_is_told() {
                 "plan.toml:9:",
             ],
         ),
-        ("base.toml", "no.toml", vec!["cannot read no.toml"]),
+        (
+            "base.toml",
+            "no.toml",
+            vec!["base = \"no.toml\": cannot read no.toml", "plan.toml:2:"],
+        ),
         (
             "runs = 7",
             "runs = 7\nsignals = [\"outer_zz\"]",
-            vec!["no channel of the first runs has such a name"],
+            vec![
+                "signals = \"outer_zz\": no channel of the first runs has such a name",
+                "plan.toml:4:",
+            ],
+        ),
+        (
+            "runs = 7",
+            "runs = 7\nsignals = [\"measured_ax\", \"outer_zz\"]",
+            vec!["signals = \"outer_zz\": no channel of the first runs has such a name"],
+        ),
+        (
+            "uniform = [1400",
+            "unifrom = [1400",
+            vec![
+                "operation.speed_rpm.unifrom = ",
+                "allowed: a value, or { uniform | log | normal | whole | choice | grid = ... }",
+                "plan.toml:9:",
+            ],
+        ),
+        (
+            "uniform = [1400, 1600]",
+            "uniform = [1400]",
+            vec![
+                "vary.operation.speed_rpm = { uniform = [1400] }: expected two numbers, found 1 of them",
+            ],
+        ),
+        (
+            "\"outer-raceway\"",
+            "\"outer\"",
+            vec![
+                "defects.0.on = \"outer\": unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
+                "plan.toml:18:",
+            ],
         ),
         (
             "uniform = [1400, 1600]",

@@ -2,10 +2,12 @@
 //!
 //!     cargo run --release -p brinell-dataset --example throughput -- [PLAN] [RUNS] [ROUNDS]
 //!
-//! Each round runs the first RUNS of the plan on one thread with nobody listening, then as data sets of 1, 8 and RUNS runs a file, and on two threads.
+//! Each round runs the first RUNS of the plan with nobody listening, on one thread and on two, then as data sets of 1, 8 and RUNS runs a file, and on
+//! two threads. A data set is held against the bare solver on as many threads: two runs at once share caches, clock and memory, whoever listens.
 //! Rounds alternate, and medians are told, so that what else the machine does weighs on all alike. Processor time is told where /proc has it: on a busy
 //! machine it says more than the clock, which in turn shows what waits for the disk.
 
+use brinell::many;
 use brinell::simulate::{Observer, Simulation};
 use brinell_dataset::{Campaign, Shard, Silent, run};
 use std::error::Error;
@@ -77,20 +79,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         .collect();
     let scenarios = scenarios?;
     let simulated: f64 = scenarios.iter().map(|s| s.simulation.duration_s).sum();
+    let threads = |n: usize| NonZeroUsize::new(n).ok_or("no threads");
     let kinds = [(1, 1), (8.min(runs), 1), (runs, 1), (runs, 2)];
-    let mut times = vec![Vec::new(); 1 + kinds.len()];
+    let mut bare = vec![Vec::new(); 2];
+    let mut times = vec![Vec::new(); kinds.len()];
     for round in 0..rounds {
-        times[0].push(timed(|| {
-            for scenario in &scenarios {
-                Simulation::new(scenario)?.run(&mut Nobody);
-            }
-            Ok(())
-        })?);
-        for (k, (each, threads)) in kinds.iter().enumerate() {
+        for (n, times) in (1..).zip(&mut bare) {
+            let threads = threads(n)?;
+            let one = |k: usize| Simulation::new(&scenarios[k]).map(|s| s.run(&mut Nobody).rows);
+            times.push(timed(|| {
+                let mut failed = None;
+                many::each(runs, threads, one, |_, ran| {
+                    failed = ran.err().or(failed.take())
+                });
+                failed.map_or(Ok(()), |error| Err(error.into()))
+            })?);
+        }
+        for (k, (each, n)) in kinds.iter().enumerate() {
             let campaign = campaign(*each)?;
             let out = folder.path().join(format!("{round}-{k}"));
-            let threads = NonZeroUsize::new(*threads).ok_or("no threads")?;
-            times[1 + k].push(timed(|| {
+            let threads = threads(*n)?;
+            times[k].push(timed(|| {
                 let went = run(&campaign, &out, Shard::WHOLE, threads, &Silent)?;
                 assert!(went.whole && went.done == runs && went.failed == 0);
                 Ok(())
@@ -103,31 +112,34 @@ fn main() -> Result<(), Box<dyn Error>> {
         sorted.sort_by(f64::total_cmp);
         sorted[sorted.len() / 2]
     };
-    let of = |k: usize, which: usize| median(&mut times[k].iter().map(|t| t[which]));
+    let of = |times: &[[f64; 2]], which: usize| median(&mut times.iter().map(|t| t[which]));
     // Round by round, so that a slow stretch of the machine is in both.
-    let against = |k: usize, which: usize| {
+    let against = |times: &[[f64; 2]], bare: &[[f64; 2]], which: usize| {
         median(
-            &mut times[k]
+            &mut times
                 .iter()
-                .zip(&times[0])
+                .zip(bare)
                 .map(|(t, bare)| bare[which] / t[which]),
         )
     };
     println!("{path}: {runs} runs of {simulated} s together, {rounds} rounds, medians");
-    println!(
-        "  bare solver, 1 thread: {:.2} s, processor {:.2} s",
-        of(0, 0),
-        of(0, 1)
-    );
-    for (k, (each, threads)) in kinds.iter().enumerate() {
+    for (n, bare) in (1..).zip(&bare) {
         println!(
-            "  data set, {threads} thread(s), {each} runs a file: {:.2} s, processor {:.2} s; of the bare solver's throughput a thread {:.3} by the clock, \
-             {:.3} by the processor; {:.0} runs an hour",
-            of(k + 1, 0),
-            of(k + 1, 1),
-            against(k + 1, 0) / *threads as f64,
-            against(k + 1, 1),
-            3600.0 * runs as f64 / of(k + 1, 0)
+            "  bare solver, {n} thread(s): {:.2} s, processor {:.2} s",
+            of(bare, 0),
+            of(bare, 1)
+        );
+    }
+    for ((each, threads), times) in kinds.iter().zip(&times) {
+        let bare = &bare[threads - 1];
+        println!(
+            "  data set, {threads} thread(s), {each} runs a file: {:.2} s, processor {:.2} s; of the bare solver's throughput on as many threads {:.3} by \
+             the clock, {:.3} by the processor; {:.0} runs an hour",
+            of(times, 0),
+            of(times, 1),
+            against(times, bare, 0),
+            against(times, bare, 1),
+            3600.0 * runs as f64 / of(times, 0)
         );
     }
     Ok(())

@@ -2,22 +2,22 @@
 
 use crate::columns::{DataColumn, columns};
 use crate::error::DatasetError;
+use crate::refusal::refused;
 use brinell::campaign::{digest, fingerprint};
-use brinell::design::{Draw, Draws, Plan, Survey, place_in_plan};
+use brinell::design::{Draw, Draws, Plan, Survey, place_in_plan, unsaid};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
-use brinell_io::Column;
+use brinell_damage::resolve_loaded;
+use brinell_io::{Column, read_text};
 use std::collections::HashSet;
-use std::io::Read;
+use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// Largest plan or scenario read, bytes: nobody writes longer ones, and a device file never ends.
-const LARGEST: u64 = 64 << 20;
 /// Runs that are looked at before any runs; of longer plans every second, third, ... one.
 const SURVEYED: usize = 100_000;
-/// Where the bearing varies, first runs that are asked which channels there are.
+/// First runs that are asked which channels there are, where the bearing varies; and that are tried before a plan counts as impossible.
 const ASKED: usize = 64;
 
 /// A plan that can be run.
@@ -37,29 +37,18 @@ struct Sources {
 }
 
 /// A file that was read.
-struct Document {
-    path: PathBuf,
-    text: String,
+pub(crate) struct Document {
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
 }
 
 impl Document {
     fn open(path: &Path) -> Result<Self, DatasetError> {
-        let failed = |error| DatasetError::Read {
+        let bytes = File::open(path).and_then(read_text);
+        let bytes = bytes.map_err(|error| DatasetError::Read {
             path: path.to_owned(),
             error,
-        };
-        let mut bytes = Vec::new();
-        let file = std::fs::File::open(path).map_err(failed)?;
-        file.take(LARGEST + 1)
-            .read_to_end(&mut bytes)
-            .map_err(failed)?;
-        if bytes.len() as u64 > LARGEST {
-            return Err(DatasetError::Refused(format!(
-                "{}: larger than {} MiB; a plan or a scenario is a text file of a few kilobytes",
-                path.display(),
-                LARGEST >> 20
-            )));
-        }
+        })?;
         let text = String::from_utf8(bytes).map_err(|_| {
             DatasetError::Refused(format!(
                 "{}: not a text file in UTF-8, as TOML must be",
@@ -72,7 +61,13 @@ impl Document {
         })
     }
 
-    fn problems(&self, problems: Vec<Problem>) -> DatasetError {
+    /// What is wrong with a value of its own.
+    fn problem_of(&self, key: &str, value: &str, why: &str) -> DatasetError {
+        let problem = Problem::of_file(key, value, why);
+        self.problems(vec![problem.placed(locate(&self.text, key))])
+    }
+
+    pub(crate) fn problems(&self, problems: Vec<Problem>) -> DatasetError {
         DatasetError::Document {
             name: self.path.display().to_string(),
             text: self.text.clone(),
@@ -90,7 +85,15 @@ impl Campaign {
         let plan = Document::open(path.as_ref())?;
         let read = Plan::read(&plan.text).map_err(|problems| plan.problems(problems))?;
         let folder = plan.path.parent().unwrap_or(Path::new(""));
-        let base = Document::open(&folder.join(&read.base))?;
+        let base = Document::open(&folder.join(&read.base)).map_err(|error| match error {
+            // The file is the plan's to name.
+            DatasetError::Read { path, error } => plan.problem_of(
+                "base",
+                &read.base,
+                &format!("cannot read {}: {error}", path.display()),
+            ),
+            other => other,
+        })?;
         let draws = Draws::new(read).map_err(|problems| {
             let placed = problems
                 .into_iter()
@@ -158,10 +161,33 @@ impl Campaign {
 
     /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one.
     pub fn survey(&self) -> Survey {
-        let draws = self.draws();
-        let step = NonZeroUsize::new(draws.runs().div_ceil(SURVEYED)).unwrap_or(NonZeroUsize::MIN);
-        let threads = many::threads(usize::MAX);
-        Survey::of(draws, &self.sources.base.text, step, threads)
+        survey(self.draws(), &self.sources.base.text)
+    }
+
+    /// What the plan's author should know, by what a survey found.
+    pub fn warnings(&self, survey: &Survey) -> Vec<String> {
+        let of_runs = survey.warnings.iter().map(|miss| {
+            format!(
+                "{}\n  (in {} of {} run{} looked at, the first of them run {})",
+                miss.problem,
+                miss.count,
+                survey.runs,
+                if survey.runs == 1 { "" } else { "s" },
+                miss.run
+            )
+        });
+        let notes = self.draws().notes().into_iter();
+        of_runs
+            .chain(notes.map(|note| format!("warning: {note}")))
+            .collect()
+    }
+
+    /// That the plan may be run, by what a survey found.
+    ///
+    /// # Errors
+    /// Each kind of problem once, at the plan's line, and how often.
+    pub fn sound(&self, survey: &Survey) -> Result<(), DatasetError> {
+        refused(self.draws(), &self.sources.plan, survey)
     }
 
     /// A run's scenario with its files of damage read, and what it drew.
@@ -197,7 +223,15 @@ impl Sources {
         }
         let (mut first, mut failure, mut signals) = (None, None, Vec::new());
         let (mut known, mut seen) = (HashSet::new(), HashSet::new());
-        for run in runs {
+        let mut idle: Option<HashSet<String>> = None;
+        let mut unable = None;
+        // Where none of these makes a scenario, some later one may.
+        let further = asked..ASKED.min(draws.runs());
+        let asked = runs.len();
+        for (k, run) in runs.into_iter().chain(further).enumerate() {
+            if k >= asked && first.is_some() {
+                break;
+            }
             let loaded = match self.scenario(run) {
                 Ok((loaded, _)) => loaded,
                 Err(error) => {
@@ -208,30 +242,50 @@ impl Sources {
             if seen.insert(draws.class(run)) {
                 meaning.push(fingerprint(&loaded.scenario));
             }
-            if let Ok(simulation) = Simulation::new(&loaded.scenario) {
-                for channel in simulation.channels() {
-                    if known.insert(channel.name.clone()) {
-                        signals.push(Column::new(
-                            &channel.name,
-                            channel.unit,
-                            &channel.description,
-                        ));
-                    }
+            let simulation = match Simulation::new(&loaded.scenario) {
+                Ok(simulation) => simulation,
+                Err(error) => {
+                    unable.get_or_insert((run, error));
+                    continue;
+                }
+            };
+            let these = simulation.idle_patterns().iter().cloned();
+            idle = Some(match idle {
+                None => these.collect(),
+                Some(idle) => these.filter(|pattern| idle.contains(pattern)).collect(),
+            });
+            for channel in simulation.channels() {
+                if known.insert(channel.name.clone()) {
+                    signals.push(Column::new(
+                        &channel.name,
+                        channel.unit,
+                        &channel.description,
+                    ));
                 }
             }
             first.get_or_insert(loaded);
         }
-        let first = match (first, failure) {
-            (Some(first), _) if !signals.is_empty() => first,
-            (None, Some(failure)) => return Err(failure),
-            _ => {
+        let Some(first) = first else {
+            if let Some((run, error)) = unable {
                 return Err(DatasetError::Refused(format!(
-                    "signals = {:?}: no channel of the first runs has such a name\n  allowed: channels as in `simulation.record`, \
-                     such as \"measured_ax\"",
-                    draws.plan().signals
+                    "{}: none of the first runs can begin; run {run}: {error}",
+                    self.plan.path.display()
                 )));
             }
+            // Said of all runs, where that can be: which keys, and of how many runs.
+            let survey = survey(draws, &self.base.text);
+            refused(draws, &self.plan, &survey)?;
+            return Err(failure.unwrap_or_else(|| {
+                DatasetError::Refused("no run of the plan makes a scenario".into())
+            }));
         };
+        if let Some(pattern) = idle.iter().flatten().min() {
+            return Err(self.plan.problem_of(
+                "signals",
+                pattern,
+                "no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"measured_ax\"",
+            ));
+        }
         Ok(Campaign {
             columns: columns(draws, &signals),
             identity: digest(&meaning.join("\n")),
@@ -256,8 +310,9 @@ impl Sources {
         if !is_placed {
             return self.base.problems(problems);
         }
-        let of_plan = problems.into_iter().filter_map(|p| {
+        let of_plan = problems.into_iter().filter_map(|mut p| {
             let at = place(&p)?;
+            p.message = unsaid(&p.message);
             Some(p.placed(Some(at)))
         });
         plan.problems(of_plan.collect())
@@ -266,25 +321,16 @@ impl Sources {
     fn try_scenario(&self, run: usize) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
         let (mut loaded, draw) = self.draws.scenario(&self.base.text, run)?;
         let folder = self.base.path.parent().unwrap_or(Path::new(""));
-        let defects = loaded.scenario.defects.iter();
-        let files: Vec<Option<String>> =
-            defects.map(|d| d.shape.file().map(str::to_owned)).collect();
-        match brinell_damage::resolve(&mut loaded.scenario, folder) {
-            Ok(_) => {
-                for (defect, file) in files.iter().enumerate() {
-                    if let Some(file) = file {
-                        loaded.read_from(defect, file);
-                    }
-                }
-                Ok((loaded, draw))
-            }
-            Err(errors) => {
-                let problem =
-                    |e: &brinell_damage::Unresolved| Problem::of_file(&e.key, &e.file, &e.message);
-                Err((errors.iter().map(problem).collect(), Some(draw)))
-            }
+        match resolve_loaded(&mut loaded, &self.base.text, &draw.settings, folder) {
+            Ok(_) => Ok((loaded, draw)),
+            Err(problems) => Err((problems, Some(draw))),
         }
     }
+}
+
+fn survey(draws: &Draws, base: &str) -> Survey {
+    let step = NonZeroUsize::new(draws.runs().div_ceil(SURVEYED)).unwrap_or(NonZeroUsize::MIN);
+    Survey::of(draws, base, step, many::threads(usize::MAX))
 }
 
 /// A problem of the plan as a whole, at the line of its key.

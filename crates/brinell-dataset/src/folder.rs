@@ -3,9 +3,9 @@
 use crate::campaign::Campaign;
 use crate::error::DatasetError;
 use crate::sidecar;
-use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, record_facts, sha256_of};
+use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -203,22 +203,22 @@ impl Folder {
         ))
     }
 
-    /// Holds a file's runs to oneself for as long as what comes back lives; nothing comes back on file systems without locks.
+    /// Holds a file's runs to oneself for as long as what comes back lives, on file systems that have locks.
     ///
     /// # Errors
     /// Where somebody else holds them.
-    pub(crate) fn lock(&self, part: usize) -> Result<Option<File>, DatasetError> {
+    pub(crate) fn lock(&self, part: usize) -> Result<File, DatasetError> {
         let path = self.spool(part).join("lock");
         let file = File::create(&path).map_err(|error| {
             DatasetError::Refused(format!("cannot write {}: {error}", path.display()))
         })?;
-        match file.try_lock() {
-            Ok(()) => Ok(Some(file)),
-            Err(TryLockError::WouldBlock) => Err(DatasetError::Refused(format!(
+        match lock(&file, &path) {
+            Ok(_) => Ok(file),
+            Err(IoError::Busy { .. }) => Err(DatasetError::Refused(format!(
                 "{}: another process is at work on the same runs; wait for it, or give each process a --shard of its own",
                 self.spool(part).display()
             ))),
-            Err(TryLockError::Error(_)) => Ok(None),
+            Err(error) => Err(error.into()),
         }
     }
 }

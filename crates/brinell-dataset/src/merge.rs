@@ -18,6 +18,29 @@ pub struct Merged {
     pub missing: Vec<usize>,
 }
 
+impl Merged {
+    /// What is still to do, in words; `None` where every file is there.
+    pub fn lack(&self) -> Option<String> {
+        /// Numbers that are told.
+        const SHOWN: usize = 10;
+        let first: Vec<String> = self
+            .missing
+            .iter()
+            .take(SHOWN)
+            .map(ToString::to_string)
+            .collect();
+        let (count, more) = (self.missing.len(), self.missing.len() > SHOWN);
+        (count > 0).then(|| {
+            format!(
+                "not whole: {count} file{} in none of the folders (part {}{}); run their shards again",
+                if count == 1 { "" } else { "s" },
+                first.join(", "),
+                if more { ", ..." } else { "" }
+            )
+        })
+    }
+}
+
 /// Brings the finished files of `from` into `into`, which may be one of them, or new, and writes `dataset.json` where all are there then.
 /// A file that is there already stays; where two folders have it, both must be the same.
 ///

@@ -4,17 +4,15 @@ use crate::campaign::Campaign;
 use crate::columns::{HEAD, KNOWN, TRUTH};
 use crate::run::Listener;
 use crate::truth::{Instant, Truth};
-use brinell::campaign::{digest, fingerprint};
+use brinell::campaign::digest;
 use brinell::defect::{Defect, Shape};
-use brinell::design::{Draw, Value};
-use brinell::scenario::{self, Accuracy, Scenario, Speed, Surface};
+use brinell::design::{Draw, Value, unsaid};
+use brinell::document::{on_one_line, one_line};
+use brinell::scenario::{self, Scenario, Speed, Surface};
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Kind};
 use serde_json::{Map, Value as Json};
 use std::collections::HashMap;
-
-/// A row, or nothing where the run was broken off.
-pub(crate) type Made = Option<Row>;
 
 /// A finished run.
 pub(crate) struct Row {
@@ -26,135 +24,128 @@ pub(crate) struct Row {
 /// Cells by the names of their columns; what is not there is empty.
 type Cells = HashMap<&'static str, Cell>;
 
-/// Runs `run` and makes its row. A run that cannot be is a row with its reason.
-pub(crate) fn make(campaign: &Campaign, run: usize, listener: &dyn Listener) -> Made {
-    let mut cells = Cells::new();
-    let (loaded, draw) = match campaign.try_scenario(run) {
-        Ok(made) => made,
-        Err((problems, draw)) => {
-            let reason: Vec<String> = problems
-                .iter()
-                .map(|p| p.to_string().replace("\n  ", "; "))
-                .collect();
-            return Some(row(
-                campaign,
-                run,
-                cells,
-                draw,
-                Vec::new(),
-                Some(reason.join("; ")),
-            ));
-        }
-    };
-    let scenario = &loaded.scenario;
-    about(scenario, &mut cells);
-    let simulation = match Simulation::new(scenario) {
-        Ok(simulation) => simulation,
-        Err(error) => {
-            return Some(row(
-                campaign,
-                run,
-                cells,
-                Some(draw),
-                Vec::new(),
-                Some(error.to_string()),
-            ));
-        }
-    };
-    let signals = campaign.signals();
-    let strange = simulation
-        .channels()
-        .iter()
-        .find(|c| signals.iter().all(|s| s.name != c.name));
-    if let Some(channel) = strange {
-        let reason = format!(
-            "its channel {} is not among the data set's signals; name signals without *",
-            channel.name
-        );
-        return Some(row(
-            campaign,
-            run,
-            cells,
-            Some(draw),
-            Vec::new(),
-            Some(reason),
-        ));
-    }
-    known(scenario, &simulation, &mut cells);
-    let mut listener = listener.begin(run, scenario.simulation.duration_s);
-    let mut truth = Truth::new(scenario, &simulation, signals, listener.as_mut());
-    let outcome = simulation.run(&mut truth);
-    let failed = match &outcome.end {
-        End::Stopped => return None,
-        End::Failed(error) => Some(error.to_string()),
-        End::Complete => None,
-    };
-    work(scenario, &simulation, &outcome, &mut cells);
-    let mut heard = Vec::new();
-    if failed.is_none() {
-        heard = (0..signals.len())
-            .map(|k| truth.signal(k).map_or(Cell::Empty, Cell::Signal))
-            .collect();
-        gathered(&simulation, &truth, &mut cells);
-    }
-    Some(row(campaign, run, cells, Some(draw), heard, failed))
+/// What is known of a run so far.
+#[derive(Default)]
+struct Draft {
+    draw: Option<Draw>,
+    cells: Cells,
+    signals: Vec<Cell>,
 }
 
-/// The cells in the order of the columns.
-fn row(
-    campaign: &Campaign,
-    run: usize,
-    mut cells: Cells,
-    draw: Option<Draw>,
-    signals: Vec<Cell>,
-    failed: Option<String>,
-) -> Row {
-    let draws = campaign.draws();
-    let class = draws.class(run);
-    let split = if draws.is_held_out(run) {
-        "held-out"
-    } else {
-        "open"
+/// Why a run has no signals.
+enum Short {
+    /// It was broken off.
+    Stopped,
+    /// It cannot be, or failed.
+    Failed(String),
+}
+
+/// Runs `run` and makes its row; nothing where it was broken off. A run that cannot be is a row with its reason.
+pub(crate) fn make(campaign: &Campaign, run: usize, listener: &dyn Listener) -> Option<Row> {
+    let mut draft = Draft::default();
+    let failed = match draft.fill(campaign, run, listener) {
+        Ok(()) => None,
+        Err(Short::Failed(reason)) => Some(reason),
+        Err(Short::Stopped) => return None,
     };
-    let status = if failed.is_some() {
-        "failed"
-    } else {
-        "complete"
-    };
-    cells.insert("run", Cell::Whole(run as i64));
-    cells.insert("split", words(split));
-    cells.insert("status", words(status));
-    cells.insert("class", words(&campaign.plan().classes[class].name));
-    cells.insert("label", Cell::Whole(class as i64));
-    if let Some(reason) = &failed {
-        cells.insert("reason", words(reason));
+    Some(draft.row(campaign, run, failed))
+}
+
+impl Draft {
+    fn fill(
+        &mut self,
+        campaign: &Campaign,
+        run: usize,
+        listener: &dyn Listener,
+    ) -> Result<(), Short> {
+        let (loaded, draw) = campaign.try_scenario(run).map_err(|(problems, draw)| {
+            self.draw = draw;
+            Short::Failed(unsaid(&on_one_line(&problems)))
+        })?;
+        self.draw = Some(draw);
+        let (scenario, cells) = (&loaded.scenario, &mut self.cells);
+        about(scenario, cells);
+        let simulation = Simulation::new(scenario)
+            .map_err(|error| Short::Failed(one_line(&error.to_string())))?;
+        let signals = campaign.signals();
+        let mut channels = simulation.channels().iter();
+        if let Some(channel) = channels.find(|c| signals.iter().all(|s| s.name != c.name)) {
+            return Err(Short::Failed(format!(
+                "its channel {} is not among the data set's signals; name signals without *",
+                channel.name
+            )));
+        }
+        known(scenario, &simulation, cells);
+        let mut listener = listener.begin(run, scenario.simulation.duration_s);
+        let mut truth = Truth::new(scenario, &simulation, signals, listener.as_mut());
+        let outcome = simulation.run(&mut truth);
+        if outcome.end == End::Stopped {
+            return Err(Short::Stopped);
+        }
+        work(scenario, &simulation, &outcome, cells);
+        if let End::Failed(error) = &outcome.end {
+            return Err(Short::Failed(one_line(&error.to_string())));
+        }
+        gathered(&simulation, &truth, cells);
+        let heard = (0..signals.len()).map(|k| truth.signal(k).map_or(Cell::Empty, Cell::Signal));
+        self.signals = heard.collect();
+        Ok(())
     }
-    let mut values = Vec::new();
-    if let Some(draw) = draw {
-        let settings: Map<String, Json> = draw
-            .settings
-            .iter()
-            .map(|(key, value)| (key.clone(), value.as_str().into()))
-            .collect();
-        cells.insert("settings", Cell::Words(Json::from(settings).to_string()));
-        cells.insert("redrawn", Cell::Whole(draw.redrawn as i64));
-        values = draw.values;
+
+    /// The cells in the order of the columns.
+    fn row(self, campaign: &Campaign, run: usize, failed: Option<String>) -> Row {
+        let Self {
+            draw,
+            mut cells,
+            signals,
+        } = self;
+        let draws = campaign.draws();
+        let class = draws.class(run);
+        let split = if draws.is_held_out(run) {
+            "held-out"
+        } else {
+            "open"
+        };
+        let status = if failed.is_some() {
+            "failed"
+        } else {
+            "complete"
+        };
+        cells.insert("run", Cell::Whole(run as i64));
+        cells.insert("split", words(split));
+        cells.insert("status", words(status));
+        cells.insert("class", words(&campaign.plan().classes[class].name));
+        cells.insert("label", Cell::Whole(class as i64));
+        if let Some(reason) = &failed {
+            cells.insert("reason", words(reason));
+        }
+        let mut values = Vec::new();
+        if let Some(draw) = draw {
+            let settings: Map<String, Json> = draw
+                .settings
+                .iter()
+                .map(|(key, value)| (key.clone(), value.as_str().into()))
+                .collect();
+            cells.insert("settings", Cell::Words(Json::from(settings).to_string()));
+            cells.insert("redrawn", Cell::Whole(draw.redrawn as i64));
+            values = draw.values;
+        }
+        values.resize(draws.parameters().len(), None);
+        let parameter = |(p, value): (&brinell::design::Parameter, Option<Value>)| match value {
+            None => Cell::Empty,
+            Some(value) if p.numeric => Cell::number(value.number),
+            Some(value) => words(value.words()),
+        };
+        let mut take = |name: &str| cells.remove(name).unwrap_or(Cell::Empty);
+        let mut all: Vec<Cell> = HEAD.iter().map(|c| take(c.0)).collect();
+        let heard = signals.len();
+        all.extend(signals);
+        all.extend((heard..campaign.signals().len()).map(|_| Cell::Empty));
+        all.extend(KNOWN.iter().map(|c| take(c.0)));
+        all.extend(draws.parameters().iter().zip(values).map(parameter));
+        all.extend(TRUTH.iter().map(|c| take(c.0)));
+        Row { cells: all, failed }
     }
-    values.resize(draws.parameters().len(), None);
-    let parameter = |(p, value): (&brinell::design::Parameter, Option<Value>)| match value {
-        None => Cell::Empty,
-        Some(value) if p.numeric => Cell::number(value.number),
-        Some(value) => words(value.words()),
-    };
-    let mut take = |name: &str| cells.remove(name).unwrap_or(Cell::Empty);
-    let mut all: Vec<Cell> = HEAD.iter().map(|c| take(c.0)).collect();
-    let heard = signals.len();
-    all.extend(signals);
-    all.extend((heard..campaign.signals().len()).map(|_| Cell::Empty));
-    all.extend(KNOWN.iter().map(|c| take(c.0)));
-    all.extend(draws.parameters().iter().zip(values).map(parameter));
-    all.extend(TRUTH.iter().map(|c| take(c.0)));
-    Row { cells: all, failed }
 }
 
 fn words(text: &str) -> Cell {
@@ -178,16 +169,11 @@ fn about(scenario: &Scenario, cells: &mut Cells) {
         cells.insert("speed_rpm", Cell::Number(rpm));
     }
     cells.insert("load_n", Cell::Numbers(scenario.operation.load_n.to_vec()));
-    cells.insert(
-        "accuracy",
-        words(match s.accuracy {
-            Accuracy::Standard => "standard",
-            Accuracy::Reference => "reference",
-        }),
-    );
-    cells.insert("scenario", Cell::Words(scenario.to_toml()));
-    cells.insert("scenario_sha256", Cell::Words(fingerprint(scenario)));
-    debug_assert_eq!(fingerprint(scenario), digest(&scenario.to_toml()));
+    cells.insert("accuracy", words(s.accuracy.word()));
+    let text = scenario.to_toml();
+    // `fingerprint`, of the text that is here already.
+    cells.insert("scenario_sha256", Cell::Words(digest(&text)));
+    cells.insert("scenario", Cell::Words(text));
 }
 
 /// What follows from it before anything moves.
@@ -232,14 +218,7 @@ fn known(scenario: &Scenario, simulation: &Simulation, cells: &mut Cells) {
                 .collect(),
         )
     };
-    cells.insert(
-        "defect_on",
-        list(&|d| match d.on {
-            Surface::OuterRaceway => "outer-raceway",
-            Surface::InnerRaceway => "inner-raceway",
-            Surface::Roller(_) => "roller",
-        }),
-    );
+    cells.insert("defect_on", list(&|d| d.on.word()));
     cells.insert("defect_row", wholes(&|d| d.row));
     cells.insert(
         "defect_roller",
@@ -248,7 +227,7 @@ fn known(scenario: &Scenario, simulation: &Simulation, cells: &mut Cells) {
             _ => 0,
         }),
     );
-    cells.insert("defect_shape", list(&|d| kind_of(&d.shape)));
+    cells.insert("defect_shape", list(&|d| d.shape.word()));
     cells.insert("defect_center_deg", numbers(&|d, _| d.center_deg));
     cells.insert(
         "defect_length_mm",
@@ -281,23 +260,6 @@ fn largest(defect: &Defect, of: impl Fn(f64) -> f64) -> f64 {
     let at =
         |k: u32| of((first + (last - first) * f64::from(k) / f64::from(PARTS)).clamp(first, last));
     (0..=PARTS).map(at).fold(0.0, f64::max)
-}
-
-fn kind_of(shape: &scenario::Shape) -> &'static str {
-    use scenario::Shape as S;
-    match shape {
-        S::Rectangle { .. } => "rectangle",
-        S::Circle { .. } => "circle",
-        S::Profile { .. } => "profile",
-        S::Li2023Irregular { .. } => "li2023_irregular",
-        S::Outline { .. } => "outline",
-        S::DepthMap { .. } => "depth_map",
-        S::Grown { .. } => "grown",
-        S::Random { .. } => "random",
-        S::Image(_) => "image",
-        S::Svg(_) => "svg",
-        S::Scan(_) => "depth_map",
-    }
 }
 
 /// What the solver did.

@@ -108,7 +108,7 @@ pub struct Went {
 /// A file whose runs are being done.
 struct Open {
     left: usize,
-    _lock: Option<File>,
+    _lock: File,
 }
 
 struct Work<'a> {

@@ -15,7 +15,12 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
     let plan = campaign.plan();
     let (draws, first) = (campaign.draws(), campaign.first());
     let classes = plan.classes.iter().enumerate().map(|(label, class)| {
-        json!({ "name": class.name, "label": label, "runs": draws.runs_of(label) })
+        // Of all runs the counts would tell how many labels of each kind are held out.
+        let (count, runs) = match plan.holds_out() {
+            true => ("open_runs", draws.open_runs_of(label)),
+            false => ("runs", draws.runs_of(label)),
+        };
+        json!({ "name": class.name, "label": label, count: runs })
     });
     let columns = campaign.columns().iter().map(|c| {
         let column = &c.record.column;
@@ -28,10 +33,8 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         entry
     });
     let varies = |key: &str| {
-        draws
-            .parameters()
-            .iter()
-            .any(|p| p.key == key || p.key.starts_with(&format!("{key}.")))
+        let mut drawn = draws.parameters().iter();
+        drawn.any(|p| p.key == key || p.key.starts_with(&format!("{key}."))) || draws.is_seed(key)
     };
     let rate = &first.scenario.simulation.sample_rate_hz;
     let keys = first.provenance.iter().filter(|p| {
@@ -62,8 +65,8 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         "frame": "planar; x right, y up, angles counter-clockwise from +x, origin at the bearing's centre; rows, rollers and defects count from 1",
         "columns": columns.collect::<Vec<_>>(),
         "geometry": {
-            "meaning": "every key of the first run; the keys that vary have null here and a column of their own, and what derives from them differs from \
-                        run to run: the column `scenario` has every run's",
+            "meaning": "every key of the first run; the keys that vary have null here and a column of their own (seeds have none), and what derives from \
+                        them differs from run to run: the column `scenario` has every run's",
             "keys": keys.map(|p| key(p, varies(&p.key))).collect::<Vec<_>>(),
         },
         "held_out": plan.holds_out(),

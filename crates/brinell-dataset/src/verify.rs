@@ -145,18 +145,22 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
                 .push(format!("runs/{name}: no file of this data set"));
         }
     }
-    // The labels may have been taken elsewhere: those that are here are checked.
-    for (part, told) in sidecar["held_out"]["files"]
+    // The labels may have been taken elsewhere, all of them: those that are here are checked.
+    let labels: Vec<&Value> = sidecar["held_out"]["files"]
         .as_array()
         .into_iter()
         .flatten()
-        .enumerate()
-    {
-        let path = folder.held_out(part);
-        if path.exists() && Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str() {
+        .collect();
+    let are_here = (0..labels.len()).any(|part| folder.held_out(part).exists());
+    for (part, told) in labels.into_iter().enumerate().filter(|_| are_here) {
+        let (path, name) = (folder.held_out(part), file_name(part));
+        if !path.exists() {
             found.problems.push(format!(
-                "held_out/{}: its checksum is another than when it was written",
-                file_name(part)
+                "held_out/{name} is missing, and others are here: remove runs/{name} as well, and both are made again"
+            ));
+        } else if Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str() {
+            found.problems.push(format!(
+                "held_out/{name}: its checksum is another than when it was written"
             ));
         }
     }

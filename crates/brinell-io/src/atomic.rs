@@ -150,7 +150,10 @@ fn open_alone(partial: &Path, path: &Path) -> Result<File, IoError> {
 
 /// Keeps other processes away from an open file, for as long as it is open; `path` is what they would be told is busy. False where the file
 /// system has no locks, as some networks' have not: that is no reason not to work, and the user keeps runs apart.
-pub(crate) fn lock(file: &File, path: &Path) -> Result<bool, IoError> {
+///
+/// # Errors
+/// [`IoError::Busy`] where another process has it.
+pub fn lock(file: &File, path: &Path) -> Result<bool, IoError> {
     match file.try_lock() {
         Ok(()) => Ok(true),
         Err(TryLockError::WouldBlock) => Err(IoError::Busy {

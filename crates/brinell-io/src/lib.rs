@@ -44,9 +44,10 @@ mod read;
 mod records;
 mod signals;
 mod table;
+mod text;
 mod write;
 
-pub use atomic::{atomic_copy, atomic_write};
+pub use atomic::{atomic_copy, atomic_write, lock};
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 pub use journal::Journal;
@@ -60,6 +61,7 @@ pub use read::{
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
 pub use table::{Cells, Table};
+pub use text::read_text;
 pub use write::mat::MatWriter;
 #[cfg(feature = "npz")]
 pub use write::npz::NpzWriter;

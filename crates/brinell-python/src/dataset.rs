@@ -1,10 +1,10 @@
 //! Data sets: a plan to files, alone or a share at a time.
 
 use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
+use crate::run::threads;
 use brinell_dataset::{self as dataset, DatasetError, Listener, RunListener, Shard};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -27,9 +27,9 @@ fn failed(py: Python, error: DatasetError) -> PyErr {
     }
 }
 
-/// A plan with its base scenario.
+/// A plan with its base scenario, and what its author should know.
 #[pyclass(frozen, module = "brinell._brinell", name = "Campaign")]
-pub(crate) struct Campaign(dataset::Campaign);
+pub(crate) struct Campaign(dataset::Campaign, Vec<String>);
 
 /// What the threads of a data set and the thread that waits for them share.
 #[derive(Default)]
@@ -56,10 +56,7 @@ struct Stop<'a>(&'a AtomicBool);
 
 impl RunListener for Stop<'_> {
     fn at(&mut self, _: f64) -> ControlFlow<()> {
-        match self.0.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        brinell::many::go_on(self.0)
     }
 }
 
@@ -70,12 +67,21 @@ impl Campaign {
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
         py.detach(|| {
             let campaign = dataset::Campaign::open(&path)?;
+            let mut warnings = Vec::new();
             if check {
-                campaign.sound(&campaign.survey())?;
+                let survey = campaign.survey();
+                campaign.sound(&survey)?;
+                warnings = campaign.warnings(&survey);
             }
-            Ok(Self(campaign))
+            Ok(Self(campaign, warnings))
         })
         .map_err(|error| failed(py, error))
+    }
+
+    /// What its author should know, where runs were tried.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.1.clone()
     }
 
     /// Name of the data set.
@@ -169,11 +175,7 @@ impl Campaign {
         let shard = Shard { index, of };
         let parts = (0..self.0.parts()).filter(|part| shard.has(*part));
         let runs: usize = parts.map(|part| self.0.runs_of(part).len()).sum();
-        let threads = match jobs {
-            None => brinell::many::threads(runs),
-            Some(jobs) => NonZeroUsize::new(jobs)
-                .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))?,
-        };
+        let threads = threads(jobs, runs)?;
         let watch = Watch::default();
         let (went, heard) = py.detach(|| {
             std::thread::scope(|scope| {
@@ -236,16 +238,15 @@ fn named(value: &serde_json::Value, under: bool, names: &mut Vec<String>) {
     }
 }
 
-/// Joins folders in which shares ran apart: files brought, there before, and missing.
+/// Joins folders in which shares ran apart; what is still to do, where something is.
 #[pyfunction]
 pub(crate) fn merge(
     py: Python<'_>,
     folders: Vec<PathBuf>,
     into: PathBuf,
-) -> PyResult<(usize, usize, Vec<usize>)> {
+) -> PyResult<Option<String>> {
     let merged = py.detach(|| dataset::merge(&folders, &into));
-    let merged = merged.map_err(|error| failed(py, error))?;
-    Ok((merged.brought, merged.before, merged.missing))
+    Ok(merged.map_err(|error| failed(py, error))?.lack())
 }
 
 /// Checks a data set: files, of how many, rows, failed runs, and everything that is wrong.

@@ -4,7 +4,7 @@ use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
 use brinell::campaign::{self, Finished};
-use brinell::scenario::Surface;
+use brinell::many::go_on;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
@@ -144,6 +144,15 @@ pub(crate) fn simulate(
     }
 }
 
+/// Runs at a time, of `count` in all: as asked for, or one a core.
+pub(crate) fn threads(jobs: Option<usize>, count: usize) -> PyResult<NonZeroUsize> {
+    let Some(jobs) = jobs else {
+        return Ok(brinell::many::threads(count));
+    };
+    NonZeroUsize::new(jobs)
+        .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))
+}
+
 /// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with Python's lock. Signals
 /// are heard meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the flag.
 pub(crate) fn over_threads<T: Send>(
@@ -153,11 +162,7 @@ pub(crate) fn over_threads<T: Send>(
     job: impl Fn(usize, &AtomicBool) -> T + Sync,
     mut deliver: impl FnMut(Python<'_>, usize, T) -> PyResult<()> + Send,
 ) -> PyResult<()> {
-    let threads = match jobs {
-        None => brinell::many::threads(count),
-        Some(jobs) => NonZeroUsize::new(jobs)
-            .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))?,
-    };
+    let threads = threads(jobs, count)?;
     let stop = AtomicBool::new(false);
     py.detach(|| {
         std::thread::scope(|scope| {
@@ -205,14 +210,10 @@ pub(crate) fn simulate_many(
         scenarios.len(),
         jobs,
         |k, stop| {
-            let stopped = || match stop.load(Ordering::Relaxed) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            };
-            match stopped() {
-                ControlFlow::Break(()) => Ran::LeftOut,
-                ControlFlow::Continue(()) => run(scenarios[k].get(), |_| stopped()),
+            if go_on(stop).is_break() {
+                return Ran::LeftOut;
             }
+            run(scenarios[k].get(), |_| go_on(stop))
         },
         |py, k, ran| {
             match ran.result(py, &scenarios[k]) {
@@ -396,11 +397,7 @@ impl Run {
             .map(|(k, d)| {
                 let line = self.finished.findings.lines.iter().find(|l| l.defect == k);
                 json!({
-                    "on": match d.on {
-                        Surface::OuterRaceway => "outer-raceway",
-                        Surface::InnerRaceway => "inner-raceway",
-                        Surface::Roller(_) => "roller",
-                    },
+                    "on": d.on.word(),
                     "row": d.row,
                     "center_deg": d.center_deg,
                     "frequency": line.map(|l| l.name),

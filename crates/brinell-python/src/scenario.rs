@@ -106,7 +106,8 @@ impl Scenario {
     #[staticmethod]
     #[pyo3(signature = (path, settings=None))]
     fn read(py: Python, path: PathBuf, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let bytes = std::fs::read(&path).map_err(|error| unreadable(&path, &error))?;
+        let bytes = std::fs::File::open(&path).and_then(brinell_io::read_text);
+        let bytes = bytes.map_err(|error| unreadable(&path, &error))?;
         let file = path.display().to_string();
         let text = match String::from_utf8(bytes) {
             Ok(text) => text,

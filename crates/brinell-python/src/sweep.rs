@@ -5,23 +5,9 @@ use crate::errors::bad_value;
 use crate::run::over_threads;
 use crate::scenario::Scenario;
 use brinell::campaign::{self, Axis, Plan, Quantity, Unfinished, columns};
-use brinell::document::{Problem, Severity};
+use brinell::document::{on_one_line, one_line};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use std::ops::ControlFlow;
-use std::sync::atomic::Ordering;
-
-/// Problems on one line, as the tables of the command have them.
-fn reason(problems: &[Problem]) -> String {
-    let errors = problems.iter().filter(|p| p.severity == Severity::Error);
-    let texts: Vec<String> = errors.map(ToString::to_string).collect();
-    one_line(&texts.join("\n").replace("error: ", ""))
-}
-
-fn one_line(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().map(str::trim).collect();
-    lines.join("; ")
-}
 
 /// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for each point which setting
 /// of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN where a run has none. `progress` gets the points
@@ -58,11 +44,8 @@ pub(crate) fn sweep<'py>(
             let (loaded, _) = source
                 .with(&plan.settings(k))
                 .load()
-                .map_err(|problems| reason(&problems))?;
-            let finished = campaign::run(loaded.scenario, |_| match stop.load(Ordering::Relaxed) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            });
+                .map_err(|problems| on_one_line(&problems))?;
+            let finished = campaign::run(loaded.scenario, |_| brinell::many::go_on(stop));
             match finished {
                 Ok(finished) => Ok(finished.quantities()),
                 Err(Unfinished::Failed(error)) => Err(one_line(&error.to_string())),

@@ -12,7 +12,7 @@ use crate::picture::escape;
 pub struct Table {
     /// Heading.
     pub title: String,
-    /// Heads of the columns; one that begins with `#` is set as numbers.
+    /// Heads of the columns; one that begins with `#` is set as numbers, `Unit` as units.
     pub columns: Vec<String>,
     /// Rows, a cell for each column.
     pub rows: Vec<Vec<String>>,
@@ -204,7 +204,11 @@ pub(crate) fn table(page: &mut String, table: &Table) {
     for row in &table.rows {
         page.push_str("<tr>");
         for (i, cell) in row.iter().enumerate() {
-            let _ = write!(page, "<td{}>{}</td>", class(i), escape(cell));
+            let set = match table.columns.get(i).map(String::as_str) {
+                Some("Unit") => unit_html(cell),
+                _ => escape(cell),
+            };
+            let _ = write!(page, "<td{}>{set}</td>", class(i));
         }
         page.push_str("</tr>\n");
     }

@@ -4,7 +4,8 @@
 //! never while one runs.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
@@ -12,6 +13,14 @@ use std::thread;
 pub fn threads(jobs: usize) -> NonZeroUsize {
     let cores = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     NonZeroUsize::new(jobs).map_or(NonZeroUsize::MIN, |jobs| cores.min(jobs))
+}
+
+/// An observer's answer: to go on until somebody sets the flag.
+pub fn go_on(stop: &AtomicBool) -> ControlFlow<()> {
+    match stop.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    }
 }
 
 /// Does `job(k)` for every k below `count`, each once, on up to `threads` threads that take the next as they get free. `done` gets each

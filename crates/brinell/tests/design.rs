@@ -111,6 +111,9 @@ fn prop_a_sensors_noise_is_another_in_every_run() {
     assert_eq!(seeds(&format!("{noisy}noise_seed = 4\n"), PLAN).len(), 60);
     let fixed = PLAN.replace("[vary]", "[vary]\nsensor.noise_seed = 9");
     assert_eq!(seeds(&noisy, &fixed), [9]);
+    let [own, set] = [PLAN, &*fixed].map(|plan| draws(plan).is_seed("sensor.noise_seed"));
+    assert!(own && !set && draws(PLAN).is_seed("defects.0.shape.random.seed"));
+    assert!(!draws(PLAN).is_seed("defects.0.shape.random.length_mm"));
     // Without noise there is nothing to seed.
     assert_eq!(seeds(&format!("{BASE}[sensor]\n"), PLAN).len(), 1);
 }
@@ -304,6 +307,52 @@ fn prop_held_out_runs_are_the_share_asked_for_and_always_the_same() {
 }
 
 #[test]
+fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
+    const RUNS: usize = 6000;
+    let plan = format!("design = 'latin-hypercube'\n{PLAN}")
+        .replace("runs = 60", &format!("runs = {RUNS}\nheld_out = 0.5"))
+        .replace("share = 2", "share = 1");
+    let draws = draws(&plan);
+    let (held, open): (Vec<usize>, Vec<usize>) = (0..RUNS).partition(|run| draws.is_held_out(*run));
+    // Those that are open take turns, as if there were no others: their order has no gaps to read.
+    for (n, run) in open.iter().enumerate() {
+        assert_eq!(draws.class(*run), n % 2, "run {run}");
+    }
+    // Those held out are of either class by chance, at odd and at even places, and after either class: within four standard deviations.
+    for odd in [0, 1] {
+        let of_these: Vec<usize> = held.iter().copied().filter(|run| run % 2 == odd).collect();
+        let ones = of_these.iter().filter(|run| draws.class(**run) == 1);
+        let off = ones.count() as f64 - 0.5 * of_these.len() as f64;
+        assert!(off.abs() < 2.0 * (of_these.len() as f64).sqrt(), "{off}");
+    }
+    // The design is filled by the open runs alone: one in each slice of a class, and no slice is left over for a run that is held out.
+    let speeds = numbers(&draws, "operation.speed_rpm");
+    for class in [0, 1] {
+        let mine = |run: &&usize| draws.class(**run) == class;
+        let of_class = open.iter().filter(mine).count();
+        assert_eq!(of_class, draws.open_runs_of(class));
+        let slice = |run: &usize| ((speeds[*run] - 1000.0) / 2000.0 * of_class as f64) as usize;
+        let slices: std::collections::HashSet<usize> =
+            open.iter().filter(mine).map(slice).collect();
+        // Nine digits may move one over an edge.
+        assert!(
+            slices.len() + 5 > of_class,
+            "{} of {of_class}",
+            slices.len()
+        );
+        let apart: std::collections::HashSet<usize> = held.iter().filter(mine).map(slice).collect();
+        assert!(
+            apart.len() < 3 * of_class / 4,
+            "at random, two fall into one slice"
+        );
+    }
+    // Small seeds can be tried one by one.
+    assert!(draws.notes()[0].starts_with("seed = 5: whoever has the open runs can try such seeds"));
+    let large = Plan::read(&plan.replace("seed = 5", "seed = 839204756102938")).unwrap();
+    assert!(Draws::new(large).unwrap().notes().is_empty());
+}
+
+#[test]
 fn regress_bad_plans_are_told_with_key_line_and_range() {
     for (plan, parts) in [
         ("runs = 3", vec!["base: missing: a string is required"]),
@@ -329,7 +378,13 @@ fn regress_bad_plans_are_told_with_key_line_and_range() {
         ),
         (
             "base = 'b'\nruns = 3\nvary.a.b = { uniform = [3, 1] }",
-            vec!["line 3: vary = { uniform = [3, 1] }: the ends are reversed; [1.0, 3.0] is meant"],
+            vec![
+                "line 3: vary.a.b = { uniform = [3, 1] }: the ends are reversed; [1.0, 3.0] is meant",
+            ],
+        ),
+        (
+            "base = 'b'\nruns = 3\nvary.a.b = [0, { uniform = [3, 3] }]",
+            vec!["vary.a.b.1 = { uniform = [3, 3] }: the ends are equal"],
         ),
         (
             "base = 'b'\nruns = 3\nvary.a.b = { log = [0, 1] }",
@@ -357,7 +412,10 @@ fn regress_bad_plans_are_told_with_key_line_and_range() {
         ),
         (
             "base = 'b'\nruns = 3\nvary.a.b = { grid = '1:2' }",
-            vec!["a range has three parts"],
+            vec![
+                "a range has three parts",
+                "\n  allowed: a list, or a range \"FROM:TO:STEP\"",
+            ],
         ),
         (
             "base = 'b'\nruns = 3\nvary.simulation.record = ['a']",

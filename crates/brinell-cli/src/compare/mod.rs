@@ -16,11 +16,9 @@ use brinell::campaign::{Compared, Finished, Unfinished, compare, run_all};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 use sides::Side;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
-use std::sync::atomic::Ordering;
 
 /// Exit code where a run failed or was broken off.
 const NOT_DONE: u8 = 1;
@@ -99,10 +97,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
         if let Ok(mut part) = parts[k].lock() {
             part.at(t);
         }
-        if stop.load(Ordering::Relaxed) {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        brinell::many::go_on(&stop)
     });
     drop(joint);
     let (mut runs, mut stopped) = (Vec::new(), false);

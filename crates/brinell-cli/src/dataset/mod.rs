@@ -16,7 +16,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::PoisonError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Exit code where something is missing or wrong in what is there, or Ctrl-C stopped the work.
@@ -141,25 +141,10 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
             merged.before
         );
     }
-    if merged.missing.is_empty() {
+    let Some(lack) = merged.lack() else {
         return Ok(ExitCode::SUCCESS);
-    }
-    let first: Vec<String> = merged
-        .missing
-        .iter()
-        .take(SHOWN)
-        .map(ToString::to_string)
-        .collect();
-    complain!(
-        "not whole: {} in none of the folders (part {}{}); run their shards again",
-        plural(merged.missing.len(), "file"),
-        first.join(", "),
-        if merged.missing.len() > SHOWN {
-            ", ..."
-        } else {
-            ""
-        }
-    );
+    };
+    complain!("{lack}");
     Ok(ExitCode::from(NOT_WHOLE))
 }
 
@@ -177,6 +162,11 @@ fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     }
     for problem in &found.problems {
         complain!("{problem}");
+    }
+    if !found.problems.is_empty() {
+        complain!(
+            "remove what is damaged: the plan's own command makes again what is missing, with the same bytes"
+        );
     }
     Ok(match found.problems.is_empty() {
         true => ExitCode::SUCCESS,
@@ -225,10 +215,7 @@ struct Shown<'a> {
 impl RunListener for Shown<'_> {
     fn at(&mut self, t: f64) -> ControlFlow<()> {
         self.progress.at(t);
-        match self.stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        brinell::many::go_on(self.stop)
     }
 }
 

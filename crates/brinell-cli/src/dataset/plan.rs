@@ -5,6 +5,7 @@ use crate::say::{complain, say, short};
 use crate::sweep::cost::mean_pace;
 use crate::sweep::{duration, plural};
 use brinell::design::{Misses, OutOfRange, Survey};
+use brinell::document::on_one_line;
 use brinell_dataset::Campaign;
 use std::num::NonZeroUsize;
 
@@ -22,19 +23,8 @@ pub(super) fn tell(
     args: &DatasetArgs,
 ) {
     let (plan, draws) = (campaign.plan(), campaign.draws());
-    for Misses {
-        problem,
-        run,
-        count,
-    } in &survey.warnings
-    {
-        complain!(
-            "{problem}\n  (in {count} of {} looked at, the first of them run {run})",
-            plural(survey.runs, "run")
-        );
-    }
-    for note in draws.notes() {
-        complain!("warning: {note}");
+    for warning in campaign.warnings(survey) {
+        complain!("{warning}");
     }
     if args.quiet {
         return;
@@ -83,7 +73,10 @@ pub(super) fn tell(
             survey.unfit,
             plural(survey.runs, "run")
         );
-        tell_misses(survey);
+        // Where the plan is refused for them, that says which.
+        if survey.is_sound(plan.out_of_range) {
+            tell_misses(survey);
+        }
     }
     let good = (survey.runs - survey.hopeless).max(1) as f64;
     let seconds = survey.simulated / good * runs as f64;
@@ -108,19 +101,10 @@ fn tell_misses(survey: &Survey) {
         count,
     } in &survey.errors
     {
-        let value = problem
-            .value
-            .as_deref()
-            .map_or(String::new(), |v| format!(" = {v}"));
-        let allowed = problem
-            .allowed
-            .as_deref()
-            .map_or(String::new(), |a| format!("; allowed: {a}"));
         complain!(
-            "  {}: {count} of {}, such as run {run}{value}: {}{allowed}",
-            problem.key,
+            "  {count} of {}, such as run {run}: {}",
             plural(survey.runs, "run"),
-            problem.message
+            on_one_line(std::slice::from_ref(problem))
         );
     }
 }

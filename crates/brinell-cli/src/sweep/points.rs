@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
 use brinell::campaign::{Axis, Plan, digest, fingerprint};
-use brinell::document::Problem;
+use brinell::document::{Problem, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
@@ -176,19 +176,10 @@ fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
 
 /// A failure on one line.
 pub(crate) fn reason(failure: &Failure) -> String {
-    let text = match failure {
-        Failure::Scenario { problems, .. } => {
-            let errors = problems
-                .iter()
-                .filter(|p| p.severity == brinell::document::Severity::Error);
-            let said = errors.map(ToString::to_string);
-            let texts = said.map(|text| text.trim_start_matches("error: ").to_owned());
-            texts.collect::<Vec<_>>().join("; ")
-        }
-        other => other.words(),
-    };
-    let lines = text.lines().map(str::trim);
-    lines.collect::<Vec<_>>().join("; ")
+    match failure {
+        Failure::Scenario { problems, .. } => on_one_line(problems),
+        other => one_line(&other.words()),
+    }
 }
 
 /// Runs points from their source, and keeps their signals where that is asked for.

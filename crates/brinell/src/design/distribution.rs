@@ -1,5 +1,6 @@
 //! Distributions of a key's values: from a place in the unit interval to a value.
 
+use crate::campaign::{Axis, PlanError};
 use crate::document::reading::{Misfit, Node, Toml};
 use crate::signal::distribution::{normal_quantile, normal_tail};
 
@@ -97,7 +98,7 @@ pub enum Distribution {
 }
 
 /// The key that makes a table a distribution.
-const KINDS: [&str; 6] = ["uniform", "log", "normal", "whole", "choice", "grid"];
+pub(super) const KINDS: [&str; 6] = ["uniform", "log", "normal", "whole", "choice", "grid"];
 
 impl Distribution {
     /// Reads a table that has one of the distributions' names as its key; `None` where it has none: it is no distribution.
@@ -326,9 +327,14 @@ fn grid(node: &Node) -> Result<Vec<Value>, Misfit> {
     let Toml::Text(text) = &node.value else {
         return values("grid", node);
     };
-    let axis = crate::campaign::Axis::vary(&format!("grid={text}"));
-    let axis = axis
-        .map_err(|error| Misfit::new(error.to_string(), "a list, or a range \"FROM:TO:STEP\""))?;
+    let axis = Axis::vary(&format!("grid={text}"));
+    let axis = axis.map_err(|error| {
+        let why = match error {
+            PlanError::Value { why, .. } => why,
+            other => other.to_string(),
+        };
+        Misfit::new(why, "a list, or a range \"FROM:TO:STEP\"")
+    })?;
     let of = |setting: &Vec<String>| Value {
         number: setting[0].parse().ok(),
         toml: setting[0].clone(),

@@ -1,14 +1,17 @@
 //! What each run of a plan draws.
 
-use super::distribution::{Distribution, Value};
+use super::distribution::{Distribution, KINDS, Value};
 use super::plan::{Design, OutOfRange, Plan};
 use super::sequence::{Sequence, Sobol};
 use super::stream::{bits, seed, unit, word};
+use super::turns::{APART, Place, places};
 use crate::document::reading::{Node, Toml, parse, quote};
 use crate::document::{Loaded, Problem, read};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
+/// Seeds below this one are tried in an afternoon.
+const GUESSED: u64 = 1 << 40;
 
 /// A seed that every run has one of its own of.
 struct Seeded {
@@ -64,7 +67,9 @@ struct Axis {
 }
 
 struct Drawn {
+    /// All of its runs, and those of them that the design spreads.
     runs: usize,
+    open: usize,
     axes: Vec<Axis>,
     sequence: Sequence,
     /// Settings of all grids together.
@@ -75,8 +80,7 @@ struct Drawn {
 pub struct Draws {
     plan: Plan,
     classes: Vec<Drawn>,
-    /// Class of each run, and its number within the class.
-    places: Vec<(u32, u32)>,
+    places: Vec<Place>,
     parameters: Vec<Parameter>,
 }
 
@@ -89,10 +93,11 @@ impl Draws {
         let places = places(&plan);
         let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for (c, class) in plan.classes.iter().enumerate() {
-            let runs = places
-                .iter()
-                .filter(|(class, _)| *class as usize == c)
-                .count();
+            let mine = || places.iter().filter(|place| place.class as usize == c);
+            let (all, runs) = (
+                mine().count(),
+                mine().filter(|place| place.number != APART).count(),
+            );
             let mut found = Vec::new();
             plan.vary.distributions("", &mut found);
             let common = found.len();
@@ -115,8 +120,13 @@ impl Draws {
                         _ => product,
                     });
             if combinations > runs && runs > 0 {
+                let apart = if plan.holds_out() {
+                    " whose labels are not held out"
+                } else {
+                    ""
+                };
                 let message = format!(
-                    "class {:?} has {runs} of the plan's {} runs, and its grids have {combinations} combinations",
+                    "class {:?} has {runs} of the plan's {} runs{apart}, and its grids have {combinations} combinations",
                     class.name, plan.runs
                 );
                 problems.push(
@@ -149,7 +159,8 @@ impl Draws {
                 Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
             };
             classes.push(Drawn {
-                runs,
+                runs: all,
+                open: runs,
                 axes,
                 sequence,
                 combinations,
@@ -179,7 +190,7 @@ impl Draws {
 
     /// Class of a run, from 0.
     pub fn class(&self, run: usize) -> usize {
-        self.places[run].0 as usize
+        self.places[run].class as usize
     }
 
     /// Runs of a class.
@@ -192,35 +203,46 @@ impl Draws {
         &self.parameters
     }
 
-    /// Whether a run's labels are held out.
-    pub fn is_held_out(&self, run: usize) -> bool {
-        unit(bits(&[self.plan.seed, word("held_out"), run as u64])) < self.plan.held_out
+    /// Runs of a class whose labels are not held out.
+    pub fn open_runs_of(&self, class: usize) -> usize {
+        self.classes[class].open
     }
 
-    /// What the author should know: grids whose combinations come unequally often.
+    /// Whether a run's labels are held out.
+    pub fn is_held_out(&self, run: usize) -> bool {
+        self.places[run].number == APART
+    }
+
+    /// What the author should know: grids whose combinations come unequally often, held-out labels behind a seed that can be guessed.
     pub fn notes(&self) -> Vec<String> {
         let uneven = |(class, drawn): (&super::Class, &Drawn)| {
-            (drawn.runs % drawn.combinations != 0).then(|| {
+            (drawn.open % drawn.combinations != 0).then(|| {
                 format!(
                     "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",
-                    class.name, drawn.runs, drawn.combinations
+                    class.name, drawn.open, drawn.combinations
                 )
             })
         };
-        self.plan
-            .classes
-            .iter()
-            .zip(&self.classes)
-            .filter_map(uneven)
-            .collect()
+        let classes = self.plan.classes.iter().zip(&self.classes);
+        let mut notes: Vec<String> = classes.filter_map(uneven).collect();
+        if self.plan.holds_out() && self.plan.seed < GUESSED {
+            notes.push(format!(
+                "seed = {}: whoever has the open runs can try such seeds until one fits, and then has the labels that are held out; a number of \
+                 15 digits drawn at random is safer",
+                self.plan.seed
+            ));
+        }
+        notes
     }
 
     /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
     fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
-        let (c, n) = self.places[run];
-        let class = &self.classes[c as usize];
+        let Place { class, number } = self.places[run];
+        let class = &self.classes[class as usize];
+        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
+        let apart = number == APART;
         // Grids are walked through in order, the last one changing from run to run; whatever the attempt.
-        let mut rest = n as usize % class.combinations;
+        let mut rest = number as usize % class.combinations;
         let mut of_grid = vec![0; class.axes.len()];
         for (k, axis) in class.axes.iter().enumerate().rev() {
             if let Distribution::Grid { values } = &axis.distribution {
@@ -229,15 +251,15 @@ impl Draws {
             }
         }
         let value = |(k, axis): (usize, &Axis)| {
-            if let Distribution::Grid { values } = &axis.distribution {
+            if let (Distribution::Grid { values }, false) = (&axis.distribution, apart) {
                 return values[of_grid[k]].clone();
             }
             let key = &self.parameters[axis.parameter].key;
             let own = [self.plan.seed, run as u64, attempt, word(key)];
-            axis.distribution.value(match attempt {
-                0 => class.sequence.place(n as usize, k, &own),
-                // A second draw has no place in the design.
-                _ => unit(bits(&own)),
+            axis.distribution.value(if attempt > 0 || apart {
+                unit(bits(&own))
+            } else {
+                class.sequence.place(number as usize, k, &own)
             })
         };
         class.axes.iter().enumerate().map(value).collect()
@@ -260,7 +282,7 @@ impl Draws {
         if let Some(defects) = &class.defects {
             settings.push(("defects".into(), defects.toml(&mut next)));
         }
-        let seeds = self.seeds(base, &settings, run)?;
+        let seeds = self.seeds(base, &settings, run).map_err(no_place)?;
         settings.extend(seeds);
         let mut values = vec![None; self.parameters.len()];
         for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
@@ -282,24 +304,38 @@ impl Draws {
         run: usize,
     ) -> Result<Vec<(String, String)>, Vec<Problem>> {
         let root = Node::table(parse(base, settings)?);
-        let class = &self.plan.classes[self.class(run)];
         let mut seeds = Vec::new();
         for Seeded { table, name, with } in &SEEDED_PER_RUN {
             let mut holders = Vec::new();
             holding(&root, table, with, "", &mut holders);
             for holder in holders {
                 let key = format!("{holder}.{name}");
-                let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
-                let set = self.plan.vary.sets(&key)
-                    || class.vary.sets(&key)
-                    || in_class.is_some_and(|(rest, defects)| defects.sets(rest));
-                if !set {
+                if !self.sets(self.class(run), &key) {
                     let own = seed(bits(&[self.plan.seed, run as u64, word(&key)]));
                     seeds.push((key, own.to_string()));
                 }
             }
         }
         Ok(seeds)
+    }
+
+    /// Whether the plan sets a key in a class.
+    fn sets(&self, class: usize, key: &str) -> bool {
+        let class = &self.plan.classes[class];
+        let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
+        self.plan.vary.sets(key)
+            || class.vary.sets(key)
+            || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
+    }
+
+    /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
+    pub fn is_seed(&self, key: &str) -> bool {
+        let is = |seeded: &Seeded| {
+            let (pattern, words) = (seeded.table.split('.').chain([seeded.name]), key.split('.'));
+            pattern.clone().count() == words.clone().count()
+                && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
+        };
+        SEEDED_PER_RUN.iter().any(is) && (0..self.classes.len()).any(|c| !self.sets(c, key))
     }
 
     /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says so.
@@ -339,22 +375,13 @@ impl Draws {
     }
 }
 
-/// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
-/// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
-fn places(plan: &Plan) -> Vec<(u32, u32)> {
-    let total: f64 = plan.classes.iter().map(|class| class.share).sum();
-    let mut counts = vec![0_u32; plan.classes.len()];
-    (0..plan.runs)
-        .map(|run| {
-            let behind =
-                |c: usize| plan.classes[c].share / total * (run + 1) as f64 - f64::from(counts[c]);
-            let next = (0..counts.len())
-                .fold(0, |best, c| if behind(c) > behind(best) { c } else { best });
-            let place = (next as u32, counts[next]);
-            counts[next] += 1;
-            place
-        })
-        .collect()
+/// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key below a number.
+fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
+    let hinted = |problem: Problem| match problem.allowed {
+        None => problem.allowed(format!("a value, or {{ {} = ... }}", KINDS.join(" | "))),
+        Some(_) => problem,
+    };
+    problems.into_iter().map(hinted).collect()
 }
 
 /// The parameter of that key, made where there is none yet.

@@ -11,9 +11,10 @@ mod sequence;
 mod stream;
 mod survey;
 mod template;
+mod turns;
 
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
 pub use plan::{Class, Design, OutOfRange, Plan};
 pub use sequence::Sobol;
-pub use survey::{Misses, Survey, place_in_plan};
+pub use survey::{Misses, Survey, place_in_plan, unsaid};

@@ -132,12 +132,17 @@ fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) 
         miss.count += times;
         return;
     }
-    problem.message = problem.message.replace(" (given as an override)", "");
+    problem.message = unsaid(&problem.message);
     all.push(Misses {
         problem,
         run,
         count: times,
     });
+}
+
+/// A message without the word that its value is an override's: in a plan every drawn value is.
+pub fn unsaid(message: &str) -> String {
+    message.replace(" (given as an override)", "")
 }
 
 /// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not: the base does.

@@ -29,11 +29,18 @@ impl Template {
             return distribution.map(Self::Drawn);
         }
         Ok(match &node.value {
-            Toml::Array(items) => Self::List(items.iter().map(Self::of).collect::<Result<_, _>>()?),
-            Toml::Table(table) => {
-                let pairs = table
+            Toml::Array(items) => {
+                let items = items
                     .iter()
-                    .map(|(name, entry)| Ok((name.clone(), Self::of(&entry.node)?)));
+                    .enumerate()
+                    .map(|(k, item)| Self::of(item).map_err(|misfit| misfit.under(&k.to_string())));
+                Self::List(items.collect::<Result<_, _>>()?)
+            }
+            Toml::Table(table) => {
+                let pairs = table.iter().map(|(name, entry)| {
+                    let inner = Self::of(&entry.node).map_err(|misfit| misfit.under(name))?;
+                    Ok((name.clone(), inner))
+                });
                 Self::Table(pairs.collect::<Result<_, _>>()?)
             }
             _ => Self::Fixed(node.text()),

@@ -71,11 +71,19 @@ const SHAPES: &[Variant<Shape>] = &[
     },
 ];
 
+impl Shape {
+    /// As the scenario file says it: `rectangle`, `random`, ...
+    pub fn word(&self) -> &'static str {
+        let known = SHAPES.iter().find(|variant| (variant.is)(self));
+        known.map_or("", |variant| variant.name)
+    }
+}
+
 pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
-    let (mut word, mut roller) = match d.on {
-        Surface::OuterRaceway => (SurfaceWord::OuterRaceway, 1),
-        Surface::InnerRaceway => (SurfaceWord::InnerRaceway, 1),
-        Surface::Roller(number) => (SurfaceWord::Roller, number),
+    let mut word = SurfaceWord::from(d.on);
+    let mut roller = match d.on {
+        Surface::Roller(number) => number,
+        _ => 1,
     };
     k.key(key("on", "damaged surface"), Required, &mut word);
     k.only_where(

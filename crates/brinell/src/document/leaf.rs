@@ -12,7 +12,9 @@ pub(crate) struct Misfit {
     pub(crate) message: String,
     pub(crate) allowed: String,
     /// The element at fault, where the value is a list.
-    pub(crate) element: Option<Node>,
+    pub(crate) element: Option<Box<Node>>,
+    /// Path of the key at fault below the one that is read, where that holds keys of any name.
+    pub(crate) under: String,
 }
 
 impl Misfit {
@@ -21,11 +23,20 @@ impl Misfit {
             message: message.into(),
             allowed: allowed.into(),
             element: None,
+            under: String::new(),
         }
     }
 
+    pub(crate) fn under(mut self, name: &str) -> Misfit {
+        self.under = match self.under.as_str() {
+            "" => name.to_owned(),
+            rest => format!("{name}.{rest}"),
+        };
+        self
+    }
+
     pub(crate) fn in_element(mut self, node: &Node) -> Misfit {
-        self.element.get_or_insert_with(|| node.clone());
+        self.element.get_or_insert_with(|| Box::new(node.clone()));
         self
     }
 }

@@ -27,7 +27,7 @@ mod writer;
 pub use example::template;
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
-pub use pointed::pointed_out;
+pub use pointed::{on_one_line, one_line, pointed_out};
 pub use problem::{Place, Problem, Severity};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;

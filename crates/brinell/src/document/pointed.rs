@@ -39,3 +39,18 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
     }
     told.join("\n")
 }
+
+/// The errors among problems on one line, as tables have them: without the word itself.
+pub fn on_one_line(problems: &[Problem]) -> String {
+    let errors = problems.iter().filter(|p| p.severity == Severity::Error);
+    let texts: Vec<String> = errors
+        .map(|problem| one_line(problem.to_string().trim_start_matches("error: ")))
+        .collect();
+    texts.join("; ")
+}
+
+/// The lines of a text behind one another.
+pub fn one_line(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    lines.join("; ")
+}

@@ -175,12 +175,16 @@ impl<'a> Reader<'a> {
     }
 
     fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
-        let element = misfit.element.as_ref().unwrap_or(node);
+        let element = misfit.element.as_deref().unwrap_or(node);
         let place = self.place(element).or_else(|| self.place(node));
         let source = if place.is_none() {
             " (given as an override)"
         } else {
             ""
+        };
+        let path = match misfit.under.as_str() {
+            "" => path,
+            under => join(&path, under),
         };
         let problem = Problem::error(path, misfit.message + source)
             .value(element.brief())

@@ -116,3 +116,27 @@ words! { SurfaceWord:
     InnerRaceway = "inner-raceway", "turns with the ring";
     Roller = "roller", "turns with that roller";
 }
+
+impl From<Surface> for SurfaceWord {
+    fn from(surface: Surface) -> Self {
+        match surface {
+            Surface::OuterRaceway => Self::OuterRaceway,
+            Surface::InnerRaceway => Self::InnerRaceway,
+            Surface::Roller(_) => Self::Roller,
+        }
+    }
+}
+
+impl Surface {
+    /// As the scenario file says it, without the roller's number: `outer-raceway`, `inner-raceway` or `roller`.
+    pub fn word(self) -> &'static str {
+        Choice::word(SurfaceWord::from(self))
+    }
+}
+
+impl Accuracy {
+    /// As the scenario file says it: `standard` or `reference`.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
+    }
+}
