@@ -825,20 +825,22 @@ static void accelerations(double t, const double *q, const double *v, double *ac
         }
 
         /* section 6 */
-        if (M.guide != GUIDE_NONE) {
-            const int outer = M.guide == GUIDE_OUTER;
+        {
+            /* Rollers as guides: no film, the outer ring's land alone (docs/src/theory/cage.md). */
+            const double eta = M.guide == GUIDE_NONE ? 0.0 : M.eta;
+            const int outer = M.guide != GUIDE_INNER;
             const double gx = xc - (outer ? xo : xi), gy = yc - (outer ? yo : yi);
             const double e = sqrt(gx * gx + gy * gy), eps = fmin(e / M.Cg, 0.95);
             const double nx = e > 0.0 ? gx / e : 1.0, ny = e > 0.0 ? gy / e : 0.0;
             const double wg = outer ? 0.0 : wi, R1 = outer ? M.cage_b : M.cage_a;
             const double ue = R1 * (wc + wg), ud = R1 * (wc - wg), one = 1.0 - eps * eps;
-            double Fn = -M.eta * fabs(ue) * M.L1 * M.L1 * M.L1 * eps * eps / (M.Cg * M.Cg * one * one);
-            const double Ft = PI * M.eta * ue * M.L1 * M.L1 * M.L1 * eps / (4.0 * M.Cg * M.Cg * one * sqrt(one));
+            double Fn = -eta * fabs(ue) * M.L1 * M.L1 * M.L1 * eps * eps / (M.Cg * M.Cg * one * one);
+            const double Ft = PI * eta * ue * M.L1 * M.L1 * M.L1 * eps / (4.0 * M.Cg * M.Cg * one * sqrt(one));
             if (e > M.Cg) Fn -= M.kc * (e - M.Cg);
             const double fx = Fn * nx - Ft * ny, fy = Fn * ny + Ft * nx;
             Fcx += fx;
             Fcy += fy;
-            Tc += -2.0 * PI * M.eta * ud * R1 * R1 * M.L1 / (M.Cg * sqrt(one));
+            Tc += -2.0 * PI * eta * ud * R1 * R1 * M.L1 / (M.Cg * sqrt(one));
             if (outer) { Fo[0] -= fx; Fo[1] -= fy; }
             else { Fi[0] -= fx; Fi[1] -= fy; }
         }

@@ -72,7 +72,7 @@ impl Pocket {
 /// Film and land between the cage and its guiding ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {
-    /// eta, Pa s.
+    /// eta, Pa s; 0 for a land without a film.
     pub viscosity: f64,
     /// C_g, radial, m.
     pub clearance: f64,

@@ -60,7 +60,7 @@ pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
     });
     CageOrbits {
         rows: rows.collect(),
-        clearance_um: (model.guidance != Guidance::Rollers).then_some(1e6 * model.guide.clearance),
+        clearance_um: Some(1e6 * model.guide.clearance),
         note: format!(
             "Centre of each cage from the {guide} ring’s centre: the last {TURNS} turns of the cage, or as many as the run holds."
         ),

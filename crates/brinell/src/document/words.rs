@@ -17,7 +17,7 @@ pub(crate) use words;
 words! { Guidance:
     OuterRing = "outer-ring", "a land on the outer ring";
     InnerRing = "inner-ring", "a land on the inner ring";
-    Rollers = "rollers", "no land";
+    Rollers = "rollers", "no film; a cage that strays lands on the outer ring";
 }
 
 words! { Law:

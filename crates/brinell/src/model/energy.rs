@@ -151,9 +151,8 @@ impl Energy {
                 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
             let ring = match model.guidance {
-                Guidance::OuterRing => l.outer(),
                 Guidance::InnerRing => l.inner(),
-                Guidance::Rollers => continue,
+                Guidance::OuterRing | Guidance::Rollers => l.outer(),
             };
             let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
             e.cage +=

@@ -253,7 +253,11 @@ impl Model {
             },
             guidance: c.guidance,
             guide: Guide {
-                viscosity: s.lubricant.viscosity_pa_s,
+                // Where the rollers guide there is no film, and the land stops what strays.
+                viscosity: match c.guidance {
+                    Guidance::Rollers => 0.0,
+                    Guidance::OuterRing | Guidance::InnerRing => s.lubricant.viscosity_pa_s,
+                },
                 clearance: 1e-3 * c.guide_clearance_mm,
                 width: 1e-3 * c.guide_width_mm,
                 radius: if c.guidance == Guidance::InnerRing {

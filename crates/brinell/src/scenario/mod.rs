@@ -80,7 +80,7 @@ pub enum Guidance {
     OuterRing,
     /// Land on the inner ring.
     InnerRing,
-    /// No land: the rollers carry the cage.
+    /// No film: the rollers carry the cage, and the outer ring's land stops it where it strays.
     Rollers,
 }
 

@@ -36,6 +36,11 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
     let mut inner_guided = rectangle();
     inner_guided.cage.guidance = Guidance::InnerRing;
     inner_guided.cage.guide_clearance_mm = 0.2;
+    let mut roller_guided = rectangle();
+    roller_guided.cage.guidance = Guidance::Rollers;
+    // So narrow that the cage falls onto its land.
+    roller_guided.cage.guide_clearance_mm = 0.02;
+    roller_guided.operation.gravity_m_per_s2 = [0.0, -9.81];
     vec![
         ("healthy", healthy()),
         ("rectangle", rectangle()),
@@ -43,6 +48,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("roller-defect", case("xval/roller-defect")),
         ("overlapping", case("xval/overlapping-defects")),
         ("inner-guided", inner_guided),
+        ("roller-guided", roller_guided),
         ("gravity-drag", case("xval/three-rows-drag-gap")),
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),

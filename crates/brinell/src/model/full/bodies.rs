@@ -50,22 +50,19 @@ pub(super) fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, 
     let m = &model.inertia;
     for row in 0..l.rows {
         let at = l.cage(row);
-        let guiding = match model.guidance {
-            Guidance::OuterRing => Some((l.outer(), 0.0, &mut sums.on_outer)),
-            Guidance::InnerRing => Some((l.inner(), w, &mut sums.on_inner)),
-            Guidance::Rollers => None,
+        let (ring, ring_speed, reaction) = match model.guidance {
+            Guidance::InnerRing => (l.inner(), w, &mut sums.on_inner),
+            Guidance::OuterRing | Guidance::Rollers => (l.outer(), 0.0, &mut sums.on_outer),
         };
-        if let Some((ring, ring_speed, reaction)) = guiding {
-            let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-            let f = model.guide.force(offset, v[at + 2], ring_speed);
-            for k in 0..2 {
-                a[at + k] += f.film[k] + f.land[k];
-                reaction[k] -= f.film[k] + f.land[k];
-                sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
-            }
-            a[at + 2] += f.moment;
-            sums.power.film += f.moment * v[at + 2];
+        let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
+        let f = model.guide.force(offset, v[at + 2], ring_speed);
+        for k in 0..2 {
+            a[at + k] += f.film[k] + f.land[k];
+            reaction[k] -= f.film[k] + f.land[k];
+            sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
         }
+        a[at + 2] += f.moment;
+        sums.power.film += f.moment * v[at + 2];
         a[at] = a[at] / m.cage + model.gravity[0];
         a[at + 1] = a[at + 1] / m.cage + model.gravity[1];
         a[at + 2] /= m.cage_spin;
