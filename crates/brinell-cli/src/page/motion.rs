@@ -1,9 +1,10 @@
 //! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
 use crate::say::short;
+use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
-use brinell::scenario::{Guidance, Surface};
+use brinell::scenario::Surface;
 use brinell::summary::Parts;
 use brinell_report::{
     CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram,
@@ -38,9 +39,9 @@ pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
 pub(super) fn cage_orbits(parts: &Parts) -> CageOrbits {
     let model = parts.simulation.model();
     let orbit = &parts.findings.cage_orbit;
-    let guide = match model.guidance {
-        Guidance::InnerRing => "inner",
-        Guidance::OuterRing | Guidance::Rollers => "outer",
+    let guide = match model.land_on() {
+        Side::Inner => "inner",
+        Side::Outer => "outer",
     };
     let rows = (0..orbit.rows()).map(|row| {
         let points: Vec<(f64, [f64; 2])> = orbit.points(row).collect();

@@ -6,7 +6,7 @@
 use super::{Layout, Model, Workspace};
 use crate::defect::{Angles, SIDES, energy};
 use crate::lanes::Column;
-use crate::scenario::{Guidance, ModelKind};
+use crate::scenario::ModelKind;
 use std::ops::{AddAssign, Mul};
 
 /// Flows of energy, W; integrated over time, J. Dissipations count positive.
@@ -150,10 +150,7 @@ impl Energy {
             e.kinetic +=
                 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
-            let ring = match model.guidance {
-                Guidance::InnerRing => l.inner(),
-                Guidance::OuterRing | Guidance::Rollers => l.outer(),
-            };
+            let ring = model.land_ring();
             let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
             e.cage +=
                 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);

@@ -337,6 +337,22 @@ impl Model {
         Kinematics::pure_rolling(&geometry, w)
     }
 
+    /// The ring that has the cages' land: the guiding one, and the outer where rollers guide.
+    pub fn land_on(&self) -> Side {
+        match self.guidance {
+            Guidance::InnerRing => Side::Inner,
+            Guidance::OuterRing | Guidance::Rollers => Side::Outer,
+        }
+    }
+
+    /// Where that ring's x stands among the coordinates.
+    pub fn land_ring(&self) -> usize {
+        match self.land_on() {
+            Side::Inner => self.layout.inner(),
+            Side::Outer => self.layout.outer(),
+        }
+    }
+
     /// Whether the outer ring of the reference model is rigidly mounted (section 10).
     pub fn outer_ring_is_fixed(&self) -> bool {
         self.kind == ModelKind::Reference && self.load.on == LoadOn::InnerRing

@@ -2,7 +2,7 @@
 
 use crate::channel::Frame;
 use crate::model::Model;
-use crate::scenario::{Guidance, ModelKind};
+use crate::scenario::ModelKind;
 use std::f64::consts::TAU;
 
 /// Turns of the cage that are kept.
@@ -56,10 +56,7 @@ impl CageOrbit {
             return;
         }
         let l = &f.model.layout;
-        let ring = match f.model.guidance {
-            Guidance::InnerRing => l.inner(),
-            Guidance::OuterRing | Guidance::Rollers => l.outer(),
-        };
+        let ring = f.model.land_ring();
         let at = self.taken % self.times.len();
         self.taken += 1;
         self.times[at] = f.t;

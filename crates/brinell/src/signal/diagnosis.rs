@@ -299,6 +299,15 @@ fn examine(
     })
 }
 
+/// Marks the bins within `reach` bins of a place.
+fn mark(marks: &mut [bool], middle: f64, reach: f64) {
+    let first = (middle - reach).ceil().max(0.0) as usize;
+    let end = ((middle + reach).floor() + 1.0).clamp(0.0, marks.len() as f64) as usize;
+    if first < end {
+        marks[first..end].fill(true);
+    }
+}
+
 fn about(
     floor: &Floor,
     frequency: f64,

@@ -1,9 +1,8 @@
 //! Cages and rings, which take up what the rollers leave, and the push of damage's edges.
 
 use super::{Sums, Turn};
-use crate::defect::{Angles, SIDES, edge_gradient};
+use crate::defect::{Angles, SIDES, Side, edge_gradient};
 use crate::model::{Model, Power, Workspace};
-use crate::scenario::Guidance;
 
 /// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
 /// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
@@ -50,9 +49,9 @@ pub(super) fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, 
     let m = &model.inertia;
     for row in 0..l.rows {
         let at = l.cage(row);
-        let (ring, ring_speed, reaction) = match model.guidance {
-            Guidance::InnerRing => (l.inner(), w, &mut sums.on_inner),
-            Guidance::OuterRing | Guidance::Rollers => (l.outer(), 0.0, &mut sums.on_outer),
+        let (ring, ring_speed, reaction) = match model.land_on() {
+            Side::Inner => (l.inner(), w, &mut sums.on_inner),
+            Side::Outer => (l.outer(), 0.0, &mut sums.on_outer),
         };
         let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
         let f = model.guide.force(offset, v[at + 2], ring_speed);

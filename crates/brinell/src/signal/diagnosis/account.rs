@@ -3,7 +3,7 @@
 use super::super::error::{SignalError, require};
 use super::super::lines::Floor;
 use super::super::spectrum::Spectrum;
-use super::{CLOSEST_SIDEBAND, DiagnosisOptions, Evidence, LINE_LEVEL, RANGE, REACH};
+use super::{CLOSEST_SIDEBAND, DiagnosisOptions, Evidence, LINE_LEVEL, RANGE, REACH, mark};
 
 /// Lines closer than this, in bins, are one.
 const SAME_LINE: f64 = 1.5;
@@ -58,20 +58,14 @@ fn comb(
     wide: bool,
 ) -> Vec<bool> {
     let mut marks = vec![false; spectrum.amplitude.len()];
-    let mut mark = |frequency: f64| {
-        let at = frequency / spectrum.frequency_step;
-        let first = (at - SAME_LINE).ceil().max(0.0) as usize;
-        let end = ((at + SAME_LINE).floor() + 1.0).clamp(0.0, marks.len() as f64) as usize;
-        if first < end {
-            marks[first..end].fill(true);
-        }
-    };
-    (1..=FARTHEST_ORDER).for_each(|h| mark(f64::from(h) * evidence.frequency));
+    let mut line =
+        |frequency: f64| mark(&mut marks, frequency / spectrum.frequency_step, SAME_LINE);
+    (1..=FARTHEST_ORDER).for_each(|h| line(f64::from(h) * evidence.frequency));
     let sidebands = evidence.sidebands.as_ref();
     if let Some(sidebands) = sidebands.filter(|s| wide && s.false_alarm <= options.level) {
         for h in 0..=options.harmonics {
             for m in -FARTHEST_ORDER..=FARTHEST_ORDER {
-                mark(h as f64 * evidence.frequency + f64::from(m) * sidebands.spacing);
+                line(h as f64 * evidence.frequency + f64::from(m) * sidebands.spacing);
             }
         }
     }

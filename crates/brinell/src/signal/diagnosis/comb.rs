@@ -4,7 +4,7 @@ use super::super::distribution::chi_square_tail;
 use super::super::lines::Floor;
 use super::super::lines::LineSet;
 use super::super::spectrum::Spectrum;
-use super::{CAP, CLOSEST_SIDEBAND, Candidate, LINE_LEVEL, REACH, SidebandEvidence};
+use super::{CAP, CLOSEST_SIDEBAND, Candidate, LINE_LEVEL, REACH, SidebandEvidence, mark};
 
 /// Combs at other frequencies are tried from this share of the candidate's frequency to its inverse: an octave and a bit.
 const FARTHEST: f64 = 0.62;
@@ -226,11 +226,7 @@ pub(super) fn family(
         let lowest = (order as f64 * frequency / step).rem_euclid(apart);
         let count = (marks.len() as f64 / apart) as usize + 1;
         for middle in (0..=count).map(|m| lowest + m as f64 * apart) {
-            let first = (middle - REACH).ceil().max(0.0) as usize;
-            let end = (((middle + REACH).floor() + 1.0).max(0.0) as usize).min(marks.len());
-            if first < end {
-                marks[first..end].fill(true);
-            }
+            mark(&mut marks, middle, REACH);
         }
     }
     marks
