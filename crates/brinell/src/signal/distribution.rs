@@ -1,7 +1,8 @@
 //! Tails of the distributions that spectral estimates of noise follow: chi-square, F, and their quantiles.
 //!
-//! Incomplete gamma and beta functions by series and continued fractions: Abramowitz and Stegun 6.5.29, 6.5.31 and
-//! 26.5.8, the fractions evaluated by Lentz's method. Relative errors are below 1e-10 for up to 1e4 degrees of freedom.
+//! Incomplete gamma and beta functions by series and continued fractions: Abramowitz and Stegun 6.5.29 and 6.5.31, the
+//! fraction evaluated by Lentz's method, and A. R. DiDonato and A. H. Morris, ACM Trans. Math. Softw. 18 (1992) 360-373,
+//! equation (9). Relative errors are below 1e-10 for up to 1e4 degrees of freedom.
 
 /// ln Gamma(x) for x > 0, by Lanczos' series (g = 7, nine terms; relative error about 1e-15).
 pub fn ln_gamma(x: f64) -> f64 {
@@ -115,49 +116,77 @@ pub fn normal_quantile(p: f64) -> f64 {
 /// P(F > x) with `d1` and `d2` degrees of freedom: the chance that a power of `d1` degrees of freedom stands `x` times
 /// above its mean where that mean is itself estimated with `d2`.
 pub fn f_tail(x: f64, d1: f64, d2: f64) -> f64 {
-    if x <= 0.0 {
-        return 1.0;
+    FTail::new(d1, d2).at(x)
+}
+
+/// [`f_tail`] at many places, with what depends on the degrees of freedom alone taken once.
+pub(super) struct FTail {
+    d1: f64,
+    d2: f64,
+    /// ln B(d2 / 2, d1 / 2).
+    ln_beta: f64,
+}
+
+impl FTail {
+    pub(super) fn new(d1: f64, d2: f64) -> Self {
+        let (a, b) = (0.5 * d2, 0.5 * d1);
+        FTail {
+            d1,
+            d2,
+            ln_beta: ln_gamma(a) + ln_gamma(b) - ln_gamma(a + b),
+        }
     }
-    incomplete_beta(d2 / (d2 + d1 * x), 0.5 * d2, 0.5 * d1)
+
+    pub(super) fn at(&self, x: f64) -> f64 {
+        if x <= 0.0 {
+            return 1.0;
+        }
+        let x = self.d2 / (self.d2 + self.d1 * x);
+        incomplete_beta(x, 0.5 * self.d2, 0.5 * self.d1, self.ln_beta)
+    }
 }
 
 /// Regularised incomplete beta function I_x(a, b).
-fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
+fn incomplete_beta(x: f64, a: f64, b: f64, ln_beta: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
     }
     if x >= 1.0 {
         return 1.0;
     }
-    let scale = (ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * (-x).ln_1p()).exp();
+    let scale = (a * x.ln() + b * (-x).ln_1p() - ln_beta).exp();
     // The fraction converges fast below the mean; above it the complement does.
     if x < (a + 1.0) / (a + b + 2.0) {
-        scale * beta_fraction(x, a, b) / a
+        scale * beta_fraction(x, a, b)
     } else {
-        1.0 - scale * beta_fraction(1.0 - x, b, a) / b
+        1.0 - scale * beta_fraction(1.0 - x, b, a)
     }
 }
 
+/// I_x(a, b) B(a, b) / (x^a (1 - x)^b) for x below the mean, by the continued fraction 1 / (beta_1 + alpha_2 / (beta_2 + ...)).
+/// The convergents' recurrence, brought back to a denominator of 1 at every term.
 fn beta_fraction(x: f64, a: f64, b: f64) -> f64 {
-    let mut c = 1.0;
-    let mut d = 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0));
-    let mut fraction = d;
-    for m in 1..10_000 {
-        let m = f64::from(m);
-        let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
-        let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
-        let mut change = 1.0;
-        for numerator in [even, odd] {
-            d = 1.0 / away_from_zero(1.0 + numerator * d);
-            c = away_from_zero(1.0 + numerator / c);
-            change = c * d;
-            fraction *= change;
-        }
-        if (change - 1.0).abs() < f64::EPSILON {
+    let short_of_mean = a - (a + b) * x + 1.0;
+    let mut value = (a + 1.0) / (a * short_of_mean);
+    // Numerator and denominator of the convergent before.
+    let mut before = (0.0, value);
+    for n in 1..10_000 {
+        let n = f64::from(n);
+        let (low, high) = (a + 2.0 * n - 1.0, a + 2.0 * n + 1.0);
+        let inverse = 1.0 / (low * high);
+        let w = n * (b - n) * x * (high * inverse);
+        let alpha = w * (a + n - 1.0) * (a + b + n - 1.0) * x * (high * inverse);
+        let beta = n + w + (a + n) * (low * inverse) * (short_of_mean + n * (2.0 - x));
+        let scale = 1.0 / (alpha * before.1 + beta);
+        let next = (alpha * before.0 + beta * value) * scale;
+        before = (value * scale, scale);
+        let change = (next - value).abs();
+        value = next;
+        if change <= 2.0 * f64::EPSILON * value {
             break;
         }
     }
-    fraction
+    value
 }
 
 const TINY: f64 = 1e-300;

@@ -5,7 +5,7 @@
 //! the line's power over that floor follows F, with the spectrum's degrees of freedom above and the floor's own
 //! below; its tail is the chance that noise alone shows as much in one bin.
 
-use super::distribution::{chi_square_quantile, f_tail};
+use super::distribution::{FTail, chi_square_quantile};
 use super::error::{SignalError, require};
 use super::spectrum::{Spectrum, peak_near};
 
@@ -252,9 +252,10 @@ impl<'a> Floor<'a> {
         }
     }
 
-    /// Chance that noise at `level` shows at least `power` in a bin.
-    pub(super) fn chance(&self, power: f64, level: Level) -> f64 {
-        f_tail(power / level.power, self.freedom, level.freedom)
+    /// Chance that noise at `level` shows at least a power in a bin.
+    pub(super) fn chance(&self, level: Level) -> impl Fn(f64) -> f64 {
+        let tail = FTail::new(self.freedom, level.freedom);
+        move |power| tail.at(power / level.power)
     }
 
     /// The line within `tolerance` of `expected`, both Hz.
@@ -275,7 +276,7 @@ impl<'a> Floor<'a> {
         // Interpolated where it is a maximum of its own; the skirt of a line outside is taken as it is.
         let peak = peak_near(self.spectrum, top as f64 * step, 0.5 * step)
             .filter(|p| (p.frequency - top as f64 * step).abs() <= step);
-        let one = self.chance(power, level);
+        let one = self.chance(level)(power);
         let trials = ((last - first + 1) as f64).max(1.0);
         Some(Line {
             order,

@@ -4,6 +4,7 @@ use super::{MOST, bad};
 use crate::failure::Failure;
 use brinell::signal::Moments;
 use brinell_io::{IoError, SignalFile};
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::thread::JoinHandle;
 
@@ -86,31 +87,28 @@ fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64) -> Result<Re
         last: Vec::new(),
         last_start: 0.0,
     };
-    // A ring; `at` is its oldest sample once it is full.
-    let mut at = 0;
+    let mut last = VecDeque::new();
     file.read_pieces(name, |piece| {
         let from = skip.saturating_sub(passed).min(piece.len());
         passed += piece.len();
-        for value in &piece[from..] {
-            rest.samples += 1;
-            if value.is_finite() {
-                rest.moments.push(*value);
-            } else {
-                rest.missing += 1;
-            }
-            if rest.samples <= MOST as u64 {
-                continue;
-            }
-            if rest.last.len() < MOST {
-                rest.last.push(*value);
-            } else {
-                rest.last[at] = *value;
-                at = (at + 1) % MOST;
-            }
+        let piece = &piece[from..];
+        if piece.iter().all(|v| v.is_finite()) {
+            rest.moments.extend(piece);
+        } else {
+            let finite: Vec<f64> = piece.iter().copied().filter(|v| v.is_finite()).collect();
+            rest.moments.extend(&finite);
+            rest.missing += (piece.len() - finite.len()) as u64;
         }
+        let first = (MOST as u64).saturating_sub(rest.samples);
+        rest.samples += piece.len() as u64;
+        let beyond = &piece[piece.len().min(first as usize)..];
+        let beyond = &beyond[beyond.len().saturating_sub(MOST)..];
+        let gone = (last.len() + beyond.len()).saturating_sub(MOST);
+        last.drain(..gone);
+        last.extend(beyond);
         ControlFlow::Continue(())
     })?;
-    rest.last.rotate_left(at);
+    rest.last = last.into();
     rest.last_start = (skip as u64 + rest.samples - rest.last.len() as u64) as f64 / rate;
     Ok(rest)
 }

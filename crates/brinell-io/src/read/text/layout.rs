@@ -112,18 +112,14 @@ fn lines(sample: &[u8]) -> Vec<Line<'_>> {
 }
 
 fn split(line: &[u8], delimiter: Delimiter) -> Vec<&[u8]> {
-    let by = |d: u8| {
-        line.split(move |&b| b == d)
-            .map(<[u8]>::trim_ascii)
-            .collect()
-    };
     match delimiter {
-        Delimiter::Comma => by(b','),
-        Delimiter::Semicolon => by(b';'),
-        Delimiter::Tab => by(b'\t'),
         Delimiter::Blanks => line
             .split(|&b| b == b' ' || b == b'\t')
             .filter(|f| !f.is_empty())
+            .collect(),
+        single => line
+            .split(|&b| b == single.sign())
+            .map(<[u8]>::trim_ascii)
             .collect(),
     }
 }
@@ -146,8 +142,7 @@ fn score(line: &[u8], delimiter: Delimiter, format: &TextFormat) -> (usize, usiz
 
 fn holds(line: &[u8], delimiter: Delimiter) -> bool {
     match delimiter {
-        Delimiter::Comma => line.contains(&b','),
-        Delimiter::Semicolon => line.contains(&b';'),
+        Delimiter::Comma | Delimiter::Semicolon => line.contains(&delimiter.sign()),
         Delimiter::Tab => line.trim_ascii().contains(&b'\t'),
         Delimiter::Blanks => true,
     }
@@ -324,11 +319,7 @@ fn split_quoted(line: &[u8], delimiter: Delimiter) -> Vec<String> {
     if !line.contains(&b'"') || delimiter == Delimiter::Blanks {
         return split(line, delimiter).into_iter().map(text).collect();
     }
-    let sign = match delimiter {
-        Delimiter::Comma => b',',
-        Delimiter::Semicolon => b';',
-        _ => b'\t',
-    };
+    let sign = delimiter.sign();
     let mut quoted = false;
     line.split(|&b| {
         quoted ^= b == b'"';

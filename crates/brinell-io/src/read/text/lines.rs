@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use memchr::{memchr, memchr_iter};
+use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
 use super::layout::Layout;
 use super::{Decimal, Delimiter};
@@ -28,16 +28,25 @@ pub(super) fn column(
     loop {
         let got = reader.read(&mut buffer[filled..]).map_err(Fault::Io)?;
         filled += got;
-        let mut start = 0;
-        while let Some(length) = memchr(b'\n', &buffer[start..filled]) {
-            row(
-                &buffer[start..start + length],
-                layout,
-                field,
-                line,
-                &mut values,
-            )?;
-            start += length + 1;
+        // Whole lines; at the end of the file what is left is one.
+        let whole = match memrchr(b'\n', &buffer[filled - got..filled]) {
+            Some(end) => filled - got + end + 1,
+            None => 0,
+        };
+        let mut rest = &buffer[..whole];
+        while !rest.is_empty() {
+            let length = match plain(rest, layout, field) {
+                Some((value, length)) => {
+                    values.push(value);
+                    length
+                }
+                None => {
+                    let end = memchr(b'\n', rest).unwrap_or(rest.len() - 1);
+                    row(&rest[..end], layout, field, line, &mut values)?;
+                    end + 1
+                }
+            };
+            rest = &rest[length..];
             line += 1;
             if values.len() >= PIECE {
                 give(sink, &values)?;
@@ -45,17 +54,51 @@ pub(super) fn column(
             }
         }
         if got == 0 {
-            row(&buffer[start..filled], layout, field, line, &mut values)?;
+            row(&buffer[..filled], layout, field, line, &mut values)?;
             return give(sink, &values);
         }
-        buffer.copy_within(start..filled, 0);
-        filled -= start;
+        buffer.copy_within(whole..filled, 0);
+        filled -= whole;
         if filled == buffer.len() {
             if filled >= MAX_LINE {
                 return Err(damaged(format!("line {line} has no end")));
             }
             buffer.resize(2 * filled, 0);
         }
+    }
+}
+
+/// The wanted value of a line that is as plain as nearly all are, and the length of the line with its end: numbers with a point and
+/// nothing about them. `text` begins with the line and goes on to the end of some line. `None` says nothing: see [`row`].
+fn plain(text: &[u8], layout: &Layout, field: usize) -> Option<(f64, usize)> {
+    let columns = layout.columns.len();
+    let delimiter = match layout.delimiter {
+        // Runs of blanks are `row`'s business.
+        Delimiter::Blanks if columns > 1 => return None,
+        other => other.sign(),
+    };
+    if layout.decimal == Some(Decimal::Comma) || matches!(text[0], b'#' | b'%') {
+        return None;
+    }
+    let to_delimiter = |from: usize| {
+        let at = from + memchr2(delimiter, b'\n', &text[from..])?;
+        (text[at] == delimiter).then_some(at + 1)
+    };
+    let start = (0..field).try_fold(0, |at, _| to_delimiter(at))?;
+    let (value, length) = fast_float2::parse_partial(&text[start..]).ok()?;
+    let end = start + length;
+    let last = match columns - 1 - field {
+        0 => end,
+        after if text[end] == delimiter => {
+            let last = (1..after).try_fold(end + 1, |at, _| to_delimiter(at))?;
+            last + memchr2(delimiter, b'\n', &text[last..])?
+        }
+        _ => return None,
+    };
+    match &text[last..] {
+        [b'\n', ..] => Some((value, last + 1)),
+        [b'\r', b'\n', ..] => Some((value, last + 2)),
+        _ => None,
     }
 }
 
@@ -75,25 +118,19 @@ fn row(
         }
         count += 1;
     };
-    let single = match layout.delimiter {
-        Delimiter::Comma => Some(b','),
-        Delimiter::Semicolon => Some(b';'),
-        Delimiter::Tab => Some(b'\t'),
-        Delimiter::Blanks => None,
-    };
-    match single {
-        Some(delimiter) => {
+    match layout.delimiter {
+        Delimiter::Blanks => bytes
+            .split(|&b| b == b' ' || b == b'\t')
+            .filter(|piece| !piece.is_empty())
+            .for_each(take),
+        single => {
             let mut start = 0;
-            for end in memchr_iter(delimiter, bytes) {
+            for end in memchr_iter(single.sign(), bytes) {
                 take(&bytes[start..end]);
                 start = end + 1;
             }
             take(&bytes[start..]);
         }
-        None => bytes
-            .split(|&b| b == b' ' || b == b'\t')
-            .filter(|piece| !piece.is_empty())
-            .for_each(take),
     }
     let value = wanted.and_then(|text| number(text, layout.decimal));
     if let Some(value) = value

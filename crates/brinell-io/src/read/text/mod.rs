@@ -33,6 +33,18 @@ pub enum Delimiter {
     Blanks,
 }
 
+impl Delimiter {
+    /// Its byte; a space for [`Delimiter::Blanks`].
+    fn sign(self) -> u8 {
+        match self {
+            Self::Comma => b',',
+            Self::Semicolon => b';',
+            Self::Tab => b'\t',
+            Self::Blanks => b' ',
+        }
+    }
+}
+
 /// What stands before a number's fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimal {

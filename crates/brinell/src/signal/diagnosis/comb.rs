@@ -65,6 +65,7 @@ impl Row {
         let first = floor.bin(middle - reach)?;
         let last = floor.bin(middle + reach)?;
         let level = floor.level(first, last);
+        let chance = floor.chance(level);
         let powers = (first..=last).map(|k| floor.power(k));
         Some(Row {
             order,
@@ -73,7 +74,7 @@ impl Row {
             scores: (first..=last)
                 .map(|k| match floor.hides(k) {
                     true => f64::NAN,
-                    false => -2.0 * floor.chance(floor.power(k), level).max(CAP).ln(),
+                    false => -2.0 * chance(floor.power(k)).max(CAP).ln(),
                 })
                 .collect(),
             ratios: powers.map(|p| p / level.power).collect(),
