@@ -18,6 +18,7 @@ use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
 use measured::{Beyond, Measured, Reading, Rest, Wanted};
 use serde_json::json;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -84,6 +85,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     // The rest of a long signal is read beside the analysis of its beginning.
     let reading = measured.beyond.take().map(Beyond::start);
     let analysis = look(&measured, &options)?;
+    let velocity = velocities(&measured, shaft);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(
@@ -95,7 +97,6 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         )?),
         None => None,
     };
-    let velocity = velocities(&measured, shaft);
     let against = match &args.against {
         Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
         None => None,
@@ -209,7 +210,10 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
     if measured.unit.quantity != Quantity::Acceleration {
         return None;
     }
-    let x: Vec<f64> = measured.x.iter().map(|v| v * measured.unit.to_si).collect();
+    let x: Cow<[f64]> = match measured.unit.to_si {
+        1.0 => (&measured.x).into(),
+        to_si => measured.x.iter().map(|v| v * to_si).collect(),
+    };
     velocity(&x, measured.rate, shaft).ok()
 }
 

@@ -2,7 +2,7 @@
 
 use super::frequencies::Component;
 use super::verdict::{FAINT, LINE_LEVEL};
-use super::view::{View, candidates, looking};
+use super::view::{View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
 use crate::signal::{Evidence, diagnose};
 
@@ -57,8 +57,10 @@ pub(super) fn find(
     let sought: Vec<_> = candidates(shaft, &wide).into_iter().map(|c| c.2).collect();
     let looking = looking(options, views.len() as f64);
     let mut best: Option<Beyond> = None;
-    for view in views {
-        let diagnosis = diagnose(&view.searched, &sought, &looking)?;
+    let diagnoses = side_by_side(views, |view| {
+        Ok(diagnose(&view.searched, &sought, &looking)?)
+    })?;
+    for (view, diagnosis) in views.iter().zip(diagnoses) {
         for evidence in diagnosis.causes() {
             let (component, name, near) = &within[evidence.candidate];
             let off = (evidence.frequency - near.frequency).abs();

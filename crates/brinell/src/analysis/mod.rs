@@ -54,6 +54,7 @@ use crate::signal::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     VelocityBands, psd,
 };
+use std::thread::{self, ScopedJoinHandle};
 
 /// What is known beside the samples, and how sure to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,30 +158,43 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     check(x, fs, options)?;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
-    let blocks = Blocks::of(&x, fs / options.shaft);
-    let indicators = (Indicator::ALL.into_iter())
-        .filter(|i| *i != Indicator::Mean && *i != Indicator::StandardDeviation)
-        .filter_map(|i| Some((i, blocks.estimate(i)?)))
-        .collect();
-    let spectrum = psd(&x, fs, &Segments::of(spectrum_length(x.len(), fs)))?;
-    let choice = bands::choose(&x, fs, options)?;
-    let (shaft, shaft_found) = match options.rotation {
-        // Followed, it is known.
-        Some(_) => (options.shaft, true),
-        None => known_lines::shaft(&x, fs, options)?,
-    };
+    let segments = Segments::of(spectrum_length(x.len(), fs));
+    // What asks for nothing but the samples goes side by side.
+    let (indicators, spectrum, choice, shaft, transformed) = thread::scope(|scope| {
+        let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
+        let spectrum = scope.spawn(|| psd(&x, fs, &segments));
+        let choice = scope.spawn(|| bands::choose(&x, fs, options));
+        let shaft = scope.spawn(|| match options.rotation {
+            // Followed, it is known.
+            Some(_) => Ok((options.shaft, true)),
+            None => known_lines::shaft(&x, fs, options),
+        });
+        let transformed = view::transformed(&x, fs);
+        (
+            done(indicators),
+            done(spectrum),
+            done(choice),
+            done(shaft),
+            transformed,
+        )
+    });
+    let (spectrum, choice) = (spectrum?, choice?);
+    let (shaft, shaft_found) = shaft?;
+    let transformed = transformed?;
+    let samples = x.len();
+    drop(x);
     // Half a bin of the finest spectrum, or as far as the speed may be off.
     let known = view::Shaft {
         hz: shaft,
         tolerance: if shaft_found {
-            (0.5 * fs / x.len() as f64).max(SHAFT_KNOWN * shaft)
+            (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft)
         } else {
             options.tolerance * shaft
         },
     };
-    let views = view::all(&x, fs, known, &choice.bands, options)?;
+    let views = view::all(transformed, known, &choice.bands, options)?;
     // Half the main lobe of a Hann window over the whole record.
-    let resolution = 2.0 * fs / x.len() as f64;
+    let resolution = 2.0 * fs / samples as f64;
     let (findings, best) = verdict::find(&views, shaft, resolution, options)?;
     let beyond = match findings.iter().any(Finding::is_cause) {
         true => None,
@@ -189,7 +203,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,
-        samples: x.len(),
+        samples,
         mean,
         shaft,
         shaft_found,
@@ -202,6 +216,20 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         findings,
         beyond,
     })
+}
+
+/// Of a signal less its mean, with intervals from blocks of `revolution` samples.
+fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
+    let blocks = Blocks::of(x, revolution);
+    (Indicator::ALL.into_iter())
+        .filter(|i| *i != Indicator::Mean && *i != Indicator::StandardDeviation)
+        .filter_map(|i| Some((i, blocks.estimate(i)?)))
+        .collect()
+}
+
+/// What a thread came to; its panic goes on here.
+fn done<T>(thread: ScopedJoinHandle<T>) -> T {
+    (thread.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// RMS velocity in the bands of ISO 15242, m/s, of an acceleration in m/s^2 sampled at `fs` Hz; see

@@ -1,7 +1,7 @@
 //! From what stands in the envelope spectra to findings, and to words.
 
 use super::frequencies::Component;
-use super::view::{View, candidates, looking};
+use super::view::{View, candidates, looking, side_by_side};
 use super::{Analysis, AnalysisError, Beyond, Options};
 use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose, without};
 
@@ -150,13 +150,16 @@ pub(super) fn find(
             |f: &&Finding| (f.evidence.frequency - finding.evidence.frequency).abs() < resolution;
         finding.explained_by = findings.iter().filter(near).map(|f| f.name).collect();
         let spacings = [shaft, options.orders.ftf.unwrap_or(0.0) * shaft];
-        for (spectrum, evidence) in spectra.iter_mut().zip(&mut evidence) {
+        let only: Vec<_> = candidates.iter().map(|c| c.2.clone()).collect();
+        let seen: Vec<_> = spectra.iter().zip(&evidence).collect();
+        let left = side_by_side(&seen, |(spectrum, evidence)| {
             let mine = &evidence[next.candidate];
             let mine = if mine.stands { mine } else { &next.evidence };
-            *spectrum = without(spectrum, mine.frequency, &spacings)?;
-            let only: Vec<_> = candidates.iter().map(|c| c.2.clone()).collect();
-            *evidence = diagnose(spectrum, &only, &looking(options, views.len() as f64))?.evidence;
-        }
+            let rest = without(spectrum, mine.frequency, &spacings)?;
+            let found = diagnose(&rest, &only, &looking(options, views.len() as f64))?;
+            Ok((rest, found.evidence))
+        })?;
+        (spectra, evidence) = left.into_iter().unzip();
         findings.push(finding);
     }
     // What stood at first, and no longer does.
@@ -195,6 +198,7 @@ fn leading(
     }
     let sought: Vec<Candidate> = candidates.iter().map(|c| c.2.clone()).collect();
     let options = looking(options, views.len() as f64);
+    let seen: Vec<_> = spectra.iter().zip(evidence).collect();
     let mut score = vec![0i32; rivals];
     for i in 0..rivals {
         let (component, _, candidate) = &candidates[all[i].candidate];
@@ -202,13 +206,12 @@ fn leading(
             Component::Element => candidate.sideband_spacing,
             _ => Some(shaft),
         };
-        let mut left = Vec::new();
-        for (spectrum, evidence) in spectra.iter().zip(evidence) {
+        let left = side_by_side(&seen, |(spectrum, evidence)| {
             let mine = &evidence[all[i].candidate];
             let mine = if mine.stands { mine } else { &all[i].evidence };
             let rest = without(spectrum, mine.frequency, spacing.as_slice())?;
-            left.push(diagnose(&rest, &sought, &options)?.evidence);
-        }
+            Ok(diagnose(&rest, &sought, &options)?.evidence)
+        })?;
         for j in (0..rivals).filter(|j| *j != i) {
             let other = candidates[all[j].candidate].0;
             let survives = (candidates.iter().enumerate())

@@ -4,8 +4,9 @@ use super::bands::{BandChoice, ChosenBand};
 use super::frequencies::Component;
 use super::known_lines;
 use super::{AnalysisError, Options, fast_length};
+use crate::many;
 use crate::signal::{
-    Candidate, Diagnosis, DiagnosisOptions, Envelopes, Segments, Spectrum, Transformed, diagnose,
+    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, Thinned, Transformed, diagnose,
     psd, resample,
 };
 
@@ -88,82 +89,72 @@ pub(super) fn looking(options: &Options, tests: f64) -> DiagnosisOptions {
     }
 }
 
-/// Every band at every resolution that the signal's length allows; two bands at a time.
+/// The transform of as much of a signal, sampled at `fs` Hz, as is transformed fast.
+pub(super) fn transformed(x: &[f64], fs: f64) -> Result<Transformed, AnalysisError> {
+    Ok(Transformed::of(&x[..fast_length(x.len())], fs)?)
+}
+
+/// Every band at every resolution that the signal's length allows.
 pub(super) fn all(
-    x: &[f64],
-    fs: f64,
+    transformed: Transformed,
     shaft: Shaft,
     bands: &[ChosenBand],
     options: &Options,
 ) -> Result<Vec<View>, AnalysisError> {
+    let fs = transformed.sample_rate();
     let cage = options.orders.ftf.unwrap_or(USUAL_FTF) * shaft.hz;
-    let x = &x[..fast_length(x.len())];
     let factor = ((fs / (ENVELOPE_RATE * top(shaft.hz, options))).floor() as usize).max(1);
     let rate = fs / factor as f64;
-    let longest = x.len() / factor;
+    let longest = transformed.samples() / factor;
     let mut lengths: Vec<usize> = (RESOLUTIONS.iter())
         .map(|r| fast_length(((r * rate / cage) as usize).clamp(64, longest.max(64))))
         .collect();
     lengths.dedup();
-    let transformed = Transformed::of(x, fs)?;
-    let one = |envelopes: &mut Envelopes, band: &ChosenBand| {
-        spectra(envelopes, fs, *band, factor, &lengths, shaft.hz, options)
-    };
-    let parts = halves(bands, || transformed.envelopes(), &one)?;
+    let parts = side_by_side(bands, |band| {
+        spectra(&transformed, *band, factor, &lengths, shaft.hz, options)
+    })?;
     drop(transformed);
     let plain: Vec<(ChosenBand, f64, Spectrum)> = parts.into_iter().flatten().collect();
     let only: Vec<Spectrum> = plain.iter().map(|p| p.2.clone()).collect();
     let combs = known_lines::combs(&only, shaft.hz, shaft.tolerance)?;
     let tests = plain.len() as f64;
-    let one = |(): &mut (), part: &(ChosenBand, f64, Spectrum)| {
+    side_by_side(&plain, |part| {
         search(part, &combs, shaft.hz, tests, options)
-    };
-    halves(&plain, || (), &one)
+    })
 }
 
-/// A job for each, on two threads; what `room` makes is one thread's to work in.
-fn halves<T: Sync, R: Send, W>(
+/// A job for each, as many at a time as there are cores; results in the order of what they are of.
+pub(super) fn side_by_side<T: Sync, R: Send>(
     of: &[T],
-    room: impl Fn() -> W + Sync,
-    one: &(impl Fn(&mut W, &T) -> Result<R, AnalysisError> + Sync),
+    one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
 ) -> Result<Vec<R>, AnalysisError> {
-    let (first, second) = of.split_at(of.len().div_ceil(2));
-    let all = |part: &[T]| {
-        if part.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut room = room();
-        (part.iter().map(|t| one(&mut room, t))).collect::<Result<Vec<R>, AnalysisError>>()
-    };
-    let (first, second) = std::thread::scope(|scope| {
-        let other = scope.spawn(|| all(second));
-        (all(first), other.join())
-    });
-    let second = second.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    Ok(first?.into_iter().chain(second).collect())
+    let mut results: Vec<_> = of.iter().map(|_| None).collect();
+    many::each(
+        of.len(),
+        many::threads(of.len()),
+        |k| one(&of[k]),
+        |k, result| results[k] = Some(result),
+    );
+    results.into_iter().flatten().collect()
 }
 
 /// The envelope spectra of a band, with the envelope's mean.
 fn spectra(
-    envelopes: &mut Envelopes,
-    fs: f64,
+    transformed: &Transformed,
     band: ChosenBand,
     factor: usize,
     lengths: &[usize],
     shaft: f64,
     options: &Options,
 ) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
-    let full = match band.choice {
-        BandChoice::Whitened => envelopes.of_whitened(band.band),
-        _ => envelopes.in_band(band.band),
-    };
-    let mean = full.iter().sum::<f64>() / full.len().max(1) as f64;
     // The mean of `factor` neighbours is filter enough: what folds back is noise, and the floor is measured with it.
-    let coarse: Vec<f64> = (full.chunks_exact(factor))
-        .map(|part| part.iter().sum::<f64>() / factor as f64 - mean)
-        .collect();
-    let mut rate = fs / factor as f64;
-    let mut coarse = coarse;
+    let Thinned { mean, values } = match band.choice {
+        BandChoice::Whitened => transformed.whitened_envelope(band.band, factor),
+        _ => transformed.envelope(band.band, factor),
+    };
+    let mut coarse = values;
+    coarse.iter_mut().for_each(|v| *v -= mean);
+    let mut rate = transformed.sample_rate() / factor as f64;
     if let Some(rotation) = &options.rotation {
         let per_turn = (rate / shaft).round().max(4.0) as usize;
         coarse = resample(&coarse, rate, rotation, per_turn)?.values;

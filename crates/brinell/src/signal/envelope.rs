@@ -8,13 +8,14 @@
 //! The band's edges are sharp and the transform treats a segment as periodic, so the first and last few periods of
 //! the band's lower edge are disturbed where a segment's ends do not meet; the Hann window of the spectrum hides them.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use super::error::{SignalError, check, require};
+use super::interleaved::Interleaved;
 use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, Spectrum};
 
@@ -105,10 +106,43 @@ pub(super) fn remove_weighted_mean(x: &mut [f64], window: &[f64]) -> f64 {
     mean
 }
 
+/// First bin of a band and the one after its last, of a transform of `length` samples at `fs` Hz.
+///
+/// # Panics
+/// Where the band does not satisfy 0 <= low < high and low < fs / 2.
+pub(super) fn bins(fs: f64, length: usize, band: Band) -> Range<usize> {
+    assert!(
+        0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
+        "band from {} to {} Hz, sampled at {fs} Hz",
+        band.low,
+        band.high
+    );
+    // Zero frequency and half the sampling rate have no quadrature: they never belong to the band.
+    let most = length.div_ceil(2);
+    let step = fs / length as f64;
+    let first = ((band.low / step).ceil() as usize).clamp(1, most);
+    let end = ((band.high / step).floor() as usize)
+        .saturating_add(1)
+        .clamp(first, most);
+    first..end
+}
+
+/// Moduli of complex values: roots of sums of squares, by the much slower `hypot` only where a square would leave the range of numbers.
+fn moduli(values: &[Complex<f64>], moduli: &mut [f64]) {
+    for (modulus, value) in moduli.iter_mut().zip(values) {
+        *modulus = value.norm_sqr().sqrt();
+    }
+    let sound = (moduli.iter()).fold(true, |sound, m| sound & (*m > 1e-150) & (*m < 1e150));
+    if !sound {
+        for (modulus, value) in moduli.iter_mut().zip(values) {
+            *modulus = value.re.hypot(value.im);
+        }
+    }
+}
+
 /// Band-pass and Hilbert transform of segments of one length: from their transform to their envelope.
 pub(super) struct Demodulator {
-    /// First bin of the band and the one after its last.
-    bins: (usize, usize),
+    bins: Range<usize>,
     /// Backward.
     pub(super) fft: Arc<dyn Fft<f64>>,
     /// A value a sample; between calls, room for whoever needs some.
@@ -119,69 +153,34 @@ pub(super) struct Demodulator {
 impl Demodulator {
     pub(super) fn new(fs: f64, length: usize, band: Band) -> Self {
         let fft = FftPlanner::new().plan_fft_inverse(length);
-        let mut new = Demodulator {
-            bins: (1, 1),
+        Demodulator {
+            bins: bins(fs, length, band),
             values: vec![Complex::ZERO; length],
             scratch: vec![Complex::ZERO; fft.get_inplace_scratch_len()],
             fft,
-        };
-        new.aim(fs, band);
-        new
-    }
-
-    /// Another band.
-    fn aim(&mut self, fs: f64, band: Band) {
-        assert!(
-            0.0 <= band.low && band.low < band.high && band.low < 0.5 * fs,
-            "band from {} to {} Hz, sampled at {fs} Hz",
-            band.low,
-            band.high
-        );
-        let length = self.values.len();
-        // Zero frequency and half the sampling rate have no quadrature: they never belong to the band.
-        let most = length.div_ceil(2);
-        let step = fs / length as f64;
-        let first = ((band.low / step).ceil() as usize).clamp(1, most);
-        let end = ((band.high / step).floor() as usize)
-            .saturating_add(1)
-            .clamp(first, most);
-        self.bins = (first, end);
+        }
     }
 
     /// The envelope of the segment whose transform this is: the modulus of its analytic signal, which has the band's positive frequencies
     /// twice and nothing else.
     pub(super) fn envelope(&mut self, transform: &[Complex<f64>], envelope: &mut [f64]) {
         let twice = 2.0 / envelope.len() as f64;
-        self.transform_back(transform, envelope, |bin| bin * twice);
-    }
-
-    /// The same of the band with each of its bins made by `scaled`.
-    fn transform_back(
-        &mut self,
-        transform: &[Complex<f64>],
-        envelope: &mut [f64],
-        scaled: impl Fn(&Complex<f64>) -> Complex<f64>,
-    ) {
-        let (first, end) = self.bins;
         self.values.fill(Complex::ZERO);
-        let band = self.values[first..end].iter_mut();
-        for (value, bin) in band.zip(&transform[first..end]) {
-            *value = scaled(bin);
+        let band = self.values[self.bins.clone()].iter_mut();
+        for (value, bin) in band.zip(&transform[self.bins.clone()]) {
+            *value = bin * twice;
         }
         self.fft
             .process_with_scratch(&mut self.values, &mut self.scratch);
-        for (e, value) in envelope.iter_mut().zip(&self.values) {
-            *e = value.re.hypot(value.im);
-        }
+        moduli(&self.values, envelope);
     }
 }
 
 /// A signal transformed once, whose envelopes in many bands are wanted.
 pub struct Transformed {
     fs: f64,
-    length: usize,
-    transform: Vec<Complex<f64>>,
-    backward: Arc<dyn Fft<f64>>,
+    bins: Vec<Complex<f64>>,
+    plan: Interleaved,
 }
 
 impl Transformed {
@@ -195,78 +194,105 @@ impl Transformed {
     }
 
     fn unchecked(x: &[f64], fs: f64) -> Self {
-        let forward = RealFftPlanner::new().plan_fft_forward(x.len());
-        let (mut values, mut transform) = (x.to_vec(), forward.make_output_vec());
-        forward
-            .process(&mut values, &mut transform)
-            .expect("buffers were made by the plan");
-        Transformed {
-            fs,
-            length: x.len(),
-            transform,
-            backward: FftPlanner::new().plan_fft_inverse(x.len()),
-        }
+        let plan = Interleaved::new(x.len());
+        let bins = plan.forward(x, &mut plan.room());
+        Transformed { fs, bins, plan }
     }
 
-    /// What takes its envelopes, one after the other; each thread needs its own.
-    pub fn envelopes(&self) -> Envelopes<'_> {
-        let scratch = self.backward.get_inplace_scratch_len();
-        Envelopes {
-            of: self,
-            demodulator: Demodulator {
-                bins: (1, 1),
-                fft: self.backward.clone(),
-                values: vec![Complex::ZERO; self.length],
-                scratch: vec![Complex::ZERO; scratch],
-            },
-            envelope: vec![0.0; self.length],
-        }
+    /// Hz.
+    pub fn sample_rate(&self) -> f64 {
+        self.fs
+    }
+
+    /// How many there were.
+    pub fn samples(&self) -> usize {
+        self.plan.length()
     }
 }
 
-/// Takes the envelopes of a [`Transformed`] signal.
-pub struct Envelopes<'a> {
-    of: &'a Transformed,
-    demodulator: Demodulator,
-    envelope: Vec<f64>,
+/// An envelope, and its means over so many neighbours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thinned {
+    /// Mean of the whole envelope, in the signal's unit.
+    pub mean: f64,
+    /// Means over one group of neighbours after the other; an incomplete last one is left out.
+    pub values: Vec<f64>,
 }
 
-impl Envelopes<'_> {
-    /// As [`envelope()`].
+impl Transformed {
+    /// As [`envelope()`], `every` so many neighbours in one.
     ///
     /// # Panics
-    /// Where the band does not satisfy 0 <= low < high and low < fs / 2.
-    pub fn in_band(&mut self, band: Band) -> &[f64] {
-        self.demodulator.aim(self.of.fs, band);
-        (self.demodulator).envelope(&self.of.transform, &mut self.envelope);
-        &self.envelope
+    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `every` is 0.
+    pub fn envelope(&self, band: Band, every: usize) -> Thinned {
+        // The analytic signal has the band's positive frequencies twice and nothing else.
+        let scale = 2.0 / self.samples() as f64;
+        self.thinned(band, every, scale, |_, _| {})
     }
 
     /// The envelope in a band of what [`whitened`](super::whitened) makes of the signal in it.
     ///
     /// # Panics
-    /// As [`in_band`](Self::in_band).
-    pub fn of_whitened(&mut self, band: Band) -> &[f64] {
-        self.demodulator.aim(self.of.fs, band);
-        let (first, end) = self.demodulator.bins;
+    /// As [`envelope`](Self::envelope).
+    pub fn whitened_envelope(&self, band: Band, every: usize) -> Thinned {
+        let bins = &self.bins[bins(self.fs, self.samples(), band)];
         // As many bins as hold anything, of one size, make unit RMS.
-        let bins = (self.of.transform[first..end].iter()).filter(|bin| bin.norm() > 0.0);
+        let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
         let size = (2.0 / bins.count().max(1) as f64).sqrt();
-        let scaled = |bin: &Complex<f64>| match bin.norm() {
-            0.0 => Complex::ZERO,
-            norm => bin * (size / norm),
-        };
-        (self.demodulator).transform_back(&self.of.transform, &mut self.envelope, scaled);
-        &self.envelope
+        let mut norms = Vec::new();
+        self.thinned(band, every, size, |_, bins| {
+            norms.resize(bins.len(), 0.0);
+            moduli(bins, &mut norms);
+            for (bin, norm) in bins.iter_mut().zip(&norms) {
+                *bin = if *norm > 0.0 { *bin / *norm } else { *bin };
+            }
+        })
+    }
+
+    /// Of the band's bins as `shape` makes them, `scale` times.
+    fn thinned(
+        &self,
+        band: Band,
+        every: usize,
+        scale: f64,
+        shape: impl FnMut(usize, &mut [Complex<f64>]),
+    ) -> Thinned {
+        let length = self.samples();
+        // What is left at the end makes a group too, for the mean.
+        let mut groups = vec![0.0; length / every + 1];
+        let mut here = [0.0; 1024];
+        let (band, mut room) = (bins(self.fs, length, band), self.plan.room());
+        self.plan
+            .backward(&self.bins, band, &mut room, shape, |part, values| {
+                let (mut group, mut place) = (part.first / every, part.first % every);
+                let (groups_on, places_on) = (part.step / every, part.step % every);
+                for values in values.chunks(here.len()) {
+                    let here = &mut here[..values.len()];
+                    moduli(values, here);
+                    for modulus in here {
+                        groups[group] += *modulus;
+                        (group, place) = (group + groups_on, place + places_on);
+                        if place >= every {
+                            (group, place) = (group + 1, place - every);
+                        }
+                    }
+                }
+            });
+        let sum: f64 = groups.iter().sum();
+        groups.pop();
+        let each = scale / every as f64;
+        groups.iter_mut().for_each(|v| *v *= each);
+        Thinned {
+            mean: scale * sum / length as f64,
+            values: groups,
+        }
     }
 }
 
 /// The envelope of a whole signal.
 fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
     let transformed = Transformed::unchecked(x, fs);
-    let mut envelopes = transformed.envelopes();
-    envelopes.in_band(band);
-    envelopes.envelope
+    transformed.envelope(band, 1).values
 }
 
 #[cfg(test)]

@@ -6,11 +6,11 @@
 
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
-use super::envelope::Band;
+use super::envelope::{Band, bins};
 use super::error::{SignalError, check, require};
+use super::interleaved::Interleaved;
 use super::psd::Detrend;
 
 /// Velocity from acceleration `a` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform
@@ -24,11 +24,18 @@ use super::psd::Detrend;
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and below
 /// half the sampling rate and the upper edge.
 pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
-    Ok(velocities(a, fs, &[band])?.swap_remove(0))
+    let mut v = Vec::new();
+    velocities(a, fs, &[band], |_, velocity| v = velocity.to_vec())?;
+    Ok(v)
 }
 
-/// [`velocity`] in several bands, from one transform.
-pub(super) fn velocities(a: &[f64], fs: f64, bands: &[Band]) -> Result<Vec<Vec<f64>>, SignalError> {
+/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it.
+pub(super) fn velocities(
+    a: &[f64],
+    fs: f64,
+    bands: &[Band],
+    mut each: impl FnMut(usize, &[f64]),
+) -> Result<(), SignalError> {
     check(a, fs, 8, "integration")?;
     for band in bands {
         require(
@@ -38,37 +45,28 @@ pub(super) fn velocities(a: &[f64], fs: f64, bands: &[Band]) -> Result<Vec<Vec<f
             "above 0, below the upper edge and half the sampling rate",
         )?;
     }
-    const MADE: &str = "buffers were made by the plan";
-    let n = a.len();
-    let mut planner = RealFftPlanner::new();
-    let forward = planner.plan_fft_forward(n);
-    let inverse = planner.plan_fft_inverse(n);
+    let plan = Interleaved::new(a.len());
+    let mut room = plan.room();
     let mut x = a.to_vec();
     Detrend::Linear.apply(&mut x);
-    let mut spectrum = forward.make_output_vec();
-    forward.process(&mut x, &mut spectrum).expect(MADE);
-    let step = fs / n as f64;
-    let most = n.div_ceil(2);
-    let mut scratch = inverse.make_scratch_vec();
-    let mut work = inverse.make_input_vec();
-    let results = bands.iter().map(|band| {
-        // Half the sampling rate has no quadrature, and so no integral.
-        let first = ((band.low / step).ceil() as usize).clamp(1, most);
-        let end = ((band.high / step).floor() as usize)
-            .saturating_add(1)
-            .clamp(first, most);
-        work.fill(Complex::new(0.0, 0.0));
-        for k in first..end {
-            let scale = 1.0 / (TAU * k as f64 * step * n as f64);
-            work[k] = Complex::new(spectrum[k].im, -spectrum[k].re) * scale;
-        }
-        let mut v = vec![0.0; n];
-        inverse
-            .process_with_scratch(&mut work, &mut v, &mut scratch)
-            .expect(MADE);
-        v
-    });
-    Ok(results.collect())
+    let spectrum = plan.forward(&x, &mut room);
+    let mut v = x;
+    // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
+    let scale = 2.0 / (TAU * fs);
+    for (place, band) in bands.iter().enumerate() {
+        let divide = |first: usize, bins: &mut [Complex<f64>]| {
+            for (i, bin) in bins.iter_mut().enumerate() {
+                *bin = Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64);
+            }
+        };
+        let inside = bins(fs, a.len(), *band);
+        plan.backward(&spectrum, inside, &mut room, divide, |part, values| {
+            let places = v[part.first..].iter_mut().step_by(part.step);
+            (places.zip(values)).for_each(|(v, value)| *v = value.re);
+        });
+        each(place, &v);
+    }
+    Ok(())
 }
 
 /// Velocity from acceleration `a` sampled at `fs` Hz by the trapezoidal rule, from 0 at the first sample, the mean of `a`

@@ -27,6 +27,7 @@ pub mod fir;
 pub mod frequency;
 pub mod indicators;
 pub mod integrate;
+mod interleaved;
 pub mod kurtogram;
 pub mod lines;
 pub mod order;
@@ -49,7 +50,7 @@ pub use diagnosis::{
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
-pub use envelope::{Band, EnvelopeSpectrum, Envelopes, Transformed, envelope, envelope_spectrum};
+pub use envelope::{Band, EnvelopeSpectrum, Thinned, Transformed, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};

@@ -73,22 +73,21 @@ pub fn velocity_bands(
         block,
         "at least one sample",
     )?;
-    let has_place = |band: &Band| band.low < 0.5 * fs;
-    let inside: Vec<Band> = bands.iter().copied().filter(has_place).collect();
-    let mut signals = velocities(a, fs, &inside)?.into_iter();
-    Ok(bands.map(|band| {
-        let velocity = if has_place(&band) {
-            signals.next()
-        } else {
-            None
-        }?;
-        let blocks = Blocks::of(&velocity, samples);
-        Some(BandVelocity {
+    let inside: Vec<usize> = (0..bands.len())
+        .filter(|i| bands[*i].low < 0.5 * fs)
+        .collect();
+    let wanted: Vec<Band> = inside.iter().map(|i| bands[*i]).collect();
+    let mut found = [None; 3];
+    velocities(a, fs, &wanted, |place, velocity| {
+        let band = wanted[place];
+        let rms = Blocks::of(velocity, samples).estimate(Indicator::Rms);
+        found[inside[place]] = rms.map(|rms| BandVelocity {
             band,
-            rms: blocks.estimate(Indicator::Rms)?,
+            rms,
             cut_short: band.high > 0.5 * fs,
-        })
-    }))
+        });
+    })?;
+    Ok(found)
 }
 
 #[cfg(test)]

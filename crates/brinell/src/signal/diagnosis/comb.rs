@@ -254,11 +254,13 @@ pub(super) fn crowding(floor: &Floor, sought: &Sought, candidates: &[Candidate])
 /// Whether lines of such power dwarf those of any comb of the same kind at a frequency that nobody asked for.
 pub(super) fn dwarfs(floor: &Floor, sought: &Sought, candidates: &[Candidate], power: f64) -> bool {
     let around = 1.5 * sought.spacing.unwrap_or(0.0);
-    let shown: Vec<f64> = (others(sought, candidates).iter())
+    let mut shown = 0;
+    let all = (others(sought, candidates).iter())
         .filter(|o| (o.frequency - sought.frequency).abs() > around)
         .filter_map(|o| Some(best(floor, o)?.power))
-        .collect();
-    shown.len() >= FEWEST && shown.iter().all(|other| DWARFED * other <= power)
+        .inspect(|_| shown += 1)
+        .all(|other| DWARFED * other <= power);
+    all && shown >= FEWEST
 }
 
 /// The same comb at other frequencies, apart from each other and from every candidate.
