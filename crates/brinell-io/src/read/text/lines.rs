@@ -4,6 +4,7 @@ use std::io::Read;
 
 use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
+use super::decimal::decimal;
 use super::layout::Layout;
 use super::{Decimal, Delimiter};
 use crate::read::fault::{Fault, damaged};
@@ -85,7 +86,8 @@ fn plain(text: &[u8], layout: &Layout, field: usize) -> Option<(f64, usize)> {
         (text[at] == delimiter).then_some(at + 1)
     };
     let start = (0..field).try_fold(0, |at, _| to_delimiter(at))?;
-    let (value, length) = fast_float2::parse_partial(&text[start..]).ok()?;
+    let number = &text[start..];
+    let (value, length) = decimal(number).or_else(|| fast_float2::parse_partial(number).ok())?;
     let end = start + length;
     let last = match columns - 1 - field {
         0 => end,
