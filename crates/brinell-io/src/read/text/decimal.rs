@@ -87,7 +87,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #![proptest_config(ProptestConfig::with_cases(5000))]
         /// Bit for bit what the general parser makes of the same bytes, wherever it takes them at all.
         #[test]
         fn xval_fast_float(text in "-?[0-9]{0,9}[.e]?[0-9]{0,9}[ ,\n.e+:/;\u{e9}-]?[0-9.]{0,12}") {

@@ -1,6 +1,7 @@
-//! One column of a text file, streamed.
+//! One column of a text file, streamed: while one block of lines is parsed, on as many threads as there are cores, the next one is read.
 
-use std::io::Read;
+use std::io::{self, Read};
+use std::thread::{self, ScopedJoinHandle};
 
 use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
@@ -10,97 +11,223 @@ use super::{Decimal, Delimiter};
 use crate::read::fault::{Fault, damaged};
 use crate::read::numbers::{Sink, give};
 
-const BUFFER: usize = 1 << 20;
+/// Bytes read at a time.
+const BLOCK: usize = 2 << 20;
+/// Bytes that are worth a thread.
+const SHARE: usize = 256 << 10;
 /// A longer line is no line of a table.
 const MAX_LINE: usize = 16 << 20;
-/// Values handed on at a time.
+/// Values handed on at a time, whatever the blocks and threads: what is summed piece by piece comes out the same.
 const PIECE: usize = 16 << 10;
 
 /// Streams the values of one field of every line from where `reader` stands.
 pub(super) fn column(
-    reader: &mut impl Read,
+    reader: &mut (impl Read + Send),
     layout: &Layout,
     field: usize,
     sink: Sink<'_>,
 ) -> Result<(), Fault> {
-    let mut buffer = vec![0; BUFFER];
-    let (mut filled, mut line) = (0, layout.first_line);
-    let mut values = Vec::with_capacity(PIECE);
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let cut = Cut {
+        block: BLOCK,
+        share: SHARE,
+        threads: cores.min(BLOCK / SHARE),
+    };
+    in_blocks(reader, &Wanted::of(layout, field), sink, &cut)
+}
+
+/// How a file is cut up: bytes of a block, the fewest for a thread, and threads at most.
+struct Cut {
+    block: usize,
+    share: usize,
+    threads: usize,
+}
+
+fn in_blocks(
+    reader: &mut (impl Read + Send),
+    wanted: &Wanted,
+    sink: Sink<'_>,
+    cut: &Cut,
+) -> Result<(), Fault> {
+    let (mut buffer, mut next) = (vec![0; cut.block], Vec::new());
+    let mut filled = fill(reader, &mut buffer, 0)?;
+    let mut line = wanted.layout.first_line;
+    let mut shares = vec![Vec::new(); cut.threads];
+    let mut values = Vec::new();
     loop {
-        let got = reader.read(&mut buffer[filled..]).map_err(Fault::Io)?;
-        filled += got;
-        // Whole lines; at the end of the file what is left is one.
-        let whole = match memrchr(b'\n', &buffer[filled - got..filled]) {
-            Some(end) => filled - got + end + 1,
+        let text = &buffer[..filled];
+        // At the end of the file what is left is a line too.
+        let end = filled < buffer.len();
+        let whole = match memrchr(b'\n', text) {
+            _ if end => filled,
+            Some(last) => last + 1,
+            None if filled >= MAX_LINE => {
+                return Err(damaged(format!("line {line} has no end")));
+            }
             None => 0,
         };
-        let mut rest = &buffer[..whole];
-        while !rest.is_empty() {
-            let length = match plain(rest, layout, field) {
+        let (text, rest) = text.split_at(whole);
+        let (found, read) = thread::scope(|scope| {
+            let read = (!end).then(|| {
+                next.resize(cut.block.max(2 * rest.len()), 0);
+                next[..rest.len()].copy_from_slice(rest);
+                scope.spawn(|| fill(reader, &mut next, rest.len()))
+            });
+            let found = wanted.parse(text, &mut line, cut.share, &mut shares);
+            (found, read.map(joined))
+        });
+        for (share, fault) in shares.iter_mut().zip(found) {
+            values.append(share);
+            let pieces = values.chunks_exact(PIECE);
+            let left = pieces.remainder().len();
+            for piece in pieces {
+                give(sink, piece)?;
+            }
+            values.drain(..values.len() - left);
+            fault?;
+        }
+        match read {
+            Some(read) => filled = read?,
+            None => return give(sink, &values),
+        }
+        std::mem::swap(&mut buffer, &mut next);
+    }
+}
+
+/// Reads until a buffer is full from `filled` on, or the file ends; how far it is filled then.
+fn fill(reader: &mut impl Read, buffer: &mut [u8], mut filled: usize) -> Result<usize, Fault> {
+    while filled < buffer.len() {
+        match reader.read(&mut buffer[filled..]) {
+            Ok(0) => break,
+            Ok(got) => filled += got,
+            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+            Err(e) => return Err(Fault::Io(e)),
+        }
+    }
+    Ok(filled)
+}
+
+/// What a thread came to; its panic goes on here.
+fn joined<T>(thread: ScopedJoinHandle<T>) -> T {
+    (thread.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// The field that is wanted of every line.
+struct Wanted<'a> {
+    layout: &'a Layout,
+    field: usize,
+    plain: Option<Plain>,
+}
+
+impl<'a> Wanted<'a> {
+    fn of(layout: &'a Layout, field: usize) -> Self {
+        // Runs of blanks and decimal commas are `row`'s business.
+        let runs = layout.delimiter == Delimiter::Blanks && layout.columns.len() > 1;
+        let plain = !runs && layout.decimal != Some(Decimal::Comma);
+        Wanted {
+            layout,
+            field,
+            plain: plain.then(|| Plain {
+                delimiter: layout.delimiter.sign(),
+                before: field,
+                after: layout.columns.len() - 1 - field,
+            }),
+        }
+    }
+
+    /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `least` bytes or more to each: a
+    /// thread has a list of its own to write to, and a result. `line` is then the number of the line after.
+    fn parse(
+        &self,
+        text: &[u8],
+        line: &mut u64,
+        least: usize,
+        shares: &mut [Vec<f64>],
+    ) -> Vec<Result<(), Fault>> {
+        let length = (text.len() / shares.len()).max(least);
+        let mut rest = text;
+        thread::scope(|scope| {
+            let mut threads = Vec::new();
+            for values in shares {
+                if rest.is_empty() {
+                    break;
+                }
+                let end = memchr(b'\n', rest.get(length..).unwrap_or_default());
+                let (mine, others) = rest.split_at(end.map_or(rest.len(), |end| length + end + 1));
+                let first = *line;
+                *line += memchr_iter(b'\n', mine).count() as u64;
+                rest = others;
+                threads.push(scope.spawn(move || self.lines(mine, first, values)));
+            }
+            threads.into_iter().map(joined).collect()
+        })
+    }
+
+    fn lines(&self, mut text: &[u8], mut line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
+        while !text.is_empty() {
+            let plain = self.plain.as_ref().and_then(|plain| plain.value(text));
+            let length = match plain {
                 Some((value, length)) => {
                     values.push(value);
                     length
                 }
                 None => {
-                    let end = memchr(b'\n', rest).unwrap_or(rest.len() - 1);
-                    row(&rest[..end], layout, field, line, &mut values)?;
-                    end + 1
+                    let end = memchr(b'\n', text).unwrap_or(text.len());
+                    row(&text[..end], self.layout, self.field, line, values)?;
+                    (end + 1).min(text.len())
                 }
             };
-            rest = &rest[length..];
+            text = &text[length..];
             line += 1;
-            if values.len() >= PIECE {
-                give(sink, &values)?;
-                values.clear();
-            }
         }
-        if got == 0 {
-            row(&buffer[..filled], layout, field, line, &mut values)?;
-            return give(sink, &values);
-        }
-        buffer.copy_within(whole..filled, 0);
-        filled -= whole;
-        if filled == buffer.len() {
-            if filled >= MAX_LINE {
-                return Err(damaged(format!("line {line} has no end")));
-            }
-            buffer.resize(2 * filled, 0);
-        }
+        Ok(())
     }
 }
 
-/// The wanted value of a line that is as plain as nearly all are, and the length of the line with its end: numbers with a point and
-/// nothing about them. `text` begins with the line and goes on to the end of some line. `None` says nothing: see [`row`].
-fn plain(text: &[u8], layout: &Layout, field: usize) -> Option<(f64, usize)> {
-    let columns = layout.columns.len();
-    let delimiter = match layout.delimiter {
-        // Runs of blanks are `row`'s business.
-        Delimiter::Blanks if columns > 1 => return None,
-        other => other.sign(),
-    };
-    if layout.decimal == Some(Decimal::Comma) || matches!(text[0], b'#' | b'%') {
-        return None;
-    }
-    let to_delimiter = |from: usize| {
-        let at = from + memchr2(delimiter, b'\n', &text[from..])?;
-        (text[at] == delimiter).then_some(at + 1)
-    };
-    let start = (0..field).try_fold(0, |at, _| to_delimiter(at))?;
-    let number = &text[start..];
-    let (value, length) = decimal(number).or_else(|| fast_float2::parse_partial(number).ok())?;
-    let end = start + length;
-    let last = match columns - 1 - field {
-        0 => end,
-        after if text[end] == delimiter => {
-            let last = (1..after).try_fold(end + 1, |at, _| to_delimiter(at))?;
-            last + memchr2(delimiter, b'\n', &text[last..])?
+/// Lines as plain as nearly all are: numbers with a point, one sign between them, and nothing about them.
+struct Plain {
+    delimiter: u8,
+    /// Fields before the wanted one, and after it.
+    before: usize,
+    after: usize,
+}
+
+impl Plain {
+    /// The wanted value of the line that `text` begins with, and the line's length with its end. `None` says nothing: see [`row`].
+    #[inline]
+    fn value(&self, text: &[u8]) -> Option<(f64, usize)> {
+        if matches!(text[0], b'#' | b'%') {
+            return None;
         }
-        _ => return None,
-    };
-    match &text[last..] {
-        [b'\n', ..] => Some((value, last + 1)),
-        [b'\r', b'\n', ..] => Some((value, last + 2)),
-        _ => None,
+        let mut at = 0;
+        for _ in 0..self.before {
+            at = self.beyond_delimiter(text, at)?;
+        }
+        let number = &text[at..];
+        let (value, length) =
+            decimal(number).or_else(|| fast_float2::parse_partial(number).ok())?;
+        at += length;
+        if self.after > 0 {
+            if *text.get(at)? != self.delimiter {
+                return None;
+            }
+            at += 1;
+            for _ in 1..self.after {
+                at = self.beyond_delimiter(text, at)?;
+            }
+            at += memchr2(self.delimiter, b'\n', &text[at..])?;
+        }
+        match text.get(at..)? {
+            [b'\n', ..] => Some((value, at + 1)),
+            [b'\r', b'\n', ..] => Some((value, at + 2)),
+            _ => None,
+        }
+    }
+
+    #[inline]
+    fn beyond_delimiter(&self, text: &[u8], from: usize) -> Option<usize> {
+        let at = from + memchr2(self.delimiter, b'\n', &text[from..])?;
+        (text[at] == self.delimiter).then_some(at + 1)
     }
 }
 
@@ -186,5 +313,99 @@ pub(super) fn number(text: &[u8], decimal: Option<Decimal>) -> Option<f64> {
         Some(_) => None,
         None if decimal == Some(Decimal::Comma) && memchr(b'.', text).is_some() => None,
         None => fast_float2::parse(text).ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::super::TextFormat;
+    use super::super::layout::find;
+    use super::*;
+
+    /// Values and fault of a text, however it is cut up.
+    fn read(text: &str, field: usize, cut: &Cut) -> (Vec<f64>, Option<String>) {
+        let layout = find(text.as_bytes(), &TextFormat::default()).unwrap();
+        let mut reader = &text.as_bytes()[layout.start as usize..];
+        let mut values = Vec::new();
+        let mut sink = |piece: &[f64]| {
+            values.extend_from_slice(piece);
+            ControlFlow::Continue(())
+        };
+        let done = in_blocks(&mut reader, &Wanted::of(&layout, field), &mut sink, cut);
+        (values, done.err().map(|fault| format!("{fault:?}")))
+    }
+
+    #[test]
+    fn prop_blocks_and_threads_change_nothing() {
+        let mut text = String::from("a,b,c\n");
+        let mut expected = Vec::new();
+        for i in 0..3000 {
+            let value = f64::from(i * 7919 % 2003 - 1000) / 16.0;
+            match i % 97 {
+                0 => text += "\n# a remark\n",
+                1 => text += "  \r\n",
+                _ => {}
+            }
+            // Plain lines among such as are not.
+            match i % 13 {
+                0 => text += &format!("1,{value:e},2\n"),
+                1 => text += &format!(" 1 , {value} ,2\r\n"),
+                2 => text += &format!("{},\"{value}\",\n", "0".repeat(200)),
+                _ => text += &format!("{i},{value},-0.25\r\n"),
+            }
+            expected.push(value);
+        }
+        let cuts = [
+            (50, 10, 1),
+            (64, 1, 3),
+            (700, 100, 4),
+            (4096, 1000, 2),
+            (1 << 20, 5000, 8),
+        ];
+        let cuts = cuts.map(|(block, share, threads)| Cut {
+            block,
+            share,
+            threads,
+        });
+        for cut in &cuts {
+            assert_eq!(
+                read(&text, 1, cut),
+                (expected.clone(), None),
+                "{}",
+                cut.block
+            );
+            // Without an end to the last line.
+            let open = text.trim_end();
+            assert_eq!(
+                read(open, 1, cut),
+                (expected.clone(), None),
+                "{}",
+                cut.block
+            );
+        }
+        let line = text.matches('\n').count() + 1;
+        let more = "5,0,0\n".repeat(100);
+        for (bad, fault) in [
+            (
+                "1,2\n",
+                format!("Row {{ line: {line}, expected: 3, got: 2 }}"),
+            ),
+            (
+                "1,x,2\n",
+                format!("Number {{ line: {line}, column: \"b\", text: \"x\" }}"),
+            ),
+        ] {
+            let text = format!("{text}{bad}{more}{bad}");
+            for cut in &cuts {
+                assert_eq!(
+                    read(&text, 1, cut).1.as_ref(),
+                    Some(&fault),
+                    "{}",
+                    cut.block
+                );
+            }
+        }
     }
 }
