@@ -227,7 +227,7 @@ impl Transformed {
     pub fn envelope(&self, band: Band, every: usize) -> Thinned {
         // The analytic signal has the band's positive frequencies twice and nothing else.
         let scale = 2.0 / self.samples() as f64;
-        self.thinned(band, every, scale, |_, _| {})
+        self.thinned(band, every, scale, |_, _, _| {})
     }
 
     /// The envelope in a band of what [`whitened`](super::whitened) makes of the signal in it.
@@ -240,11 +240,11 @@ impl Transformed {
         let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
         let size = (2.0 / bins.count().max(1) as f64).sqrt();
         let mut norms = Vec::new();
-        self.thinned(band, every, size, |_, bins| {
+        self.thinned(band, every, size, |_, bins, factors| {
             norms.resize(bins.len(), 0.0);
             moduli(bins, &mut norms);
-            for (bin, norm) in bins.iter_mut().zip(&norms) {
-                *bin = if *norm > 0.0 { *bin / *norm } else { *bin };
+            for (factor, norm) in factors.iter_mut().zip(&norms) {
+                *factor /= if *norm > 0.0 { *norm } else { 1.0 };
             }
         })
     }
@@ -255,7 +255,7 @@ impl Transformed {
         band: Band,
         every: usize,
         scale: f64,
-        shape: impl FnMut(usize, &mut [Complex<f64>]),
+        shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
     ) -> Thinned {
         let length = self.samples();
         // What is left at the end makes a group too, for the mean.

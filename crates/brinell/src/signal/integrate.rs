@@ -54,9 +54,9 @@ pub(super) fn velocities(
     // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
     let scale = 2.0 / (TAU * fs);
     for (place, band) in bands.iter().enumerate() {
-        let divide = |first: usize, bins: &mut [Complex<f64>]| {
-            for (i, bin) in bins.iter_mut().enumerate() {
-                *bin = Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64);
+        let divide = |first: usize, _: &[_], factors: &mut [Complex<f64>]| {
+            for (i, factor) in factors.iter_mut().enumerate() {
+                *factor = Complex::new(factor.im, -factor.re) * (scale / (first + i) as f64);
             }
         };
         let inside = bins(fs, a.len(), *band);

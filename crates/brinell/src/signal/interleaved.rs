@@ -91,27 +91,25 @@ impl Interleaved {
     }
 
     /// The complex signal that has the bins of `range` and no others, N times as large, part by part: `each` gets p and the samples p,
-    /// p + P, p + 2 P, ... of P in all. `bins` are those from 0 on; `shape` gets the number of the first of a few bins, and what it makes of
-    /// them is taken.
+    /// p + P, p + 2 P, ... of P in all. `bins` are those from 0 on. `shape` gets the number of the first of a few bins, these, and factors that
+    /// it may change.
     pub(super) fn backward(
         &self,
         bins: &[Complex<f64>],
         range: Range<usize>,
         room: &mut Room,
-        mut shape: impl FnMut(usize, &mut [Complex<f64>]),
+        mut shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
         mut each: impl FnMut(Part, &[Complex<f64>]),
     ) {
-        let mut block = [Complex::ZERO; BLOCK];
         for p in 0..self.parts {
             let Room { values, scratch } = &mut *room;
             values.fill(Complex::ZERO);
-            self.turned(range.clone(), p, |k, j, turns| {
-                let block = &mut block[..turns.len()];
-                block.copy_from_slice(&bins[k..k + turns.len()]);
-                shape(k, block);
-                let places = &mut values[j..j + turns.len()];
-                for ((value, bin), turn) in places.iter_mut().zip(&*block).zip(turns) {
-                    *value += bin * turn;
+            self.turned(range.clone(), p, |k, j, factors| {
+                let bins = &bins[k..k + factors.len()];
+                shape(k, bins, factors);
+                let places = &mut values[j..j + factors.len()];
+                for ((value, bin), factor) in places.iter_mut().zip(bins).zip(factors) {
+                    *value += bin * *factor;
                 }
             });
             self.fft.process_with_scratch(values, scratch);
@@ -128,7 +126,7 @@ impl Interleaved {
         &self,
         range: Range<usize>,
         p: usize,
-        mut each: impl FnMut(usize, usize, &[Complex<f64>]),
+        mut each: impl FnMut(usize, usize, &mut [Complex<f64>]),
     ) {
         let unit = |power: usize| {
             let angle = TAU * (power % self.length) as f64 / self.length as f64;
@@ -145,7 +143,7 @@ impl Interleaved {
             for (turn, fine) in turns.iter_mut().zip(&fine) {
                 *turn = coarse * fine;
             }
-            each(k, j, &turns[..count]);
+            each(k, j, &mut turns[..count]);
             k += count;
         }
     }
@@ -195,9 +193,9 @@ mod tests {
                 &bins,
                 0..length.div_ceil(2),
                 &mut room,
-                |k, block| {
-                    for (i, bin) in block.iter_mut().enumerate() {
-                        *bin *= if k + i == 0 { 1.0 } else { 2.0 } / length as f64;
+                |k, _, factors| {
+                    for (i, factor) in factors.iter_mut().enumerate() {
+                        *factor *= if k + i == 0 { 1.0 } else { 2.0 } / length as f64;
                     }
                 },
                 |part, values| {
