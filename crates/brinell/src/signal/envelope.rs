@@ -299,9 +299,9 @@ fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::StreamSpectra;
     use super::super::spectrum::peak_near;
-    use super::super::test_signals::{ImpactTrain, cosine, integer_sequence};
+    use super::super::test_signals::{ImpactTrain, Noise, cosine, integer_sequence};
+    use super::super::{StreamSpectra, whitened};
     use super::*;
 
     const FS: f64 = 25_600.0;
@@ -412,6 +412,50 @@ mod tests {
         // Nothing half way between them.
         let between = peak_near(&result.spectrum, 150.0, 20.0).map_or(0.0, |p| p.amplitude);
         assert!(between < 1e-2 * fundamental.amplitude, "{between}");
+    }
+
+    #[test]
+    fn prop_means_over_neighbours_are_those_of_the_envelope() {
+        let band = Band::between(1000.0, 9000.0);
+        // One part, a few, and more than a transform holds.
+        for n in [9973, 12_000, 5 << 18] {
+            let x = Noise::new(5).normals(n);
+            let whitened = whitened(&x, FS, band).unwrap();
+            let transformed = Transformed::of(&x, FS).unwrap();
+            for (whole, thinned) in [
+                (
+                    envelope(&x, FS, band).unwrap(),
+                    transformed.envelope(band, 7),
+                ),
+                (
+                    envelope(&whitened, FS, band).unwrap(),
+                    transformed.whitened_envelope(band, 7),
+                ),
+            ] {
+                let mean = whole.iter().sum::<f64>() / n as f64;
+                assert!((thinned.mean / mean - 1.0).abs() < 1e-12, "{n}");
+                assert_eq!(thinned.values.len(), n / 7);
+                for (value, seven) in thinned.values.iter().zip(whole.chunks(7)) {
+                    let mean = seven.iter().sum::<f64>() / 7.0;
+                    assert!((value - mean).abs() < 1e-12, "{n}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn prop_sizes_whose_squares_are_no_numbers() {
+        let x = modulated(2000, 90.0, 0.4);
+        let band = Band::between(5000.0, 7000.0);
+        let expected = envelope(&x, FS, band).unwrap();
+        for size in [1e-200, 1e200] {
+            let scaled: Vec<f64> = x.iter().map(|v| size * v).collect();
+            let found = envelope(&scaled, FS, band).unwrap();
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a / size / b - 1.0).abs() < 1e-12);
+            }
+        }
+        assert_eq!(envelope(&[0.0; 100], FS, band).unwrap(), [0.0; 100]);
     }
 
     #[test]

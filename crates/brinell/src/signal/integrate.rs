@@ -139,7 +139,8 @@ mod tests {
             Band::between(400.1, 5000.0),
             Band::above(10.0),
         ];
-        let v = velocities(&a, FS, &bands).unwrap();
+        let mut v = Vec::new();
+        velocities(&a, FS, &bands, |_, velocity| v.push(velocity.to_vec())).unwrap();
         let worst = (0..999)
             .map(|i| (v[0][i] + v[1][i] - v[2][i]).abs())
             .fold(0.0, f64::max);

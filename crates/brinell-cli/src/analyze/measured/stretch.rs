@@ -112,3 +112,42 @@ fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64) -> Result<Re
     rest.last_start = (skip as u64 + rest.samples - rest.last.len() as u64) as f64 / rate;
     Ok(rest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brinell::signal::Indicator;
+    use brinell_io::open;
+
+    /// The end of a long signal is its last samples, and its moments are those of all, from the first one wanted on.
+    #[test]
+    fn prop_the_end_and_the_whole_of_a_long_signal() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long.npy");
+        for (more, skip) in [(1000, 0), (MOST + 12_345, 777)] {
+            let n = MOST + more + skip;
+            let value = |i: usize| (i % 30_011) as i16 - 11;
+            let head = format!("{{'descr': '<i2', 'fortran_order': False, 'shape': ({n},), }}\n");
+            let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+            bytes.extend((head.len() as u16).to_le_bytes());
+            bytes.extend(head.as_bytes());
+            bytes.extend((0..n).flat_map(|i| value(i).to_le_bytes()));
+            std::fs::write(&path, bytes).unwrap();
+            let mut file = open(&path).unwrap();
+            let rest = whole(&mut file, "array", skip, 100.0).unwrap();
+            assert_eq!(rest.samples, (n - skip) as u64);
+            assert_eq!(rest.missing, 0);
+            let first = (n - MOST).max(skip + MOST);
+            assert_eq!(rest.last_start, first as f64 / 100.0);
+            assert_eq!(rest.last.len(), n - first);
+            assert!(
+                (first..n)
+                    .zip(&rest.last)
+                    .all(|(i, v)| *v == f64::from(value(i)))
+            );
+            let sum: f64 = (skip..n).map(|i| f64::from(value(i))).sum();
+            let mean = rest.moments.get(Indicator::Mean).unwrap();
+            assert!((mean * rest.samples as f64 / sum - 1.0).abs() < 1e-12);
+        }
+    }
+}
