@@ -63,7 +63,7 @@ impl<'a> Record<'a> {
             model: self.motion.model,
             t,
             y,
-            dy: &self.dy,
+            a: &self.dy[y.len() / 2..],
             ws: &self.motion.ws,
         };
         for (column, channel) in self.columns.iter_mut().zip(self.channels) {
