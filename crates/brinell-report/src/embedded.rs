@@ -6,7 +6,7 @@ use crate::chart::{Domain, LANE_HEIGHT, Lane};
 use crate::number::{linear_ticks, runs, tick_labels};
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
-const KEPT: usize = 65_536;
+pub(crate) const KEPT: usize = 65_536;
 
 /// What the script needs to redraw a plot.
 pub(crate) struct Chart<'a> {
@@ -23,6 +23,12 @@ pub(crate) struct Chart<'a> {
     pub(crate) toggles: &'a [Lane],
     /// Units of this plot to the overview's.
     pub(crate) overview_scale: f64,
+    /// Curves over it, as x0, dx and values.
+    pub(crate) beside: &'a [(f64, f64, &'a [f64])],
+    /// Which of the drawn curves is which: place of this one's, then of those beside it.
+    pub(crate) drawn: &'a [usize],
+    /// A shaded stretch of the x axis.
+    pub(crate) band: Option<(f64, f64)>,
 }
 
 impl Chart<'_> {
@@ -82,9 +88,24 @@ impl Chart<'_> {
                 lane.through
             );
         }
+        page.push_str("],\"beside\":[");
+        for (index, (x0, dx, values)) in self.beside.iter().enumerate() {
+            let (values, dx) = kept(values, *dx, self.peak);
+            let _ = write!(
+                page,
+                "{}{{\"x0\":{x0},\"dx\":{dx},\"count\":{},\"values\":\"{}\"}}",
+                if index == 0 { "" } else { "," },
+                values.len(),
+                base64(&packed(&values, self.peak))
+            );
+        }
+        let band = self
+            .band
+            .map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
         let _ = writeln!(
             page,
-            "],\"values\":\"{}\"}}</script>",
+            "],\"drawn\":{:?},\"band\":{band},\"values\":\"{}\"}}</script>",
+            self.drawn,
             base64(&packed(&values, self.peak))
         );
     }
