@@ -22,11 +22,13 @@
 
 mod account;
 mod comb;
+mod sidebands;
 
 use self::account::explain;
 pub use self::account::without;
 use self::comb::{Best, Sought};
-use super::distribution::chi_square_tail;
+pub use self::sidebands::SidebandEvidence;
+use self::sidebands::about;
 use super::error::{SignalError, require};
 use super::lines::{Floor, Line, LineSet};
 use super::spectrum::Spectrum;
@@ -94,28 +96,6 @@ impl Default for DiagnosisOptions {
             sidebands: 2,
             level: 0.01,
         }
-    }
-}
-
-/// Sidebands of a candidate's harmonics.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SidebandEvidence {
-    /// Distance, Hz.
-    pub spacing: f64,
-    /// About each harmonic in turn; those that fall on the candidate's own harmonics are left out.
-    pub lines: Vec<Line>,
-    /// Of each line, the order of the harmonic that it is about.
-    pub about: Vec<i32>,
-    /// How many stand by themselves (chance under noise below 1e-3).
-    pub standing: usize,
-    /// Chance that noise shows as much in all of them together, for any candidate of the list.
-    pub false_alarm: f64,
-}
-
-impl SidebandEvidence {
-    /// Those that stand by themselves, with the order of their harmonic.
-    pub fn standing_lines(&self) -> impl Iterator<Item = (i32, &Line)> {
-        (self.about.iter().copied().zip(&self.lines)).filter(|(_, l)| l.false_alarm <= LINE_LEVEL)
     }
 }
 
@@ -323,7 +303,7 @@ fn examine(
     let standing = found.standing(LINE_LEVEL).count();
     let frequency = common_frequency(&found).unwrap_or(best.frequency);
     let many = candidates.len() as f64;
-    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
+    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many, &unseen));
     // What any other frequency shows, in place of noise alone: less what this one accounts for.
     let crowding = match best.chance * many <= options.level {
         true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
@@ -343,13 +323,7 @@ fn examine(
     let beside = sidebands.as_ref().map_or(0, |s| s.standing);
     let low = (found.standing(LINE_LEVEL)).any(|l| l.order <= 2);
     let carried: Vec<i32> = (sidebands.iter().filter(|s| s.false_alarm <= options.level))
-        .flat_map(|s| {
-            let hidden = found.lines.iter().filter(|l| unseen(l)).map(|l| l.order);
-            let side = |h: i32, below: bool| {
-                (s.standing_lines()).any(|(about, l)| about == h && (l.order < 0) == below)
-            };
-            hidden.filter(move |h| side(*h, true) && side(*h, false))
-        })
+        .flat_map(|s| s.carry(&found, aside, reach))
         .collect();
     // A peak beyond the tolerance may lend its skirt to a comb within.
     let within =
@@ -378,47 +352,6 @@ fn mark(marks: &mut [bool], middle: f64, reach: f64) {
     if first < end {
         marks[first..end].fill(true);
     }
-}
-
-fn about(
-    floor: &Floor,
-    frequency: f64,
-    spacing: f64,
-    options: &DiagnosisOptions,
-    candidates: f64,
-) -> Option<SidebandEvidence> {
-    let step = floor.step();
-    let (mut lines, mut whose) = (Vec::new(), Vec::new());
-    let count = options.sidebands as i32;
-    for h in 1..=options.harmonics {
-        let carrier = h as f64 * frequency;
-        let tolerance = step.min(0.4 * spacing);
-        lines.extend(
-            (-count..=count)
-                .filter(|m| *m != 0)
-                .filter_map(|m| floor.line(m, carrier + f64::from(m) * spacing, tolerance))
-                .filter(|l| {
-                    let order = (l.expected / frequency).round();
-                    (l.expected - order * frequency).abs() >= CLOSEST_SIDEBAND * step
-                }),
-        );
-        whose.resize(lines.len(), h as i32);
-    }
-    if lines.is_empty() {
-        return None;
-    }
-    let statistic: f64 = lines
-        .iter()
-        .map(|l| -2.0 * l.false_alarm.max(CAP).ln())
-        .sum();
-    let chance = chi_square_tail(statistic, 2.0 * lines.len() as f64);
-    Some(SidebandEvidence {
-        spacing,
-        standing: lines.iter().filter(|l| l.false_alarm <= LINE_LEVEL).count(),
-        lines,
-        about: whose,
-        false_alarm: (chance * candidates).min(1.0),
-    })
 }
 
 /// The fundamental by least squares from the harmonics that stand, each weighted by its power over noise.
