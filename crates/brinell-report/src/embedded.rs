@@ -33,7 +33,9 @@ pub(crate) struct Chart<'a> {
 
 impl Chart<'_> {
     pub(crate) fn write(&self, page: &mut String) {
-        if !(self.dx.is_finite() && self.dx > 0.0 && self.x0.is_finite()) {
+        let odd = |(x0, dx): (f64, f64)| !(dx.is_finite() && dx > 0.0 && x0.is_finite());
+        let beside = self.beside.iter().map(|c| (c.0, c.1));
+        if odd((self.x0, self.dx)) || beside.into_iter().any(odd) {
             return;
         }
         let (values, dx) = kept(self.values, self.dx, self.peak);
