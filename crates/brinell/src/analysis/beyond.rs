@@ -4,7 +4,7 @@ use super::frequencies::Component;
 use super::verdict::{FAINT, LINE_LEVEL};
 use super::view::{View, candidates, looking};
 use super::{AnalysisError, Options};
-use crate::signal::{Evidence, diagnose};
+use crate::signal::{Evidence, diagnose_beside};
 
 /// So many times the tolerance is looked through.
 const FARTHER: f64 = 3.0;
@@ -58,7 +58,7 @@ pub(super) fn find(
     let looking = looking(options, views.len() as f64);
     let mut best: Option<Beyond> = None;
     for view in views {
-        let diagnosis = diagnose(&view.searched, &sought, &looking)?;
+        let diagnosis = diagnose_beside(&view.searched, &sought, &looking, &view.removed)?;
         for evidence in diagnosis.causes() {
             let (component, name, near) = &within[evidence.candidate];
             let off = (evidence.frequency - near.frequency).abs();
