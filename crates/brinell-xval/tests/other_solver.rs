@@ -8,7 +8,7 @@
 use brinell::channel::{self, Channel, Frame};
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Sensor};
-use brinell::solver::{Stepper, System};
+use brinell::solver::Stepper;
 use brinell::{accuracy, document, start};
 use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem,

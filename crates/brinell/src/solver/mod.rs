@@ -171,7 +171,12 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 return Err(self.failure());
             }
             for (s, node) in tableau.nodes.into_iter().enumerate() {
-                self.place(s, h);
+                match s {
+                    0 => self.place::<3, 2>(h),
+                    1 => self.place::<4, 3>(h),
+                    2 => self.place::<5, 4>(h),
+                    _ => self.place::<6, 5>(h),
+                }
                 system.accelerations(self.t + node * h, &self.trial, &mut self.stages[s + 1]);
                 self.flows[s + 1] = system.flow();
             }
@@ -209,20 +214,25 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         }
     }
 
-    /// The trial state of the stage after `s` others.
-    fn place(&mut self, s: usize, h: f64) {
+    /// Places the trial state of the stage after `V` - 1 = `Q` - 2 others: sums of `Q` lists for positions and `V` for rates.
+    fn place<const Q: usize, const V: usize>(&mut self, h: f64) {
+        let tableau = &self.settings.tableau;
         let half = self.y.len() / 2;
         let (q, v) = self.y.split_at(half);
         let (to_q, to_v) = self.trial.split_at_mut(half);
-        let t = &self.settings.tableau;
-        let (positions, rates) = (&t.positions[s], &t.rates[s]);
-        let ahead = h * t.nodes[s];
-        match s {
-            0 => stage::<3, 2>((to_q, to_v), (q, v), ahead, &self.stages, (positions, rates), h),
-            1 => stage::<4, 3>((to_q, to_v), (q, v), ahead, &self.stages, (positions, rates), h),
-            2 => stage::<5, 4>((to_q, to_v), (q, v), ahead, &self.stages, (positions, rates), h),
-            _ => stage::<6, 5>((to_q, to_v), (q, v), ahead, &self.stages, (positions, rates), h),
+        let (mut factors, mut lists) = ([1.0; Q], [q; Q]);
+        (factors[1], lists[1]) = (h * tableau.nodes[V - 2], v);
+        for k in 2..Q {
+            let weight = tableau.positions[V - 2][k - 2];
+            (factors[k], lists[k]) = (h * h * weight, &self.stages[k - 2]);
         }
+        blend(to_q, factors, lists);
+        let (mut factors, mut lists) = ([1.0; V], [v; V]);
+        for k in 1..V {
+            let weight = tableau.rates[V - 2][k - 1];
+            (factors[k], lists[k]) = (h * weight, &self.stages[k - 1]);
+        }
+        blend(to_v, factors, lists);
     }
 
     fn accept(&mut self, h: f64) {
@@ -245,7 +255,11 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         let ends = self.trial.iter().chain(&self.stages[STAGES]);
         if let Some(index) = ends.into_iter().position(|x| !x.is_finite()) {
             // Accelerations are the slopes of the rates.
-            let index = if index < 2 * half { index } else { index - half };
+            let index = if index < 2 * half {
+                index
+            } else {
+                index - half
+            };
             return StepError::NonFinite { t: self.t, index };
         }
         let share = |k: usize| {
@@ -301,27 +315,4 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         let rise = (self.y[rate] - self.previous[rate]) / h;
         6.0 * s * r * rise + r * (1.0 - 3.0 * s) * before + s * (1.0 - 3.0 * r) * after
     }
-}
-
-/// `to_q` = q + `ahead` v + h^2 times the stages' sum by `positions`, and `to_v` = v + h times that by `rates`; of the `V` - 1 = `Q` - 2
-/// first stages.
-fn stage<const Q: usize, const V: usize>(
-    (to_q, to_v): (&mut [f64], &mut [f64]),
-    (q, v): (&[f64], &[f64]),
-    ahead: f64,
-    stages: &[Column; STAGES + 1],
-    (positions, rates): (&[f64; STAGES], &[f64; STAGES]),
-    h: f64,
-) {
-    let (mut factors, mut lists) = ([1.0; Q], [q; Q]);
-    (factors[1], lists[1]) = (ahead, v);
-    for k in 2..Q {
-        (factors[k], lists[k]) = (h * h * positions[k - 2], &stages[k - 2]);
-    }
-    blend(to_q, factors, lists);
-    let (mut factors, mut lists) = ([1.0; V], [v; V]);
-    for k in 1..V {
-        (factors[k], lists[k]) = (h * rates[k - 1], &stages[k - 1]);
-    }
-    blend(to_v, factors, lists);
 }

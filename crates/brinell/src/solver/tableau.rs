@@ -34,10 +34,11 @@ impl Tableau {
     /// damping ratios are those of v' = -rate v.
     pub fn longest_step(&self, rate: f64, damping_ratio: f64) -> f64 {
         let after = self.decay.partition_point(|(z, _)| *z <= damping_ratio);
-        let limit = match (after.checked_sub(1).map(|k| self.decay[k]), self.decay.get(after)) {
-            (Some((z0, d0)), Some(&(z1, d1))) => {
-                d0 + (d1 - d0) * (damping_ratio - z0) / (z1 - z0)
-            }
+        let limit = match (
+            after.checked_sub(1).map(|k| self.decay[k]),
+            self.decay.get(after),
+        ) {
+            (Some((z0, d0)), Some(&(z1, d1))) => d0 + (d1 - d0) * (damping_ratio - z0) / (z1 - z0),
             (Some((_, d)), None) | (None, Some(&(_, d))) => d,
             (None, None) => 0.0,
         };
@@ -215,7 +216,10 @@ mod tests {
                     (true, _) => 1.0 - 0.5 * zeta,
                 };
                 let left = amplification(reach / fast, zeta);
-                assert!(left <= most + 1e-12, "zeta {zeta}, h |lambda| {reach}: {left}");
+                assert!(
+                    left <= most + 1e-12,
+                    "zeta {zeta}, h |lambda| {reach}: {left}"
+                );
             }
         }
         // v' = -rate v.
