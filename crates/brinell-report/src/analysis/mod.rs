@@ -117,11 +117,10 @@ fn draw(
     picture
 }
 
-/// What the page's script needs of a plot drawn by [`draw`].
+/// What the page's script needs of a plot drawn by [`draw`]: its name there, the units of its axes, and so on.
 fn embed(
     page: &mut String,
-    plot: &str,
-    (x_unit, y_unit): (&str, &str),
+    (plot, x_unit, y_unit): (&str, &str, &str),
     domain: Domain,
     curves: &[(f64, f64, &[f64])],
     lanes: (&[Lane], &[Lane]),
@@ -273,12 +272,11 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
             "A stretch from the middle, about ten strikes of the frequency that matters most long.",
         );
         let unit = report.waveforms.first().map_or("", |s| &s.unit);
-        let units = (close_up_unit(report).0, unit);
+        let axes = ("close-up", close_up_unit(report).0, unit);
         let domain = close_up_domain(report);
         embed(
             page,
-            "close-up",
-            units,
+            axes,
             domain,
             &about_middle(report),
             (&[], &[]),
@@ -291,18 +289,9 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     section(&mut page, "spectrum", "Spectrum", |page| {
         let draw = |layout| spectrum(report, layout);
         figure(page, "spectrum", draw, &note(&report.spectra));
-        let units = ("Hz", unit_of(&report.spectra));
+        let axes = ("spectrum", "Hz", unit_of(&report.spectra));
         let (y, all) = (spectrum_domain(report), curves(&report.spectra));
-        embed(
-            page,
-            "spectrum",
-            units,
-            y,
-            &all,
-            (&[], &lanes),
-            true,
-            report.band_hz,
-        );
+        embed(page, axes, y, &all, (&[], &lanes), true, report.band_hz);
     });
     if let Some(map) = &report.kurtogram {
         section(&mut page, "kurtogram", "Kurtogram", |page| {
@@ -313,18 +302,9 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     section(&mut page, "envelope", "Envelope spectrum", |page| {
         let draw = |layout| envelope(report, layout);
         figure(page, "envelope", draw, &note(&report.envelopes));
-        let units = ("Hz", unit_of(&report.envelopes));
+        let axes = ("envelope", "Hz", unit_of(&report.envelopes));
         let (y, all) = (envelope_domain(report), curves(&report.envelopes));
-        embed(
-            page,
-            "envelope",
-            units,
-            y,
-            &all,
-            (&lanes, &lanes),
-            true,
-            None,
-        );
+        embed(page, axes, y, &all, (&lanes, &lanes), true, None);
     });
     for one in &report.tables {
         table(&mut page, one);
