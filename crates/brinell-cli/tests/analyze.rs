@@ -191,6 +191,30 @@ fn regress_files_that_are_no_signal() {
 }
 
 #[test]
+fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
+    let folder = tempdir().unwrap();
+    for name in ["x.csv", "y.csv"] {
+        column(&folder.path().join(name), &signal(1.0, 0.0, 0.0));
+    }
+    let over = |more: &[&str]| {
+        let against = [&["--against", "y.csv"][..], more].concat();
+        brinell(folder.path(), &with("x.csv", &against))
+    };
+    over(&[])
+        .exits(2)
+        .complains(&["y.csv: the file states no sample rate; give --against-rate HZ"]);
+    over(&["--against-rate", "12000"])
+        .exits(2)
+        .complains(&["give --against-unit, such as --against-unit g"]);
+    over(&["--against-rate", "12000", "--against-unit", "g"])
+        .exits(0)
+        .says(&["the other over this"]);
+    brinell(folder.path(), &with("x.csv", &["--band", "1000", "1010"]))
+        .exits(2)
+        .complains(&["is 10.0 Hz wide", "Hz or more, for two harmonics"]);
+}
+
+#[test]
 fn regress_what_the_file_does_not_say_is_asked_for() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));

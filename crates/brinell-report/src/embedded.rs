@@ -6,7 +6,7 @@ use crate::chart::{Domain, LANE_HEIGHT, Lane};
 use crate::number::{linear_ticks, runs, tick_labels};
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
-const KEPT: usize = 65_536;
+pub(crate) const KEPT: usize = 65_536;
 
 /// What the script needs to redraw a plot.
 pub(crate) struct Chart<'a> {
@@ -23,11 +23,19 @@ pub(crate) struct Chart<'a> {
     pub(crate) toggles: &'a [Lane],
     /// Units of this plot to the overview's.
     pub(crate) overview_scale: f64,
+    /// Curves over it, as x0, dx and values.
+    pub(crate) beside: &'a [(f64, f64, &'a [f64])],
+    /// Which of the drawn curves is which: place of this one's, then of those beside it.
+    pub(crate) drawn: &'a [usize],
+    /// A shaded stretch of the x axis.
+    pub(crate) band: Option<(f64, f64)>,
 }
 
 impl Chart<'_> {
     pub(crate) fn write(&self, page: &mut String) {
-        if !(self.dx.is_finite() && self.dx > 0.0 && self.x0.is_finite()) {
+        let odd = |(x0, dx): (f64, f64)| !(dx.is_finite() && dx > 0.0 && x0.is_finite());
+        let beside = self.beside.iter().map(|c| (c.0, c.1));
+        if odd((self.x0, self.dx)) || beside.into_iter().any(odd) {
             return;
         }
         let (values, dx) = kept(self.values, self.dx, self.peak);
@@ -82,9 +90,24 @@ impl Chart<'_> {
                 lane.through
             );
         }
+        page.push_str("],\"beside\":[");
+        for (index, (x0, dx, values)) in self.beside.iter().enumerate() {
+            let (values, dx) = kept(values, *dx, self.peak);
+            let _ = write!(
+                page,
+                "{}{{\"x0\":{x0},\"dx\":{dx},\"count\":{},\"values\":\"{}\"}}",
+                if index == 0 { "" } else { "," },
+                values.len(),
+                base64(&packed(&values, self.peak))
+            );
+        }
+        let band = self
+            .band
+            .map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
         let _ = writeln!(
             page,
-            "],\"values\":\"{}\"}}</script>",
+            "],\"drawn\":{:?},\"band\":{band},\"values\":\"{}\"}}</script>",
+            self.drawn,
             base64(&packed(&values, self.peak))
         );
     }

@@ -124,11 +124,13 @@
     let Y = plot.y;
     if (!chart.log) {
       let lo = Infinity, hi = -Infinity;
-      const first = Math.max(0, Math.ceil((view[0] - chart.x0) / chart.dx)), last = Math.min(chart.values.length - 1, Math.floor((view[1] - chart.x0) / chart.dx));
-      for (let i = first; i <= last; i++) {
-        const v = chart.values[i];
-        if (v < lo) lo = v;
-        if (v > hi) hi = v;
+      for (const curve of [chart, ...chart.beside]) {
+        const first = Math.max(0, Math.ceil((view[0] - curve.x0) / curve.dx)), last = Math.min(curve.values.length - 1, Math.floor((view[1] - curve.x0) / curve.dx));
+        for (let i = first; i <= last; i++) {
+          const v = curve.values[i];
+          if (v < lo) lo = v;
+          if (v > hi) hi = v;
+        }
       }
       if (hi > lo) {
         const room = 0.06 * (hi - lo);
@@ -146,13 +148,17 @@
         }
       }
     }
-    const curve = svg.querySelector(".series path");
-    if (curve) curve.setAttribute("d", path(chart, view, plot.frame, Y));
+    const drawn = svg.querySelectorAll(".series");
+    [chart, ...chart.beside].forEach((curve, index) => drawn[chart.drawn[index]]?.querySelector("path")?.setAttribute("d", path(curve, view, plot.frame, Y)));
+    if (chart.band) {
+      const [x1, x2] = chart.band.map((v) => Math.min(Math.max(X(v), l), r));
+      svg.querySelector(".window path")?.setAttribute("d", x2 > x1 ? `M${x1} ${t}H${x2}V${b}H${x1}Z` : "");
+    }
     svg.querySelectorAll(".series circle").forEach((dot) => dot.remove());
 
     svg.querySelectorAll(".lane").forEach((lane, index) => {
       const marks = (chart.lanes[index] || []).filter((m) => m[0] >= view[0] && m[0] <= view[1]);
-      const base = 5 + plot.lane * (index + 1), ruler = base - plot.lane / 2;
+      const base = plot.top + 5 + plot.lane * (index + 1), ruler = base - plot.lane / 2;
       const [tick, line] = lane.querySelectorAll("path");
       const span = (y1, y2) => marks.map((m) => `M${X(m[0]).toFixed(1)} ${y1}L${X(m[0]).toFixed(1)} ${y2}`).join("");
       tick.setAttribute("d", span(ruler - 5.5, ruler + 5.5));
@@ -213,18 +219,23 @@
       svg.append(node);
     };
     let cursor;
-    const read = (x) => {
-      const nearest = Math.round((x - chart.x0) / chart.dx);
-      let index = Math.min(Math.max(nearest, 0), chart.values.length - 1);
-      if (chart.peak) {
+    const at_x = (curve, x) => {
+      const nearest = Math.round((x - curve.x0) / curve.dx);
+      let index = Math.min(Math.max(nearest, 0), curve.values.length - 1);
+      if (curve.peak) {
         // The highest line near the pointer is the one meant.
-        const reach = Math.ceil(3 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]) / chart.dx);
-        for (let i = Math.max(0, nearest - reach); i <= Math.min(chart.values.length - 1, nearest + reach); i++) if (chart.values[i] > chart.values[index]) index = i;
+        const reach = Math.ceil(3 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]) / curve.dx);
+        for (let i = Math.max(0, nearest - reach); i <= Math.min(curve.values.length - 1, nearest + reach); i++) if (curve.values[i] > curve.values[index]) index = i;
       }
+      return index;
+    };
+    const read = (x) => {
+      const index = at_x(chart, x);
       const place = chart.x0 + index * chart.dx, limit = 5 * (plot.view[1] - plot.view[0]) / (plot.frame[2] - plot.frame[0]);
       const named = chart.toggles.flatMap(([label, f], k) => { const n = Math.round(place / f); return chart.picked.has(k) && !(chart.lanes.length && n <= chart.lanes[k].length) && n > 0 && Math.abs(n * f - place) <= limit ? [n === 1 ? label : `${n} × ${label}`] : []; });
       const near = [...chart.lanes.flat().filter((m) => Math.abs(m[0] - place) <= limit).map((m) => m[1]), ...named].slice(0, 2);
-      tools.readout.textContent = `${short(place, 6)} ${chart.xUnit} · ${short(chart.values[index], 4)} ${chart.yUnit}${near.length ? " · near " + near.join(", ") : ""}`;
+      const beside = chart.beside.map((curve) => ` · the other ${short(curve.values[at_x(curve, place)], 4)} ${chart.yUnit}`).join("");
+      tools.readout.textContent = `${short(place, 6)} ${chart.xUnit} · ${short(chart.values[index], 4)} ${chart.yUnit}${beside}${near.length ? " · near " + near.join(", ") : ""}`;
       const [l, , r] = plot.frame, cx = l + (r - l) * (place - plot.view[0]) / (plot.view[1] - plot.view[0]);
       if (cx >= l && cx <= r) overlay(cx, cx, false);
     };
@@ -339,6 +350,7 @@
   document.querySelectorAll("script[data-chart]").forEach((script) => {
     const chart = JSON.parse(script.textContent);
     chart.values = decode(chart.values, chart.count, chart.peak);
+    chart.beside = chart.beside.map((curve) => ({ ...curve, peak: chart.peak, values: decode(curve.values, curve.count, chart.peak) }));
     chart.plots = [];
     chart.picked = new Set(chart.toggles.flatMap((toggle, index) => toggle[3] && chart.lanes.length ? [index] : []));
     charts[script.dataset.chart] = chart;
@@ -394,7 +406,7 @@
       const y = chart.log
         ? (v) => b + (t - b) * Math.max(-1, (L(Math.max(v, lo * 1e-3)) - L(lo)) / (L(hi) - L(lo)))
         : (v) => b + (t - b) * (v - lo) / (hi - lo);
-      const plot = { svg, chart, name: svg.dataset.plot, frame, view, home: view, original: svg.innerHTML, y, font: Number(svg.dataset.font), lane: chart.laneHeight, yScale: chart.yScale, laneText: svg.querySelector(".lane text")?.cloneNode(false) };
+      const plot = { svg, chart, name: svg.dataset.plot, frame, view, home: view, original: svg.innerHTML, y, font: Number(svg.dataset.font), lane: chart.laneHeight, top: Number(svg.dataset.top), yScale: chart.yScale, laneText: svg.querySelector(".lane text")?.cloneNode(false) };
       chart.plots.push(plot);
       watch(plot, tools);
     }

@@ -128,6 +128,9 @@ fn waveform(page: &mut String, report: &Report) {
         lanes: &plots::event_lanes(report, scale),
         toggles: &[],
         overview_scale: scale / overview_scale,
+        beside: &[],
+        drawn: &[0],
+        band: None,
     }
     .write(page);
 }
@@ -155,6 +158,9 @@ fn spectrum(page: &mut String, report: &Report) {
         lanes: &[],
         toggles: &plots::marker_lanes(&report.markers),
         overview_scale: 1.0,
+        beside: &[],
+        drawn: &[0],
+        band: None,
     }
     .write(page);
 }
@@ -192,6 +198,9 @@ fn envelope(page: &mut String, report: &Report) {
         lanes: &plots::marker_lanes(&report.markers),
         toggles: &plots::marker_lanes(&report.markers),
         overview_scale: 1.0,
+        beside: &[],
+        drawn: &[0],
+        band: None,
     }
     .write(page);
     if report.markers.is_empty() {

@@ -103,7 +103,17 @@ fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
     ] {
         assert!(page.contains(&format!("<section id=\"{part}\">")), "{part}");
     }
-    assert!(!page.contains("<img") && !page.contains("</script>"));
+    assert!(!page.contains("<img"));
+    // The numbers of three plots and the script itself; none of them ends early.
+    let (opened, closed) = (
+        page.matches("<script").count(),
+        page.matches("</script>").count(),
+    );
+    assert_eq!((opened, closed), (4, 4));
+    for plot in ["close-up", "spectrum", "envelope"] {
+        assert!(page.contains(&format!("data-chart=\"{plot}\"")), "{plot}");
+        assert!(page.contains(&format!("data-plot=\"{plot}\"")), "{plot}");
+    }
     // Nothing is fetched.
     assert!(!page.contains("http://") && !page.contains("src=\"http"));
     assert_eq!(page.matches("<html").count(), 1);
@@ -150,6 +160,14 @@ fn analytic_a_second_signal_has_its_own_curve_and_name() {
     r.spectra.truncate(1);
     let one = svg(&r).matches("<path").count() + svg(&r).matches("<polyline").count();
     assert!(two > one, "{two} {one}");
+    // Of waveforms the one that reaches farther lies below, and the script knows which is which.
+    let mut r = plain();
+    r.names = vec!["measured".into(), "simulated".into()];
+    let mut loud = r.waveforms[0].clone();
+    loud.values.iter_mut().for_each(|v| *v *= 10.0);
+    r.waveforms.truncate(1);
+    r.waveforms.push(loud);
+    assert!(analysis_html(&r).contains("\"drawn\":[1, 0]"));
 }
 
 proptest! {

@@ -8,7 +8,7 @@
 use brinell::channel::{self, Channel, Frame};
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Sensor};
-use brinell::solver::{Stepper, System};
+use brinell::solver::Stepper;
 use brinell::{accuracy, document, start};
 use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverProblem,
@@ -63,7 +63,7 @@ impl<'a> Record<'a> {
             model: self.motion.model,
             t,
             y,
-            dy: &self.dy,
+            a: &self.dy[y.len() / 2..],
             ws: &self.motion.ws,
         };
         for (column, channel) in self.columns.iter_mut().zip(self.channels) {

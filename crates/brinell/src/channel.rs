@@ -17,8 +17,8 @@ pub struct Frame<'a> {
     pub t: f64,
     /// State (positions, then rates).
     pub y: &'a [f64],
-    /// Its derivative (rates, then accelerations).
-    pub dy: &'a [f64],
+    /// Second time derivatives of the positions.
+    pub a: &'a [f64],
     /// Contact forces at that state.
     pub ws: &'a Workspace,
 }
@@ -28,8 +28,8 @@ pub struct Frame<'a> {
 enum Quantity {
     /// Entry of the state.
     State(usize),
-    /// Entry of the derivative.
-    Slope(usize),
+    /// Entry of the accelerations.
+    Acceleration(usize),
     /// x or y of a cage or its speed, where the reference model prescribes them.
     CageSpeed(usize),
     Roller(RollerQuantity, usize),
@@ -84,10 +84,10 @@ impl Channel {
         }
     }
 
-    /// Entry of the derivative that the channel is, if it is one.
-    pub fn slope_entry(&self) -> Option<usize> {
+    /// Entry of the accelerations that the channel is, if it is one.
+    pub fn acceleration_entry(&self) -> Option<usize> {
         match self.quantity {
-            Quantity::Slope(k) => Some(k),
+            Quantity::Acceleration(k) => Some(k),
             _ => None,
         }
     }
@@ -96,7 +96,7 @@ impl Channel {
     pub fn value(&self, f: &Frame) -> f64 {
         match self.quantity {
             Quantity::State(k) => f.y[k],
-            Quantity::Slope(k) => f.dy[k],
+            Quantity::Acceleration(k) => f.a[k],
             Quantity::CageSpeed(k) => match f.model.kind {
                 ModelKind::Full => f.y[k],
                 ModelKind::Reference => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
@@ -119,7 +119,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
         ModelKind::Full => (
             f.y[l.theta() + slot],
             f.y[dof + l.theta() + slot],
-            f.dy[dof + l.theta() + slot],
+            f.a[l.theta() + slot],
             f.y[l.phi() + slot],
             f.y[dof + l.phi() + slot],
         ),
@@ -137,7 +137,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
     };
     let arm = f.model.geometry.pitch_radius + r;
     let dr = f.y[dof + l.r() + slot];
-    let radial = f.dy[dof + l.r() + slot] - arm * orbit_speed * orbit_speed;
+    let radial = f.a[l.r() + slot] - arm * orbit_speed * orbit_speed;
     let tangential = arm * orbit_rate + 2.0 * dr * orbit_speed;
     match quantity {
         Q::R => r,
@@ -203,12 +203,12 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
         for (suffix, unit, what, offset) in [
             ("", "m", "displacement", 0),
             ("v", "m/s", "velocity", dof),
-            ("a", "m/s^2", "acceleration", dof),
+            ("a", "m/s^2", "acceleration", 0),
         ] {
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
                 let index = offset + at + k;
                 let quantity = if suffix == "a" {
-                    Quantity::Slope(index)
+                    Quantity::Acceleration(index)
                 } else {
                     Quantity::State(index)
                 };
@@ -238,7 +238,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
                 format!("cage{number}_a{axis}"),
                 "m/s^2",
                 text,
-                Quantity::Slope(dof + at + k),
+                Quantity::Acceleration(at + k),
             );
         }
         let text = format!("rotational speed of cage {number}");
@@ -361,7 +361,7 @@ pub fn filterable(model: &Model) -> Vec<Channel> {
     let l = &model.layout;
     all(model, &Sensor::off())
         .into_iter()
-        .filter(|c| matches!(c.quantity, Quantity::Slope(k) if k >= l.dof() + l.cage(0)))
+        .filter(|c| matches!(c.quantity, Quantity::Acceleration(k) if k >= l.cage(0)))
         .collect()
 }
 

@@ -252,7 +252,7 @@ fn load_zone(parts: &Parts) -> Value {
 fn solver(outcome: &Outcome) -> Value {
     let w = &outcome.work;
     json!({
-        "method": "Bogacki-Shampine 3(2), adaptive, dense output",
+        "method": "Runge-Kutta-Nystrom 3(2), adaptive, dense output",
         "steps": w.solver.steps,
         "rejections": w.solver.rejections,
         "right_hand_sides": w.solver.evaluations,

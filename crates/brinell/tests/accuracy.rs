@@ -5,7 +5,7 @@ mod common;
 use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Scenario, Start};
-use brinell::solver::{Settings, Stepper, System};
+use brinell::solver::{Settings, Stepper};
 use brinell::start;
 use brinell::statics::{self, Problem};
 use common::cases::{case, healthy, rectangle};

@@ -8,35 +8,13 @@ use brinell::observe::waveform::KEPT;
 use brinell::scenario::{NoiseColour, Scenario, Sensor};
 use brinell::simulate::{End, Observer, Simulation};
 use common::cases::rectangle;
-use std::alloc::{GlobalAlloc, Layout, System};
+use common::counting::{Counting, allocations, live};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicIsize, AtomicUsize, Ordering::Relaxed};
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-static LIVE: AtomicIsize = AtomicIsize::new(0);
-
-// SAFETY: every call is handed on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Relaxed);
-        LIVE.fetch_add(layout.size() as isize, Relaxed);
-        // SAFETY: the caller's contract is the system allocator's.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        LIVE.fetch_sub(layout.size() as isize, Relaxed);
-        // SAFETY: the caller's contract is the system allocator's.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// What the process held at two instants of the run, and what it allocated between them.
+/// What the run's thread held at two instants, and what it allocated between them.
 struct Meter<'a> {
     watch: Option<(Watch, &'a Simulation)>,
     /// Samples at the two instants.
@@ -66,8 +44,8 @@ impl Observer for Meter<'_> {
         }
         for k in 0..2 {
             if index == self.instants[k] {
-                self.live[k] = LIVE.load(Relaxed);
-                self.allocations[k] = ALLOCATIONS.load(Relaxed);
+                self.live[k] = live();
+                self.allocations[k] = allocations();
             }
         }
         ControlFlow::Continue(())
@@ -93,7 +71,6 @@ fn metered(s: &Scenario, between: [f64; 2], watched: bool) -> (isize, usize, u64
     )
 }
 
-// One test in this file: the counts are of the whole process.
 #[test]
 fn prop_steps_allocate_nothing_and_memory_does_not_grow() {
     let mut s = rectangle();

@@ -1,30 +1,13 @@
 //! A run over damage allocates nothing between its steps, whatever the damage.
 
-use std::alloc::{GlobalAlloc, Layout, System};
+mod common;
+
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use brinell::channel::Frame;
 use brinell::scenario::{EdgeReaction, Law, RollerPath, Scenario, Shape};
 use brinell::simulate::{End, Observer, Simulation};
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: every call is handed on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's contract is the system allocator's.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's contract is the system allocator's.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
+use common::counting::{Counting, allocations};
 
 #[global_allocator]
 static COUNTING: Counting = Counting;
@@ -39,7 +22,7 @@ struct Watch {
 
 impl Observer for Watch {
     fn step(&mut self, frame: &Frame) {
-        self.last = ALLOCATIONS.load(Ordering::Relaxed);
+        self.last = allocations();
         if self.steps == 0 {
             self.first = self.last;
         }
@@ -52,7 +35,6 @@ impl Observer for Watch {
     }
 }
 
-// One test in this file: the count is of the whole process.
 #[test]
 fn prop_steps_over_damage_allocate_nothing() {
     for (law, path, edge_reaction) in [

@@ -24,7 +24,7 @@ fn go(
 ) {
     let mut ws = Workspace::new(model);
     let mut y = vec![0.0; 2 * model.layout.dof()];
-    let dy = y.clone();
+    let a = vec![0.0; model.layout.dof()];
     for index in 0..samples {
         let t = index as f64 / RATE;
         set(t, &mut y, &mut ws);
@@ -32,7 +32,7 @@ fn go(
             model,
             t,
             y: &y,
-            dy: &dy,
+            a: &a,
             ws: &ws,
         });
     }

@@ -3,7 +3,6 @@
 use brinell::document::{self, Loaded};
 use brinell::model::{Layout, Model, Motion};
 use brinell::scenario::Scenario;
-use brinell::solver::System;
 use std::io::Write;
 use std::path::Path;
 

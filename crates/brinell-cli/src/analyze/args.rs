@@ -9,7 +9,7 @@ use std::path::PathBuf;
     Examples:\n  \
     brinell analyze 105.mat --channel DE --rate 12000 --unit g --bearing 6205-2RS\n  \
     brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
-    brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 135.4x\n  \
+    brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n\n\
     Bearings by name: the catalogue (`brinell bearing list`), and 6205-2RS, 6203-2RS, NICE, ZA-2115, UER204 of public data sets.\n\n\
@@ -70,16 +70,16 @@ pub(crate) struct AnalyzeArgs {
     )]
     pub(crate) contact_angle: Option<f64>,
     /// Ball-pass frequency of the outer race in Hz; with x, as 3.585x, a multiple of the shaft's. Likewise the next three
-    #[arg(long, value_name = "HZ|Nx")]
+    #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bpfo: Option<String>,
     /// Ball-pass frequency of the inner race
-    #[arg(long, value_name = "HZ|Nx")]
+    #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bpfi: Option<String>,
     /// Spin frequency of a rolling element (damage strikes twice a turn)
-    #[arg(long, value_name = "HZ|Nx")]
+    #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bsf: Option<String>,
     /// Frequency of the cage
-    #[arg(long, value_name = "HZ|Nx")]
+    #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) ftf: Option<String>,
     /// How far slip and an inexact speed may move a defect frequency
     #[arg(
@@ -104,6 +104,17 @@ pub(crate) struct AnalyzeArgs {
     /// Channel of the other [default: measured_ay or measured_ax of a run, whichever the load points along]
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,
+    /// Sample rate of the other, where its file does not state it
+    #[arg(
+        long,
+        value_name = "HZ",
+        requires = "against",
+        allow_negative_numbers = true
+    )]
+    pub(crate) against_rate: Option<f64>,
+    /// Unit of the other, where its file does not state it
+    #[arg(long, value_name = "UNIT", requires = "against")]
+    pub(crate) against_unit: Option<String>,
     /// Write the result as JSON; `-` prints it instead of words
     #[arg(long, value_name = "PATH|-")]
     pub(crate) json: Option<PathBuf>,

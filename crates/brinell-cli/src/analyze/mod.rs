@@ -65,6 +65,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             speed_channel: args.speed_channel.as_deref(),
             start: args.start,
             duration: args.duration,
+            whose: "",
         },
     )?;
     let (rpm, speed) = speed(args, &measured)?;
@@ -223,14 +224,14 @@ fn lay_over(
     measured: &Measured,
     analysis: &Analysis,
 ) -> Result<Against, Failure> {
-    let wanted = |rate, unit| Wanted {
+    let wanted = Wanted {
         channel: args.against_channel.as_deref(),
-        rate,
-        unit,
+        rate: args.against_rate,
+        unit: args.against_unit.as_deref(),
+        whose: "against-",
         ..Wanted::default()
     };
-    // What another measurement does not state is the first one's, as the same logger would have it.
-    let mut other = measured::load(path, &wanted(None, None))?;
+    let mut other = measured::load(path, &wanted)?;
     if other.unit.quantity != measured.unit.quantity {
         return Err(Failure::Usage(format!(
             "--against {}: `{}` is in {}, and the signal in {}; only signals of one quantity are laid over each other",
@@ -405,13 +406,23 @@ fn tell(result: &Result_, written: &[PathBuf]) {
         say!(
             "  the other's third octaves lie {mean:+.1} dB from this one's on average, {rms:.1} dB RMS"
         );
+        say!(
+            "    {:<16} {:>12} {:>12}  the other over this",
+            "",
+            "this",
+            "the other"
+        );
         for d in &other.comparison.indicators {
             say!(
-                "    {:<16} {:>12} {:>12}  x {}",
+                "    {:<16} {:>12} {:>12}  x {}{}",
                 d.indicator.name(),
                 short(d.first, 4),
                 short(d.second, 4),
-                short(d.second / d.first, 3)
+                short(d.second / d.first, 3),
+                match d.indicator.has_unit() {
+                    true => format!(", in {}", m.unit.name),
+                    false => String::new(),
+                }
             );
         }
     }

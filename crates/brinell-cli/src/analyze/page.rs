@@ -217,7 +217,7 @@ fn findings(a: &Analysis) -> Table {
                 };
                 row.extend([
                     format!("{:.2}", f.evidence.frequency),
-                    format!("{} of {}", f.evidence.standing, a.options.harmonics),
+                    format!("{} of {}", f.evidence.shown(), a.options.harmonics),
                     f.sidebands().map_or("–".into(), |s| s.0.to_string()),
                     format!("{:.1} %", 100.0 * f.modulation),
                     if f.false_alarm < 1e-15 {

@@ -75,6 +75,7 @@ pub(super) fn pattern(
             speed_channel: None,
             start: args.start,
             duration: args.duration,
+            whose: "",
         },
     )?;
     let name = measured.path.display().to_string();

@@ -198,7 +198,7 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
             "Accuracy",
             accuracy,
             "",
-            "Bogacki-Shampine 3(2), adaptive, dense output",
+            "Runge-Kutta-Nystrom 3(2), adaptive, dense output",
         ),
         count("Steps", w.solver.steps, ""),
         count("Rejected steps", w.solver.rejections, ""),

@@ -218,16 +218,24 @@ impl Chart {
 
     /// Tells the page's script where the plot stands.
     pub(crate) fn interactive(&mut self, plot: &str) {
+        self.interactive_at(plot, 0.0);
+    }
+
+    /// The same where the plot is placed `top` below the picture's upper edge; the picture it is placed in takes its attributes.
+    pub(crate) fn interactive_at(&mut self, plot: &str, top: f64) {
         let Rect {
             left,
-            top,
+            top: upper,
             right,
             bottom,
         } = self.frame;
-        let [l, t, r, b] = [left, top, right, bottom].map(coordinate);
+        let [l, t, r, b] = [left, upper + top, right, bottom + top].map(coordinate);
         self.picture.attributes = format!(
-            " data-plot=\"{plot}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\"",
-            self.spec.x.lo, self.spec.x.hi, self.spec.size.font
+            " data-plot=\"{plot}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
+            self.spec.x.lo,
+            self.spec.x.hi,
+            self.spec.size.font,
+            coordinate(top)
         );
     }
 }

@@ -7,6 +7,8 @@ use crate::signal::{Band, Kurtogram, KurtogramBand, kurtogram};
 pub(super) const BROAD: f64 = 3.0;
 /// Least width of a band over the highest defect frequency: its sidebands of first and second order fit in.
 pub(super) const NARROWEST: f64 = 3.0;
+/// Harmonics of the highest defect frequency that the envelope of a given band has to hold.
+const HARMONICS_IN_BAND: f64 = 2.0;
 /// Halvings of the kurtogram.
 const DEPTH: usize = 6;
 /// Longest part of a signal that the kurtogram looks at, samples: it chooses a band, and that takes no more.
@@ -58,6 +60,11 @@ pub(super) struct Choice {
     pub(super) map: Option<Kurtogram>,
 }
 
+/// The highest defect frequency, Hz.
+fn highest(options: &Options) -> f64 {
+    (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft
+}
+
 /// The bands, and the kurtogram.
 pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, AnalysisError> {
     let top = 0.5 * fs;
@@ -72,6 +79,14 @@ pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, An
             ));
         }
         let band = Band::between(band.low, band.high.min(top));
+        // An envelope holds nothing above its band's width.
+        let needed = HARMONICS_IN_BAND * highest(options);
+        if band.high - band.low < needed {
+            return Err(super::AnalysisError::BandTooNarrow {
+                width_hz: band.high - band.low,
+                needed_hz: needed,
+            });
+        }
         let choice = BandChoice::Given;
         return Ok(Choice {
             bands: vec![ChosenBand { band, choice }],
@@ -79,7 +94,7 @@ pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, An
             map: None,
         });
     }
-    let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft;
+    let highest = highest(options);
     let narrowest = NARROWEST * highest;
     let map = kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH)?;
     let best = map.best(narrowest);

@@ -4,7 +4,7 @@ use super::frequencies::Component;
 use super::verdict::{FAINT, LINE_LEVEL};
 use super::view::{View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
-use crate::signal::{Evidence, diagnose};
+use crate::signal::{Evidence, diagnose_beside};
 
 /// So many times the tolerance is looked through.
 const FARTHER: f64 = 3.0;
@@ -58,7 +58,12 @@ pub(super) fn find(
     let looking = looking(options, views.len() as f64);
     let mut best: Option<Beyond> = None;
     let diagnoses = side_by_side(views, |view| {
-        Ok(diagnose(&view.searched, &sought, &looking)?)
+        Ok(diagnose_beside(
+            &view.searched,
+            &sought,
+            &looking,
+            &view.removed,
+        )?)
     })?;
     for (view, diagnosis) in views.iter().zip(diagnoses) {
         for evidence in diagnosis.causes() {

@@ -44,6 +44,12 @@ pub enum AnalysisError {
         /// The first, counted from 1.
         first: usize,
     },
+    /// A signal so large or so small that its fourth powers leave a double's range.
+    #[error("its largest value is {largest:e}: expected 1e-60 to 1e60; is the unit right?")]
+    Scale {
+        /// Largest absolute value, in the signal's unit.
+        largest: f64,
+    },
     /// A signal that never changes.
     #[error("all {samples} samples are {value}: a constant is no vibration")]
     Constant {
@@ -51,6 +57,17 @@ pub enum AnalysisError {
         samples: usize,
         /// Their value.
         value: f64,
+    },
+    /// A band to demodulate whose envelope cannot hold the lines sought.
+    #[error(
+        "the band to demodulate is {width_hz:.1} Hz wide, as far as the sample rate reaches: expected {needed_hz:.1} Hz or more, for two harmonics \
+         of the highest defect frequency in its envelope"
+    )]
+    BandTooNarrow {
+        /// Its width below half the sample rate, Hz.
+        width_hz: f64,
+        /// The least that would do, Hz.
+        needed_hz: f64,
     },
     /// No defect frequency to look for.
     #[error("no defect frequency is known, so there is nothing to look for")]

@@ -121,6 +121,7 @@ fn finding(analysis: &Analysis, f: &Finding) -> Value {
         "explained_by": f.explained_by,
         "alternatives": f.alternatives,
         "harmonics": f.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
+        "shown_by_sidebands": f.evidence.carried,
         "sidebands": f.evidence.sidebands.as_ref().map(|s| json!({
             "spacing_hz": s.spacing, "standing": s.standing, "of": s.lines.len(), "false_alarm": s.false_alarm,
         })),

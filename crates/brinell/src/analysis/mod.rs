@@ -91,6 +91,9 @@ impl Options {
     }
 }
 
+/// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
+const LARGEST: f64 = 1e60;
+
 /// How well the shaft's own lines tell its speed, relative.
 const SHAFT_KNOWN: f64 = 0.002;
 
@@ -260,6 +263,10 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
             samples: x.len(),
             first: first + 1,
         });
+    }
+    let largest = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    if largest > LARGEST || largest > 0.0 && largest < 1.0 / LARGEST {
+        return Err(AnalysisError::Scale { largest });
     }
     if let Some(&value) = x.first()
         && x.iter().all(|v| *v == value)

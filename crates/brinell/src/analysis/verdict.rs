@@ -3,7 +3,7 @@
 use super::frequencies::Component;
 use super::view::{View, candidates, looking, side_by_side};
 use super::{Analysis, AnalysisError, Beyond, Options};
-use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose, without};
+use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose_beside, without};
 
 /// A line stands where noise would show as much less often than this.
 pub(super) const LINE_LEVEL: f64 = 1e-3;
@@ -69,7 +69,7 @@ impl Finding {
 
     /// `very clear`, `clear` or `weak`, by the number of its lines and the chance of noise.
     pub fn clarity(&self) -> &'static str {
-        match (self.evidence.standing, self.false_alarm) {
+        match (self.evidence.shown(), self.false_alarm) {
             (4.., p) if p < 1e-6 => "very clear",
             (3.., p) if p < 1e-3 => "clear",
             _ => "weak",
@@ -151,12 +151,13 @@ pub(super) fn find(
         finding.explained_by = findings.iter().filter(near).map(|f| f.name).collect();
         let spacings = [shaft, options.orders.ftf.unwrap_or(0.0) * shaft];
         let only: Vec<_> = candidates.iter().map(|c| c.2.clone()).collect();
-        let seen: Vec<_> = spectra.iter().zip(&evidence).collect();
-        let left = side_by_side(&seen, |(spectrum, evidence)| {
+        let looking = looking(options, views.len() as f64);
+        let seen: Vec<_> = spectra.iter().zip(&evidence).zip(views).collect();
+        let left = side_by_side(&seen, |((spectrum, evidence), view)| {
             let mine = &evidence[next.candidate];
             let mine = if mine.stands { mine } else { &next.evidence };
             let rest = without(spectrum, mine.frequency, &spacings)?;
-            let found = diagnose(&rest, &only, &looking(options, views.len() as f64))?;
+            let found = diagnose_beside(&rest, &only, &looking, &view.removed)?;
             Ok((rest, found.evidence))
         })?;
         (spectra, evidence) = left.into_iter().unzip();
@@ -198,7 +199,7 @@ fn leading(
     }
     let sought: Vec<Candidate> = candidates.iter().map(|c| c.2.clone()).collect();
     let options = looking(options, views.len() as f64);
-    let seen: Vec<_> = spectra.iter().zip(evidence).collect();
+    let seen: Vec<_> = spectra.iter().zip(evidence).zip(views).collect();
     let mut score = vec![0i32; rivals];
     for i in 0..rivals {
         let (component, _, candidate) = &candidates[all[i].candidate];
@@ -206,11 +207,11 @@ fn leading(
             Component::Element => candidate.sideband_spacing,
             _ => Some(shaft),
         };
-        let left = side_by_side(&seen, |(spectrum, evidence)| {
+        let left = side_by_side(&seen, |((spectrum, evidence), view)| {
             let mine = &evidence[all[i].candidate];
             let mine = if mine.stands { mine } else { &all[i].evidence };
             let rest = without(spectrum, mine.frequency, spacing.as_slice())?;
-            Ok(diagnose(&rest, &sought, &options)?.evidence)
+            Ok(diagnose_beside(&rest, &sought, &options, &view.removed)?.evidence)
         })?;
         for j in (0..rivals).filter(|j| *j != i) {
             let other = candidates[all[j].candidate].0;
@@ -251,7 +252,7 @@ fn standing(
             _ => 1,
         };
         let stands = |e: &Evidence| {
-            e.stands && e.standing >= fewest && (*component != Component::Element || modulated(e))
+            e.stands && e.shown() >= fewest && (*component != Component::Element || modulated(e))
         };
         let standing = || {
             evidence
@@ -290,14 +291,17 @@ fn standing(
     all
 }
 
-/// Whether the sidebands of something that turns stand by more than chance, where they can be told from their carriers.
+/// Whether the sidebands of something that turns stand together by more than chance, where they can be told from their carriers: in a
+/// short record none may stand by itself.
 fn modulated(e: &Evidence) -> bool {
-    (e.sidebands.as_ref()).is_none_or(|s| s.standing > 0 && s.false_alarm <= MODULATED)
+    (e.sidebands.as_ref()).is_none_or(|s| s.false_alarm <= MODULATED)
 }
 
 /// Number and strength of the harmonics that stand.
 fn weight(e: &Evidence) -> f64 {
-    (e.harmonics.standing(LINE_LEVEL)).map(|l| l.snr_db).sum()
+    (e.harmonics.standing(LINE_LEVEL).chain(e.carrying()))
+        .map(|l| l.snr_db)
+        .sum()
 }
 
 fn finding(
@@ -415,10 +419,12 @@ fn doubt(analysis: &Analysis, beyond: &Beyond) -> String {
 }
 
 fn told(analysis: &Analysis, finding: &Finding) -> String {
-    let orders: Vec<String> = finding.standing().map(|l| l.order.to_string()).collect();
     let view = &analysis.views[finding.view];
+    let highest = (finding.standing().chain(finding.evidence.carrying()))
+        .map(|l| l.snr_db)
+        .fold(0.0, f64::max);
     let mut text = format!(
-        "{} stands at {:.2} Hz ({:+.2} % of pure rolling's {:.2} Hz) in the envelope of {:.0} to {:.0} Hz, harmonics {} of {}, \
+        "{} stands at {:.2} Hz ({:+.2} % of pure rolling's {:.2} Hz) in the envelope of {:.0} to {:.0} Hz, {}, \
          up to {:.0} dB above the floor, modulating the envelope by {:.0} %",
         finding.name,
         finding.evidence.frequency,
@@ -426,9 +432,8 @@ fn told(analysis: &Analysis, finding: &Finding) -> String {
         finding.expected,
         view.band.band.low,
         view.band.band.high,
-        orders.join(", "),
-        analysis.options.harmonics,
-        finding.standing().map(|l| l.snr_db).fold(0.0, f64::max),
+        lines_of(finding, analysis.options.harmonics),
+        highest,
         100.0 * finding.modulation,
     );
     if let Some((count, spacing)) = finding.sidebands() {
@@ -439,6 +444,27 @@ fn told(analysis: &Analysis, finding: &Finding) -> String {
         text += &format!(", with {count} sidebands at the {whose}'s {spacing:.2} Hz");
     }
     text
+}
+
+/// Which of so many harmonics stand, and which stand by their sidebands alone.
+fn lines_of(finding: &Finding, of: usize) -> String {
+    let listed = |orders: Vec<i32>| -> String {
+        let words: Vec<String> = orders.iter().map(i32::to_string).collect();
+        words.join(", ")
+    };
+    let own = listed(finding.standing().map(|l| l.order).collect());
+    let carried = listed(finding.evidence.carried.clone());
+    match (own.is_empty(), carried.is_empty()) {
+        (false, true) => format!("harmonics {own} of {of}"),
+        (false, false) => {
+            format!(
+                "harmonics {own} of {of}, and {carried} by their sidebands, as their places are the shaft's or the mains'"
+            )
+        }
+        _ => format!(
+            "harmonics {carried} of {of} by their sidebands alone, as their places are the shaft's or the mains'"
+        ),
+    }
 }
 
 fn searched(analysis: &Analysis) -> String {

@@ -6,8 +6,8 @@ use super::known_lines;
 use super::{AnalysisError, Options, fast_length};
 use crate::many;
 use crate::signal::{
-    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, Thinned, Transformed, diagnose,
-    psd, resample,
+    Candidate, Diagnosis, DiagnosisOptions, Segments, Spectrum, Thinned, Transformed,
+    diagnose_beside, psd, resample,
 };
 
 /// Bins from one line of the cage to the next, at the coarse and at the fine resolution.
@@ -183,7 +183,7 @@ fn search(
     let sought: Vec<Candidate> = (candidates(shaft, options).into_iter())
         .map(|c| c.2)
         .collect();
-    let diagnosis = diagnose(&searched, &sought, &looking(options, tests))?;
+    let diagnosis = diagnose_beside(&searched, &sought, &looking(options, tests), &removed)?;
     Ok(View {
         band: *band,
         spectrum: spectrum.clone(),

@@ -101,19 +101,13 @@ pub(super) fn contact_energy(model: &Model, t: f64, slot: usize, ws: &Workspace)
     energy_at(model, slot, &angles, ws.contacts[0].approach[slot])
 }
 
-/// dy/dt at (t, y).
-pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+/// Accelerations at (t, y).
+pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     let l = &model.layout;
     let g = &model.geometry;
     let (q, v) = y.split_at(l.dof());
-    let (dq, a) = dy.split_at_mut(l.dof());
-    dq.fill(0.0);
     a.fill(0.0);
     let outer_moves = !model.outer_ring_is_fixed();
-    dq[l.inner()..l.inner() + 2].copy_from_slice(&v[l.inner()..l.inner() + 2]);
-    if outer_moves {
-        dq[l.outer()..l.outer() + 2].copy_from_slice(&v[l.outer()..l.outer() + 2]);
-    }
 
     let (w, ring_angle) = model.rotation.at(t);
     let travel = ring_angle * g.inner_radius / (2.0 * g.pitch_radius);

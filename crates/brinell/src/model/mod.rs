@@ -395,19 +395,26 @@ impl Model {
         mass
     }
 
-    /// Time derivative of the state `y` at `t` (section 8, or section 10); forces and energies stay in `ws`.
+    /// Second time derivatives `a` of the positions at the state `y` and `t` (section 8, or section 10); forces and energies stay in `ws`.
     #[inline]
-    pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+    pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         match self.kind {
-            ModelKind::Full => full::derivative(self, t, y, dy, ws),
-            ModelKind::Reference => lumped::derivative(self, t, y, dy, ws),
+            ModelKind::Full => full::accelerations(self, t, y, a, ws),
+            ModelKind::Reference => lumped::accelerations(self, t, y, a, ws),
         }
     }
 
-    /// [`Self::derivative`] of the full model in lanes of the caller's choice, whatever the workspace's kernel: `benches/kernel.rs` counts
+    /// Time derivative of the whole state: its rates, and [`Self::accelerations`].
+    pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+        let dof = self.layout.dof();
+        dy[..dof].copy_from_slice(&y[dof..]);
+        self.accelerations(t, y, &mut dy[dof..], ws);
+    }
+
+    /// [`Self::accelerations`] of the full model in lanes of the caller's choice, whatever the workspace's kernel: `benches/kernel.rs` counts
     /// operations with lanes that count. Compiled for the caller's instructions, so slow where those are the target's plain ones.
-    pub fn derivative_in<L: Lanes>(&self, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-        full::equations::<L, false>(self, t, y, dy, ws);
+    pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
+        full::equations::<L, false>(self, t, y, a, ws);
     }
 }
 

@@ -6,13 +6,12 @@ use crate::scenario::ModelKind;
 /// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and |external|).
 /// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the reference model with a fixed
 /// outer ring).
-pub fn imbalance(model: &Model, t: f64, y: &[f64], dy: &[f64], ws: &Workspace) -> Option<f64> {
+pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) -> Option<f64> {
     if model.outer_ring_is_fixed() {
         return None;
     }
     let l = &model.layout;
     let (q, v) = y.split_at(l.dof());
-    let a = &dy[l.dof()..];
     let m = &model.inertia;
     let mut left = [0.0; 2];
     let mut scale = 0.0;

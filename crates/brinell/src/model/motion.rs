@@ -21,6 +21,11 @@ impl<'a> Motion<'a> {
             ws: Workspace::new(model),
         }
     }
+
+    /// dy/dt, for solvers that know nothing of rates and accelerations.
+    pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.model.derivative(t, y, dy, &mut self.ws);
+    }
 }
 
 impl System for Motion<'_> {
@@ -31,8 +36,8 @@ impl System for Motion<'_> {
     }
 
     #[inline]
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.model.derivative(t, y, dy, &mut self.ws);
+    fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]) {
+        self.model.accelerations(t, y, a, &mut self.ws);
     }
 
     fn longest_step(&self) -> f64 {

@@ -22,11 +22,13 @@
 
 mod account;
 mod comb;
+mod sidebands;
 
 use self::account::explain;
 pub use self::account::without;
 use self::comb::{Best, Sought};
-use super::distribution::chi_square_tail;
+pub use self::sidebands::SidebandEvidence;
+use self::sidebands::about;
 use super::error::{SignalError, require};
 use super::lines::{Floor, Line, LineSet};
 use super::spectrum::Spectrum;
@@ -97,19 +99,6 @@ impl Default for DiagnosisOptions {
     }
 }
 
-/// Sidebands of a candidate's harmonics.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SidebandEvidence {
-    /// Distance, Hz.
-    pub spacing: f64,
-    /// About each harmonic in turn; those that fall on the candidate's own harmonics are left out.
-    pub lines: Vec<Line>,
-    /// How many stand by themselves (chance under noise below 1e-3).
-    pub standing: usize,
-    /// Chance that noise shows as much in all of them together, for any candidate of the list.
-    pub false_alarm: f64,
-}
-
 /// What speaks for a candidate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
@@ -121,6 +110,9 @@ pub struct Evidence {
     pub harmonics: LineSet,
     /// How many of them stand by themselves (chance under noise below 1e-3).
     pub standing: usize,
+    /// Orders of harmonics whose places were taken out of the spectrum with somebody else's lines, and that have sidebands standing to
+    /// both sides: of them the spectrum cannot tell more.
+    pub carried: Vec<i32>,
     /// Upper bound of the chance that noise alone shows such harmonics for any candidate of the list; 1 where none of its
     /// lines lies within the spectrum. Its complement is the confidence that there is more than noise.
     pub false_alarm: f64,
@@ -129,7 +121,8 @@ pub struct Evidence {
     pub crowding: f64,
     /// Its sidebands, where it has a spacing wide enough to resolve.
     pub sidebands: Option<SidebandEvidence>,
-    /// Whether it stands: false alarm at most the level, and at least two harmonics stand by themselves.
+    /// Whether it stands: false alarm at most the level, at least two harmonics stand by themselves or are carried by their sidebands,
+    /// and it lies within the tolerance.
     pub stands: bool,
     /// Other candidates that stand and on whose combs standing harmonics of this one lie: index, and how many of them.
     pub alternatives: Vec<(usize, usize)>,
@@ -153,10 +146,25 @@ impl Evidence {
             .sum()
     }
 
-    /// Amplitude of one line with the power of its standing harmonics: over the envelope's mean, the depth of modulation.
+    /// Amplitude of one line with the power of its standing harmonics, or of the standing sidebands of those that are carried: over the
+    /// envelope's mean, the depth of modulation.
     pub fn modulation(&self) -> f64 {
         let standing = self.harmonics.standing(LINE_LEVEL);
-        standing.map(|l| l.amplitude.powi(2)).sum::<f64>().sqrt()
+        (standing.chain(self.carrying()))
+            .map(|l| l.amplitude.powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    /// The standing sidebands of the harmonics that are carried.
+    pub fn carrying(&self) -> impl Iterator<Item = &Line> {
+        let sidebands = self.sidebands.iter().flat_map(|s| s.standing_lines());
+        (sidebands.filter(|(h, _)| self.carried.contains(h))).map(|(_, line)| line)
+    }
+
+    /// Harmonics that stand, or that their sidebands stand for.
+    pub fn shown(&self) -> usize {
+        self.standing + self.carried.len()
     }
 
     fn lines(&self) -> impl Iterator<Item = &Line> {
@@ -203,6 +211,22 @@ pub fn diagnose(
     candidates: &[Candidate],
     options: &DiagnosisOptions,
 ) -> Result<Diagnosis, SignalError> {
+    diagnose_beside(spectrum, candidates, options, &[])
+}
+
+/// The same in a spectrum from which lines at the places `aside` (Hz) were taken out, as somebody else's.
+///
+/// At such a place nothing can be seen: a candidate's harmonic there neither stands nor is missed. Where its sidebands stand to both
+/// sides they stand for it: a rolling element whose 2 BSF is four times the shaft's frequency shows by its cage sidebands alone.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_beside(
+    spectrum: &Spectrum,
+    candidates: &[Candidate],
+    options: &DiagnosisOptions,
+    aside: &[f64],
+) -> Result<Diagnosis, SignalError> {
     require(
         options.level > 0.0 && options.level < 1.0,
         "level",
@@ -220,7 +244,7 @@ pub fn diagnose(
     }
     let floor = Floor::within(spectrum, RANGE)?;
     let mut evidence = (0..candidates.len())
-        .map(|index| examine(&floor, index, candidates, options))
+        .map(|index| examine(&floor, index, candidates, options, aside))
         .collect::<Result<Vec<Evidence>, _>>()?;
     let mut ranking: Vec<usize> = (0..evidence.len())
         .filter(|i| evidence[*i].stands)
@@ -243,6 +267,7 @@ fn examine(
     index: usize,
     candidates: &[Candidate],
     options: &DiagnosisOptions,
+    aside: &[f64],
 ) -> Result<Evidence, SignalError> {
     let candidate = &candidates[index];
     let spacing = candidate.sideband_spacing.filter(|_| options.sidebands > 0);
@@ -257,15 +282,28 @@ fn examine(
         chance: 1.0,
         power: 0.0,
     });
+    let reach = REACH * floor.step();
+    let unseen = |l: &Line| {
+        let near = |a: &f64| (a - l.expected).abs() <= reach || (a - l.frequency).abs() <= reach;
+        aside.iter().any(near)
+    };
     let lines = (1..=options.harmonics)
-        .filter_map(|h| floor.line(h as i32, h as f64 * best.frequency, 0.0));
+        .filter_map(|h| floor.line(h as i32, h as f64 * best.frequency, 0.0))
+        .map(|l| match unseen(&l) {
+            // What is left there is the noise about it, or a remainder of what was taken out.
+            true => Line {
+                false_alarm: 1.0,
+                ..l
+            },
+            false => l,
+        });
     let found = LineSet {
         lines: lines.collect(),
     };
     let standing = found.standing(LINE_LEVEL).count();
     let frequency = common_frequency(&found).unwrap_or(best.frequency);
     let many = candidates.len() as f64;
-    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many));
+    let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many, &unseen));
     // What any other frequency shows, in place of noise alone: less what this one accounts for.
     let crowding = match best.chance * many <= options.level {
         true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
@@ -284,6 +322,12 @@ fn examine(
     let false_alarm = (chance * many).min(1.0);
     let beside = sidebands.as_ref().map_or(0, |s| s.standing);
     let low = (found.standing(LINE_LEVEL)).any(|l| l.order <= 2);
+    let carried: Vec<i32> = (sidebands.iter().filter(|s| s.false_alarm <= options.level))
+        .flat_map(|s| s.carry(&found, aside, reach))
+        .collect();
+    // A peak beyond the tolerance may lend its skirt to a comb within.
+    let within =
+        (frequency - candidate.frequency).abs() <= candidate.tolerance + 0.5 * floor.step();
     Ok(Evidence {
         candidate: index,
         frequency,
@@ -291,7 +335,9 @@ fn examine(
         false_alarm,
         crowding,
         stands: false_alarm <= options.level
-            && (standing >= 2 || low && beside >= FEWEST_SIDEBANDS),
+            && within
+            && (standing + carried.len() >= 2 || low && beside >= FEWEST_SIDEBANDS),
+        carried,
         harmonics: found,
         sidebands,
         alternatives: Vec::new(),
@@ -306,45 +352,6 @@ fn mark(marks: &mut [bool], middle: f64, reach: f64) {
     if first < end {
         marks[first..end].fill(true);
     }
-}
-
-fn about(
-    floor: &Floor,
-    frequency: f64,
-    spacing: f64,
-    options: &DiagnosisOptions,
-    candidates: f64,
-) -> Option<SidebandEvidence> {
-    let step = floor.step();
-    let mut lines = Vec::new();
-    let count = options.sidebands as i32;
-    for h in 1..=options.harmonics {
-        let carrier = h as f64 * frequency;
-        let tolerance = step.min(0.4 * spacing);
-        lines.extend(
-            (-count..=count)
-                .filter(|m| *m != 0)
-                .filter_map(|m| floor.line(m, carrier + f64::from(m) * spacing, tolerance))
-                .filter(|l| {
-                    let order = (l.expected / frequency).round();
-                    (l.expected - order * frequency).abs() >= CLOSEST_SIDEBAND * step
-                }),
-        );
-    }
-    if lines.is_empty() {
-        return None;
-    }
-    let statistic: f64 = lines
-        .iter()
-        .map(|l| -2.0 * l.false_alarm.max(CAP).ln())
-        .sum();
-    let chance = chi_square_tail(statistic, 2.0 * lines.len() as f64);
-    Some(SidebandEvidence {
-        spacing,
-        standing: lines.iter().filter(|l| l.false_alarm <= LINE_LEVEL).count(),
-        lines,
-        false_alarm: (chance * candidates).min(1.0),
-    })
 }
 
 /// The fundamental by least squares from the harmonics that stand, each weighted by its power over noise.

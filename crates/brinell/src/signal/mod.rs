@@ -45,7 +45,8 @@ pub(crate) mod test_signals;
 
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
 pub use diagnosis::{
-    Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose, without,
+    Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose, diagnose_beside,
+    without,
 };
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,

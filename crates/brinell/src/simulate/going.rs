@@ -52,7 +52,7 @@ pub(super) struct Run<'a> {
     contact_states: [ContactState; 2],
     switches: Switches,
     y: Vec<f64>,
-    dy: Vec<f64>,
+    a: Vec<f64>,
 }
 
 impl<'a> Run<'a> {
@@ -99,7 +99,7 @@ impl<'a> Run<'a> {
             contact_states: [contact_state.clone(), contact_state],
             switches,
             y: vec![0.0; n],
-            dy: vec![0.0; n],
+            a: vec![0.0; model.layout.dof()],
             motion,
         }
     }
@@ -109,7 +109,7 @@ impl<'a> Run<'a> {
         let model = &self.simulation.model;
         let t = self.stepper.t();
         self.y.copy_from_slice(self.stepper.y());
-        self.motion.derivative(t, &self.y, &mut self.dy);
+        self.motion.accelerations(t, &self.y, &mut self.a);
         self.energy.last = Energy::of(model, t, &self.y, &self.motion.ws);
         self.work.solver = self.stepper.work();
         Outcome {
@@ -177,7 +177,7 @@ impl<'a> Run<'a> {
             model,
             t,
             y,
-            dy: self.stepper.slope(),
+            a: self.stepper.accelerations(),
             ws: &self.motion.ws,
         });
     }
@@ -190,13 +190,13 @@ impl<'a> Run<'a> {
         if self.next.is_multiple_of(FACTOR as u64) {
             let model = &self.simulation.model;
             self.stepper.interpolate(t, &mut self.y);
-            self.motion.derivative(t, &self.y, &mut self.dy);
+            self.motion.accelerations(t, &self.y, &mut self.a);
             self.work.sample_evaluations += 1;
             let frame = Frame {
                 model,
                 t,
                 y: &self.y,
-                dy: &self.dy,
+                a: &self.a,
                 ws: &self.motion.ws,
             };
             let index = self.next / FACTOR as u64;
@@ -206,7 +206,7 @@ impl<'a> Run<'a> {
             }
             if let (Some(worst), Some(now)) = (
                 &mut self.imbalance,
-                imbalance(model, t, &self.y, &self.dy, &self.motion.ws),
+                imbalance(model, t, &self.y, &self.a, &self.motion.ws),
             ) {
                 *worst = worst.max(now);
             }
@@ -215,7 +215,7 @@ impl<'a> Run<'a> {
             }
         }
         for (place, entry) in &self.simulation.filtered_entries {
-            self.fast[*place] = self.stepper.interpolated_slope(t, *entry);
+            self.fast[*place] = self.stepper.interpolated_acceleration(t, *entry);
         }
         if let (Some(sensing), Some(chain)) = (&mut self.sensing, &self.simulation.sensor) {
             if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {

@@ -190,7 +190,7 @@ impl Simulation {
         let places = (0..ring.len()).chain(measured..);
         Ok(Self {
             filtered_entries: places
-                .zip(slopes.filter_map(Channel::slope_entry))
+                .zip(slopes.filter_map(Channel::acceleration_entry))
                 .collect(),
             sensor: Chain::new(&scenario.sensor, sample_rate),
             channels,

@@ -1,13 +1,12 @@
-//! Adaptive explicit Runge-Kutta integration with dense output.
+//! Adaptive explicit Runge-Kutta-Nystrom integration of q'' = f(t, q, q') with dense output.
 //!
-//! The solver knows of its system only that the second half of the state holds the rates of the first, and that a quantity
-//! (here, flows of energy) may be integrated along with it. Errors are measured on the rates, weighted by the system's masses,
+//! The state is y = (q, v), positions and their rates. A quantity (here, flows of energy) may be integrated along with it. Errors are measured on the rates, weighted by the system's masses,
 //! so the tolerance is the square root of an energy per step: an error of a velocity there is an error of a force
 //! integrated over the step. Nothing is allocated after [`Stepper::new`].
 
 mod tableau;
 
-pub use tableau::{BOGACKI_SHAMPINE, Tableau};
+pub use tableau::{DAMPED_CONTACT, STAGES, Tableau};
 
 use crate::lanes::{Column, blend, weighted_square};
 use std::ops::{AddAssign, Mul};
@@ -20,10 +19,10 @@ pub trait System {
     /// Entries of the state.
     fn size(&self) -> usize;
 
-    /// dy/dt.
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
+    /// dv/dt, half as long as the state.
+    fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]);
 
-    /// Longest step from the last state given to [`System::derivative`] in which the fastest motions still decay.
+    /// Longest step from the last state given to [`System::accelerations`] in which the fastest motions still decay.
     fn longest_step(&self) -> f64 {
         f64::INFINITY
     }
@@ -79,9 +78,9 @@ pub enum StepError {
 #[derive(Debug, Clone)]
 pub struct Stepper<F> {
     settings: Settings,
-    /// Stage derivatives; the first is that of `y`, the last that of the trial state, and between steps that of `previous`.
-    stages: Vec<Column>,
-    flows: Vec<F>,
+    /// Accelerations of the stages; the first are those of `y`, the last those of the trial state, and between steps those of `previous`.
+    stages: [Column; STAGES + 1],
+    flows: [F; STAGES + 1],
     y: Column,
     trial: Column,
     previous: Column,
@@ -107,13 +106,12 @@ const INTEGRAL: f64 = 0.08;
 const LEAST_MAGNITUDE: f32 = -13.29;
 
 impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
-    /// At (t, y), with the derivative evaluated there.
+    /// At (t, y), with the accelerations evaluated there.
     pub fn new<S: System<Flow = F>>(system: &mut S, settings: Settings, t: f64, y: &[f64]) -> Self {
         let n = system.size();
-        let stages = settings.tableau.stages();
         let mut stepper = Self {
-            stages: vec![Column::new(n, 0.0); stages],
-            flows: vec![F::default(); stages],
+            stages: std::array::from_fn(|_| Column::new(n / 2, 0.0)),
+            flows: [F::default(); STAGES + 1],
             y: Column::from(y),
             trial: Column::new(n, 0.0),
             previous: Column::from(y),
@@ -127,7 +125,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             work: Work::default(),
             settings,
         };
-        system.derivative(t, y, &mut stepper.stages[0]);
+        system.accelerations(t, y, &mut stepper.stages[0]);
         stepper.flows[0] = system.flow();
         stepper.limit = system.longest_step();
         stepper.work.evaluations = 1;
@@ -144,8 +142,8 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         &self.y
     }
 
-    /// Derivative of the current state.
-    pub fn slope(&self) -> &[f64] {
+    /// Accelerations at the current state.
+    pub fn accelerations(&self) -> &[f64] {
         &self.stages[0]
     }
 
@@ -172,13 +170,17 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             if h <= 16.0 * f64::EPSILON * self.t.abs().max(f64::MIN_POSITIVE) || h < 1e-18 {
                 return Err(self.failure());
             }
-            for (s, (row, node)) in tableau.rows.iter().zip(tableau.nodes).enumerate() {
-                let (done, rest) = self.stages.split_at_mut(s + 1);
-                combine(&mut self.trial, &self.y, done, row, h);
-                system.derivative(self.t + node * h, &self.trial, &mut rest[0]);
+            for (s, node) in tableau.nodes.into_iter().enumerate() {
+                match s {
+                    0 => self.place::<3, 2>(h),
+                    1 => self.place::<4, 3>(h),
+                    2 => self.place::<5, 4>(h),
+                    _ => self.place::<6, 5>(h),
+                }
+                system.accelerations(self.t + node * h, &self.trial, &mut self.stages[s + 1]);
                 self.flows[s + 1] = system.flow();
             }
-            self.work.evaluations += tableau.rows.len() as u64;
+            self.work.evaluations += STAGES as u64;
             let error = self.error(h) / self.settings.tolerance;
             if error.is_finite() && error <= 1.0 {
                 // Single precision: a step need not be longer or shorter by less.
@@ -198,7 +200,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 for (weight, flow) in tableau.weights().iter().zip(&self.flows) {
                     integral += *flow * (weight * h);
                 }
-                self.flows[0] = self.flows[tableau.stages() - 1];
+                self.flows[0] = self.flows[STAGES];
                 return Ok(integral);
             }
             self.work.rejections += 1;
@@ -212,11 +214,31 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         }
     }
 
+    /// Places the trial state of the stage after `V` - 1 = `Q` - 2 others: sums of `Q` lists for positions and `V` for rates.
+    fn place<const Q: usize, const V: usize>(&mut self, h: f64) {
+        let tableau = &self.settings.tableau;
+        let half = self.y.len() / 2;
+        let (q, v) = self.y.split_at(half);
+        let (to_q, to_v) = self.trial.split_at_mut(half);
+        let (mut factors, mut lists) = ([1.0; Q], [q; Q]);
+        (factors[1], lists[1]) = (h * tableau.nodes[V - 2], v);
+        for k in 2..Q {
+            let weight = tableau.positions[V - 2][k - 2];
+            (factors[k], lists[k]) = (h * h * weight, &self.stages[k - 2]);
+        }
+        blend(to_q, factors, lists);
+        let (mut factors, mut lists) = ([1.0; V], [v; V]);
+        for k in 1..V {
+            let weight = tableau.rates[V - 2][k - 1];
+            (factors[k], lists[k]) = (h * weight, &self.stages[k - 1]);
+        }
+        blend(to_v, factors, lists);
+    }
+
     fn accept(&mut self, h: f64) {
         std::mem::swap(&mut self.previous, &mut self.y);
         std::mem::swap(&mut self.y, &mut self.trial);
-        let last = self.stages.len() - 1;
-        self.stages.swap(0, last);
+        self.stages.swap(0, STAGES);
         self.t_previous = self.t;
         self.t += h;
         self.work.steps += 1;
@@ -224,43 +246,25 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
 
     /// Mass-weighted norm of the error of the rates.
     fn error(&self, h: f64) -> f64 {
-        let half = self.y.len() / 2;
-        let square = match (self.settings.tableau.error, self.stages.as_slice()) {
-            (&[a, b, c, d], [k, l, m, n]) => weighted_square(
-                &self.mass,
-                [a, b, c, d],
-                [&k[half..], &l[half..], &m[half..], &n[half..]],
-            ),
-            (weights, stages) => (0..half)
-                .map(|k| {
-                    let terms = weights.iter().zip(stages).map(|(w, s)| w * s[half + k]);
-                    self.mass[k] * terms.sum::<f64>().powi(2)
-                })
-                .sum(),
-        };
-        h * square.sqrt()
+        let stages = self.stages.each_ref().map(|s| &s[..]);
+        h * weighted_square(&self.mass, self.settings.tableau.error, stages).sqrt()
     }
 
     fn failure(&self) -> StepError {
-        let last = &self.stages[self.stages.len() - 1];
-        if let Some(index) = self
-            .trial
-            .iter()
-            .zip(last)
-            .position(|(y, dy)| !(y.is_finite() && dy.is_finite()))
-        {
+        let half = self.y.len() / 2;
+        let ends = self.trial.iter().chain(&self.stages[STAGES]);
+        if let Some(index) = ends.into_iter().position(|x| !x.is_finite()) {
+            // Accelerations are the slopes of the rates.
+            let index = if index < 2 * half {
+                index
+            } else {
+                index - half
+            };
             return StepError::NonFinite { t: self.t, index };
         }
-        let half = self.y.len() / 2;
         let share = |k: usize| {
-            let e: f64 = self
-                .settings
-                .tableau
-                .error
-                .iter()
-                .zip(&self.stages)
-                .map(|(w, s)| w * s[half + k])
-                .sum();
+            let weights = self.settings.tableau.error.iter();
+            let e: f64 = weights.zip(&self.stages).map(|(w, s)| w * s[k]).sum();
             self.settings.mass[k] * e * e
         };
         let index = (0..half)
@@ -292,52 +296,23 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
             h * s * r * r,
             -h * s * s * r,
         ];
-        blend(
-            y,
-            factors,
-            [
-                &self.previous,
-                &self.y,
-                self.slope_before(),
-                &self.stages[0],
-            ],
-        );
+        let half = self.y.len() / 2;
+        let ((q0, v0), (q1, v1)) = (self.previous.split_at(half), self.y.split_at(half));
+        let (q, v) = y.split_at_mut(half);
+        blend(q, factors, [q0, q1, v0, v1]);
+        blend(v, factors, [v0, v1, &self.stages[STAGES], &self.stages[0]]);
     }
 
-    /// Slope of that polynomial in entry `index`: second order at an instant, but its mean over the step is exact.
-    pub fn interpolated_slope(&self, t: f64, index: usize) -> f64 {
+    /// Slope of that polynomial of the rate of position `index`: second order at an instant, but its mean over the step is exact.
+    pub fn interpolated_acceleration(&self, t: f64, index: usize) -> f64 {
         let (s, h) = self.within(t);
-        let (before, after) = (self.slope_before()[index], self.stages[0][index]);
+        let (before, after) = (self.stages[STAGES][index], self.stages[0][index]);
         if h <= 0.0 {
             return after;
         }
         let r = 1.0 - s;
-        let rise = (self.y[index] - self.previous[index]) / h;
+        let rate = self.y.len() / 2 + index;
+        let rise = (self.y[rate] - self.previous[rate]) / h;
         6.0 * s * r * rise + r * (1.0 - 3.0 * s) * before + s * (1.0 - 3.0 * r) * after
-    }
-
-    /// Derivative at the start of the last step.
-    fn slope_before(&self) -> &[f64] {
-        &self.stages[self.stages.len() - 1]
-    }
-}
-
-/// `out` = y + h sum of `row` times `stages`.
-fn combine(out: &mut [f64], y: &[f64], stages: &[Column], row: &[f64], h: f64) {
-    match (row, stages) {
-        (&[a], [k, ..]) => blend(out, [1.0, h * a], [y, k]),
-        (&[0.0, b], [_, l, ..]) => blend(out, [1.0, h * b], [y, l]),
-        (&[a, b], [k, l, ..]) => blend(out, [1.0, h * a, h * b], [y, k, l]),
-        (&[a, b, c], [k, l, m, ..]) => {
-            blend(out, [1.0, h * a, h * b, h * c], [y, k, l, m]);
-        }
-        _ => {
-            out.copy_from_slice(y);
-            for (weight, stage) in row.iter().zip(stages) {
-                for (o, k) in out.iter_mut().zip(stage) {
-                    *o += h * weight * k;
-                }
-            }
-        }
     }
 }

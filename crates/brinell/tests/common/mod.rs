@@ -6,6 +6,7 @@
 )]
 
 pub mod cases;
+pub mod counting;
 
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Outcome, Simulation};

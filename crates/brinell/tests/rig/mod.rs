@@ -83,13 +83,15 @@ pub(crate) struct Signal {
     pub(crate) snr_db: f64,
 }
 
-/// Name, elements, d / D cos a, of public data sets.
-const BEARINGS: [(&str, f64, f64); 5] = [
-    ("6205-2RS", 9.0, 0.3126 / 1.537),
-    ("6203-2RS", 8.0, 0.2656 / 1.122),
-    ("NICE", 8.0, 0.235 / 1.245),
-    ("ZA-2115", 16.0, 0.331 / 2.815 * 0.965_15),
-    ("UER204", 8.0, 7.92 / 34.55),
+/// Name, elements, d / D, cos a, of public data sets.
+type Bearing = (&'static str, f64, f64, f64);
+
+const BEARINGS: [Bearing; 5] = [
+    ("6205-2RS", 9.0, 0.3126 / 1.537, 1.0),
+    ("6203-2RS", 8.0, 0.2656 / 1.122, 1.0),
+    ("NICE", 8.0, 0.235 / 1.245, 1.0),
+    ("ZA-2115", 16.0, 0.331 / 2.815, 0.965_15),
+    ("UER204", 8.0, 7.92 / 34.55, 1.0),
 ];
 
 /// What a signal will be, before it is made.
@@ -98,7 +100,7 @@ pub(crate) struct Plan {
     pub(crate) fs: f64,
     pub(crate) seconds: f64,
     pub(crate) snr_db: f64,
-    bearing: (&'static str, f64, f64),
+    bearing: Bearing,
     shaft: f64,
     told: f64,
     background: Background,
@@ -139,13 +141,13 @@ pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
         fs,
         seconds,
         snr_db,
-        bearing: (bearing, z, ratio),
+        bearing: (bearing, z, ratio, cosine),
         shaft,
         told,
         background,
     } = draw(&mut r);
     // Contact angle and load move d / D cos a; sliding slows the cage.
-    let g = ratio * (1.0 + 0.008 * r.normal().clamp(-2.0, 2.0));
+    let g = ratio * cosine * (1.0 + 0.008 * r.normal().clamp(-2.0, 2.0));
     let cage = 0.5 * (1.0 - g) * (1.0 - 0.008 * r.uniform());
     let n = (fs * seconds) as usize;
 
@@ -170,7 +172,8 @@ pub(crate) fn signal(index: u64, damage: Damage) -> Signal {
         let rates = match damage {
             Damage::Outer => z * cage,
             Damage::Inner => z * (1.0 - cage),
-            _ => 2.0 * 0.5 / g * (1.0 - g * g),
+            // 2 BSF = D / d (1 - g^2): the contact angle is in g alone.
+            _ => (1.0 - g * g) / ratio,
         };
         let mut ring = impacts(&mut r, damage, rates, cage, shaft, n, fs, &modes);
         let rms = (ring.iter().map(|v| v * v).sum::<f64>() / n as f64).sqrt();

@@ -6,7 +6,7 @@ use brinell::accuracy;
 use brinell::model::{Model, Motion};
 use brinell::scenario::Accuracy;
 use brinell::simulate::{Observer, Simulation};
-use brinell::solver::{Stepper, System};
+use brinell::solver::Stepper;
 use brinell::start;
 use brinell_peers::{Job, Sample, Work, scenario};
 use std::ops::ControlFlow;

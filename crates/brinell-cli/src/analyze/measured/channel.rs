@@ -1,7 +1,7 @@
 //! The channel meant.
 
 use super::rate::{is_time, time_unit};
-use super::usage;
+use super::{Wanted, usage};
 use crate::failure::Failure;
 use brinell::document::Loaded;
 use brinell_io::{Channel, SignalFile};
@@ -24,13 +24,22 @@ pub(super) fn resolve(
         return Ok(whole(only));
     }
     if let Ok(number) = text.trim().parse::<usize>() {
+        if let [matrix] = channels
+            && is_matrix(matrix)
+        {
+            let name = &matrix.name;
+            return Err(usage(format!(
+                "{option} {text}: {} has one channel, the matrix `{name}`; name its column {text} as {option} '{name}(:,{text})'",
+                file.path().display()
+            )));
+        }
         return (number
             .checked_sub(1)
             .and_then(|i| channels.get(i))
             .map(whole))
         .ok_or_else(|| {
             usage(format!(
-                "{option} {text}: {} has {} channels; they count from 1: {}",
+                "{option} {text}: {} has {} channel(s); they count from 1: {}",
                 file.path().display(),
                 channels.len(),
                 listed(channels.iter())
@@ -67,13 +76,32 @@ pub(super) fn resolve(
     }
 }
 
+fn is_matrix(channel: &Channel) -> bool {
+    channel.shape.len() == 2 && channel.shape.iter().all(|n| *n > 1)
+}
+
 fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
-    let names: Vec<String> = channels
-        .map(|c| match &c.label {
-            Some(label) => format!("{} ({label})", c.name),
-            None => c.name.clone(),
-        })
-        .collect();
+    let named = |c: &Channel| match &c.label {
+        Some(label) => format!("{} ({label})", c.name),
+        None => c.name.clone(),
+    };
+    shortened(channels.map(named).collect())
+}
+
+/// Every channel, with why it is no signal.
+fn refused(file: &SignalFile) -> String {
+    let why = |c: &Channel| match (&c.unreadable, c.length) {
+        (Some(why), _) => why.clone(),
+        (None, Some(0)) => "holds no values".into(),
+        (None, Some(1)) => "holds a single number".into(),
+        _ => "holds times".into(),
+    };
+    let channels = file.channels().iter();
+    let told = channels.map(|c| format!("`{}` {}", c.name, why(c)));
+    shortened(told.collect())
+}
+
+fn shortened(names: Vec<String>) -> String {
     let more = names.len().saturating_sub(20);
     let shown = names[..names.len() - more].join(", ");
     match more {
@@ -85,12 +113,13 @@ fn listed<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
 
 pub(super) fn channel(
     file: &SignalFile,
-    wanted: Option<&str>,
+    wanted: &Wanted,
     run: Option<&Loaded>,
     notes: &mut Vec<String>,
 ) -> Result<(String, Channel), Failure> {
-    if let Some(text) = wanted {
-        return resolve(file, text, "--channel");
+    let option = format!("--{}channel", wanted.whose);
+    if let Some(text) = wanted.channel {
+        return resolve(file, text, &option);
     }
     if let Some(run) = run {
         let load = run.scenario.operation.load_n;
@@ -110,14 +139,21 @@ pub(super) fn channel(
         .filter(|c| c.may_be_signal() && time_unit(c).is_none() && !is_time(c))
         .collect();
     match signals[..] {
+        [only] if is_matrix(only) => Err(usage(format!(
+            "{}: `{name}` is {} x {}; choose a column, as {option} '{name}(:,1)', or a row, as {option} '{name}(1,:)'",
+            file.path().display(),
+            only.shape[0],
+            only.shape[1],
+            name = only.name
+        ))),
         [only] => Ok((only.name.clone(), only.clone())),
         [] => Err(usage(format!(
-            "{}: nothing here is a signal; there are {}",
+            "{}: nothing here is a signal: {}",
             file.path().display(),
-            listed(file.channels().iter())
+            refused(file)
         ))),
         _ => Err(usage(format!(
-            "{}: several channels may be the signal; choose one with --channel: {}",
+            "{}: several channels may be the signal; choose one with {option}: {}",
             file.path().display(),
             listed(signals.into_iter())
         ))),

@@ -34,6 +34,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) speed_channel: Option<&'a str>,
     pub(crate) start: Option<f64>,
     pub(crate) duration: Option<f64>,
+    /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
+    pub(crate) whose: &'static str,
 }
 
 /// A stretch of one channel, with everything that is known of it.
@@ -67,7 +69,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let mut file = open(&path).map_err(bad)?;
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
-    let (name, channel) = channel(&file, wanted.channel, scenario.as_deref(), &mut notes)?;
+    let (name, channel) = channel(&file, wanted, scenario.as_deref(), &mut notes)?;
     let (rate, rate_note) = rate(
         &mut file,
         &channel,

@@ -8,6 +8,9 @@ use brinell_io::{Channel, RateSource, SignalFile};
 /// Steps between times may differ by so much from their mean, relative, before a rate is refused.
 const UNEVEN: f64 = 0.02;
 
+/// A rate given and one stated may differ by so much, relative, before it is worth a word.
+const DIFFERS: f64 = 1e-4;
+
 /// Whether a channel is called like a column of times.
 pub(super) fn is_time(channel: &Channel) -> bool {
     let name = channel.name.to_lowercase();
@@ -38,6 +41,16 @@ fn seconds(unit: &str) -> Option<f64> {
     })
 }
 
+/// The rate of a column of times whose unit the file states, and that column.
+fn by_times(file: &mut SignalFile) -> Option<(f64, String)> {
+    let channels = file.channels().iter();
+    let (name, unit) = channels
+        .filter(|c| c.may_be_signal())
+        .find_map(|c| Some((c.name.clone(), time_unit(c)?)))?;
+    let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
+    Some((even(&times, unit).ok()?, format!("the column `{name}`")))
+}
+
 pub(super) fn rate(
     file: &mut SignalFile,
     channel: &Channel,
@@ -52,13 +65,15 @@ pub(super) fn rate(
         };
         (rate.hz, place)
     });
+    let option = format!("--{}rate", wanted.whose);
     if let Some(given) = wanted.rate {
         if !(given > 0.0 && given.is_finite()) {
-            return Err(usage(format!("--rate {given}: expected more than 0 Hz")));
+            return Err(usage(format!("{option} {given}: expected more than 0 Hz")));
         }
-        if let Some((hz, place)) = stated.filter(|(hz, _)| (hz / given - 1.0).abs() > 1e-6) {
+        let stated = stated.or_else(|| by_times(file));
+        if let Some((hz, place)) = stated.filter(|(hz, _)| (hz / given - 1.0).abs() > DIFFERS) {
             warnings.push(format!(
-                "--rate {given} Hz was taken, but {place} says {hz} Hz"
+                "{option} {given} Hz was taken, but {place} says {hz} Hz"
             ));
         }
         return Ok((given, format!("sample rate {given} Hz, as given")));
@@ -76,7 +91,7 @@ pub(super) fn rate(
     };
     let Some(time) = time else {
         return Err(usage(format!(
-            "{}: the file states no sample rate; give --rate HZ",
+            "{}: the file states no sample rate; give {option} HZ",
             file.path().display()
         )));
     };
@@ -88,16 +103,21 @@ pub(super) fn rate(
         (None, None) if own && time.name == "t" => 1.0,
         (None, None) => {
             return Err(usage(format!(
-                "{}: the file states no sample rate, and no unit for its times in `{}`; give --rate HZ, or --time-unit s",
+                "{}: the file states no sample rate, and no unit for its times in `{}`; give {option} HZ{}",
                 file.path().display(),
-                time.name
+                time.name,
+                if wanted.whose.is_empty() {
+                    ", or --time-unit s"
+                } else {
+                    ""
+                }
             )));
         }
     };
     let (times, _) = stretch(file, &time.name, 0, 1 << 16)?;
     let hz = even(&times, unit).map_err(|why| {
         usage(format!(
-            "{}: no sample rate follows from `{}`: {why}; give --rate HZ if you know it",
+            "{}: no sample rate follows from `{}`: {why}; give {option} HZ if you know it",
             file.path().display(),
             time.name
         ))

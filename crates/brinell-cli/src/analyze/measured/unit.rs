@@ -39,8 +39,9 @@ pub(super) fn unit(
         return Ok(Unit::of(unit));
     }
     Err(usage(format!(
-        "{}: the file states no unit for `{name}`; give --unit, such as --unit g or --unit m/s^2",
-        path.display()
+        "{}: the file states no unit for `{name}`; give --{whose}unit, such as --{whose}unit g or --{whose}unit m/s^2",
+        path.display(),
+        whose = wanted.whose
     )))
 }
 

@@ -13,30 +13,30 @@ use super::{Kernel, Model, Power, Workspace};
 use crate::lanes::{Avx2, Avx512};
 use crate::lanes::{Lanes, Portable};
 
-/// dy/dt at (t, y), compiled for the instructions that the workspace's kernel names.
-pub(super) fn derivative(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
+/// Accelerations at (t, y), compiled for the instructions that the workspace's kernel names.
+pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
     match ws.kernel() {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a workspace holds a kernel only where the processor has its instructions.
-        Kernel::Avx512 => unsafe { with_avx512(model, t, y, dy, ws) },
+        Kernel::Avx512 => unsafe { with_avx512(model, t, y, a, ws) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Kernel::Avx2 => unsafe { with_avx2(model, t, y, dy, ws) },
-        Kernel::Plain => equations::<Portable, true>(model, t, y, dy, ws),
-        _ => equations::<Portable, false>(model, t, y, dy, ws),
+        Kernel::Avx2 => unsafe { with_avx2(model, t, y, a, ws) },
+        Kernel::Plain => equations::<Portable, true>(model, t, y, a, ws),
+        _ => equations::<Portable, false>(model, t, y, a, ws),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn with_avx512(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<Avx512, false>(model, t, y, dy, ws);
+fn with_avx512(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
+    equations::<Avx512, false>(model, t, y, a, ws);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn with_avx2(model: &Model, t: f64, y: &[f64], dy: &mut [f64], ws: &mut Workspace) {
-    equations::<Avx2, false>(model, t, y, dy, ws);
+fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
+    equations::<Avx2, false>(model, t, y, a, ws);
 }
 
 /// Angle and speed of the inner ring.
@@ -55,19 +55,17 @@ struct Sums {
     power: Power,
 }
 
-/// dy/dt at (t, y); the rollers one by one where `PLAIN`.
+/// Accelerations at (t, y); the rollers one by one where `PLAIN`.
 #[inline(always)]
 pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     model: &Model,
     t: f64,
     y: &[f64],
-    dy: &mut [f64],
+    a: &mut [f64],
     ws: &mut Workspace,
 ) {
     let dof = model.layout.dof();
     let (q, v) = y.split_at(dof);
-    let (dq, a) = dy.split_at_mut(dof);
-    dq.copy_from_slice(v);
     let (speed, angle) = model.rotation.at(t);
     let turn = Turn { speed, angle };
     let mut sums = if PLAIN {

@@ -29,6 +29,7 @@ pub(super) fn explain(
     });
     for (rank, &i) in ranking.iter().enumerate() {
         let mine: Vec<usize> = (evidence[i].harmonics.standing(LINE_LEVEL))
+            .chain(evidence[i].carrying())
             .map(|l| ((l.frequency / step).round() as usize).min(bins - 1))
             .collect();
         let held = |marks: &[bool]| mine.iter().filter(|bin| marks[**bin]).count();

@@ -196,3 +196,32 @@ fn prop_what_one_accounts_for_can_be_taken_away() {
     );
     assert!(without(&s.spectrum, 0.0, &[]).is_err());
 }
+
+#[test]
+fn prop_an_element_whose_places_are_anothers_shows_by_its_sidebands() {
+    // As where 2 BSF is four times the shaft's frequency, whose lines were taken out.
+    let (rate, band) = (140.7, Band::between(3500.0, 6500.0));
+    let options = DiagnosisOptions::default();
+    let aside: Vec<f64> = (1..=10).map(|h| f64::from(h) * rate).collect();
+    for seed in 0..10 {
+        let x = impacts(rate, FTF, 0.3, seed);
+        let s = envelope_spectrum(&x, FS, band, &Segments::of(32_768)).unwrap();
+        let left = without(&s.spectrum, rate, &[]).unwrap();
+        assert!(!diagnose(&left, &candidates(), &options).unwrap().evidence[2].stands);
+        let told = diagnose_beside(&left, &candidates(), &options, &aside).unwrap();
+        assert_eq!(causes(&told)[0], 2, "{seed} {:?}", told.ranking);
+        let e = &told.evidence[2];
+        assert!(e.standing == 0 && e.carried.len() >= 2, "{:?}", e.carried);
+        assert!(e.modulation() > 0.0 && (e.frequency - rate).abs() < 1.0);
+        // Sidebands say nothing of a carrier that could be seen, and is not there.
+        let elsewhere = [7.0, 13.0];
+        let told = diagnose_beside(&left, &candidates(), &options, &elsewhere).unwrap();
+        assert!(!told.evidence[2].stands);
+    }
+    for seed in 0..50 {
+        let x = Noise::new(700 + seed).normals(N);
+        let s = envelope_spectrum(&x, FS, band, &Segments::of(32_768)).unwrap();
+        let told = diagnose_beside(&s.spectrum, &candidates(), &options, &aside).unwrap();
+        assert!(told.nothing_stands_out(), "{seed}");
+    }
+}

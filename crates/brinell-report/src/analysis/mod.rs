@@ -1,14 +1,18 @@
 //! The page of an analysed signal: verdict, waveform, spectrum, envelope spectrum; and a second signal over it.
 
+mod waveform;
+
 use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
-use crate::frame::{THINNED, close, figure, open, plain, section};
+use crate::embedded;
+use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
-use crate::plots::{Layout, legend, marker_lanes, time_unit};
+use crate::plots::{Layout, legend, marker_lanes};
 use crate::tables::{Table, facts, table};
+use waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
 
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,16 +60,40 @@ fn paints() -> [Paint; 2] {
     ]
 }
 
-/// A plot of all curves, with a legend where there are several.
-fn plot(
+/// The order in which curves are drawn: what reaches farther lies below, and hides nothing.
+fn drawing_order(curves: &[(f64, f64, &[f64])], peak: bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..curves.len()).collect();
+    if !peak {
+        let size = |i: &usize| {
+            let finite = curves[*i].2.iter().filter(|v| v.is_finite());
+            finite.fold(0.0, |m: f64, v| m.max(v.abs()))
+        };
+        order.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    }
+    order
+}
+
+/// A plot of all curves, with a legend where there are several; `plot` is its name to the page's script, empty for a still one.
+fn draw(
     report: &AnalysisReport,
     layout: Layout,
     spec: Spec,
+    plot: &str,
     curves: &[(f64, f64, &[f64])],
     peak: bool,
     highlight: Option<(f64, f64)>,
 ) -> Picture {
-    let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
+    let size = spec.size;
+    let width = layout.size(0.0).width;
+    let mut picture = Picture::new(&spec.name, &spec.title, width, size.height);
+    let mut top = 0.0;
+    if curves.len() > 1 {
+        let entries: Vec<(&str, Paint)> = (report.names.iter().zip(paints()))
+            .map(|(name, paint)| (name.as_str(), paint))
+            .collect();
+        top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
+        picture.height = top + size.height;
+    }
     let mut chart = Chart::new(spec);
     if curves.iter().all(|c| range(c.2.iter().copied()).is_none()) {
         chart.say("No samples");
@@ -73,73 +101,56 @@ fn plot(
     if let Some((lo, hi)) = highlight {
         chart.highlight(lo, hi);
     }
-    // The second lies on top, and lets the first shine through.
-    for (index, (x0, dx, values)) in curves.iter().enumerate() {
+    // What lies on top lets the rest shine through.
+    for (above, index) in drawing_order(curves, peak).into_iter().enumerate() {
+        let (x0, dx, values) = curves[index];
         let paint = paints()[index.min(1)];
-        chart.curve(
-            *x0,
-            *dx,
-            values,
-            peak,
-            if index > 0 { paint.faded(0.75) } else { paint },
-        );
+        let paint = if above > 0 { paint.faded(0.75) } else { paint };
+        chart.curve(x0, dx, values, peak, paint);
+    }
+    if !plot.is_empty() {
+        chart.interactive_at(plot, top);
     }
     let chart = chart.finish();
-    if curves.len() < 2 {
-        return chart;
-    }
-    let entries: Vec<(&str, Paint)> = (report.names.iter().zip(paints()))
-        .map(|(name, paint)| (name.as_str(), paint))
-        .collect();
-    let width = layout.size(0.0).width;
-    let mut picture = Picture::new(&name, &title, width, size.height);
-    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
-    picture.height = top + size.height;
+    picture.attributes.clone_from(&chart.attributes);
     picture.place(chart, 0.0, top);
     picture
 }
 
-fn waveform(report: &AnalysisReport, layout: Layout, close: bool) -> Picture {
-    let first = report.waveforms.first().cloned().unwrap_or_default();
-    let span = |s: &Series| s.dt_s * s.values.len() as f64;
-    let whole = report.waveforms.iter().map(span).fold(0.0, f64::max);
-    let shortest = report
-        .waveforms
-        .iter()
-        .map(span)
-        .fold(f64::INFINITY, f64::min);
-    let (from, to) = if close {
-        let from = (0.5 * (shortest - report.close_up_s)).max(0.0);
-        (from, from + report.close_up_s.min(shortest))
-    } else {
-        (0.0, whole)
+/// What the page's script needs of a plot drawn by [`draw`]: its name there, the units of its axes, and so on.
+fn embed(
+    page: &mut String,
+    (plot, x_unit, y_unit): (&str, &str, &str),
+    domain: Domain,
+    curves: &[(f64, f64, &[f64])],
+    lanes: (&[Lane], &[Lane]),
+    peak: bool,
+    band: Option<(f64, f64)>,
+) {
+    let Some(((x0, dx, values), beside)) = curves.split_first() else {
+        return;
     };
-    let (unit, scale) = time_unit(to - from);
-    let shown = |s: &Series| -> Vec<f64> {
-        let bin = |t: f64| ((t / s.dt_s).max(0.0) as usize).min(s.values.len());
-        let end = bin(to);
-        s.values[bin(from).min(end)..end].to_vec()
-    };
-    let extremes = report.waveforms.iter().flat_map(shown);
-    let spec = Spec {
-        name: if close { "close-up" } else { "waveform" }.into(),
-        title: format!("Waveform: {}", first.label),
-        size: layout.size(if close { 300.0 } else { 200.0 }),
-        x: Domain::exact(from * scale, to * scale),
-        y: Domain::around(extremes),
-        x_label: "Time".into(),
-        x_unit: unit.into(),
-        y_label: first.label.clone(),
-        y_unit: first.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: true,
-    };
-    let curves: Vec<(f64, f64, &[f64])> = (report.waveforms.iter())
-        .map(|s| (0.0, s.dt_s * scale, &s.values[..]))
+    let order = drawing_order(curves, peak);
+    let drawn: Vec<usize> = (0..curves.len())
+        .filter_map(|i| order.iter().position(|o| *o == i))
         .collect();
-    plot(report, layout, spec, &curves, false, None)
+    embedded::Chart {
+        name: plot,
+        x0: *x0,
+        dx: *dx,
+        values,
+        domain,
+        peak,
+        x_unit,
+        y_unit,
+        lanes: lanes.0,
+        toggles: lanes.1,
+        overview_scale: 1.0,
+        beside,
+        drawn: &drawn,
+        band,
+    }
+    .write(page);
 }
 
 fn spectrum_spec(
@@ -180,49 +191,59 @@ fn curves(spectra: &[Spectrum]) -> Vec<(f64, f64, &[f64])> {
         .collect()
 }
 
+/// Values of all spectra from bin `from` on.
+fn amplitudes(spectra: &[Spectrum], from: usize) -> impl Iterator<Item = f64> {
+    (spectra.iter()).flat_map(move |s| s.amplitude.iter().skip(from).copied())
+}
+
+fn spectrum_domain(report: &AnalysisReport) -> Domain {
+    Domain::decades(&amplitudes(&report.spectra, 2).collect::<Vec<f64>>())
+}
+
 fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
     let first = report.spectra.first().cloned().unwrap_or_default();
-    let all: Vec<f64> = (report.spectra.iter())
-        .flat_map(|s| s.amplitude.iter().skip(2).copied())
-        .collect();
     let height = if layout == Layout::Wide { 320.0 } else { 280.0 };
-    let y = Domain::decades(&all);
-    let spec = spectrum_spec(
-        "spectrum",
-        &first,
-        layout,
-        height,
-        end(&report.spectra),
-        y,
-        vec![],
-    );
-    plot(
+    let (y, top) = (spectrum_domain(report), end(&report.spectra));
+    let spec = spectrum_spec("spectrum", &first, layout, height, top, y, vec![]);
+    let curves = curves(&report.spectra);
+    draw(
         report,
         layout,
         spec,
-        &curves(&report.spectra),
+        "spectrum",
+        &curves,
         true,
         report.band_hz,
     )
 }
 
+fn envelope_domain(report: &AnalysisReport) -> Domain {
+    Domain::from_zero(amplitudes(&report.envelopes, 3))
+}
+
 fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let first = report.envelopes.first().cloned().unwrap_or_default();
-    let all = (report.envelopes.iter()).flat_map(|s| s.amplitude.iter().skip(3).copied());
     let height = if layout == Layout::Wide { 400.0 } else { 360.0 };
     let lanes = marker_lanes(&report.markers);
-    let y = Domain::from_zero(all);
-    let top = end(&report.envelopes);
+    let (y, top) = (envelope_domain(report), end(&report.envelopes));
     let spec = spectrum_spec("envelope-spectrum", &first, layout, height, top, y, lanes);
-    plot(report, layout, spec, &curves(&report.envelopes), true, None)
+    draw(
+        report,
+        layout,
+        spec,
+        "envelope",
+        &curves(&report.envelopes),
+        true,
+        None,
+    )
 }
 
 /// The page's pictures, drawn wide.
 pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
     let wide = Layout::Wide;
     let mut pictures = vec![
-        waveform(report, wide, false),
-        waveform(report, wide, true),
+        whole(report, wide),
+        close(report, wide),
         spectrum(report, wide),
     ];
     pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, wide)));
@@ -243,18 +264,34 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         verdict(page, report)
     });
     section(&mut page, "waveform", "Waveform", |page| {
-        figure(page, "whole", |layout| waveform(report, layout, false), "");
+        figure(page, "whole", |layout| whole(report, layout), "");
         figure(
             page,
             "close",
-            |layout| waveform(report, layout, true),
+            |layout| close(report, layout),
             "A stretch from the middle, about ten strikes of the frequency that matters most long.",
         );
+        let unit = report.waveforms.first().map_or("", |s| &s.unit);
+        let axes = ("close-up", close_up_unit(report).0, unit);
+        let domain = close_up_domain(report);
+        embed(
+            page,
+            axes,
+            domain,
+            &about_middle(report),
+            (&[], &[]),
+            false,
+            None,
+        );
     });
+    let lanes = marker_lanes(&report.markers);
     let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
     section(&mut page, "spectrum", "Spectrum", |page| {
         let draw = |layout| spectrum(report, layout);
         figure(page, "spectrum", draw, &note(&report.spectra));
+        let axes = ("spectrum", "Hz", unit_of(&report.spectra));
+        let (y, all) = (spectrum_domain(report), curves(&report.spectra));
+        embed(page, axes, y, &all, (&[], &lanes), true, report.band_hz);
     });
     if let Some(map) = &report.kurtogram {
         section(&mut page, "kurtogram", "Kurtogram", |page| {
@@ -265,6 +302,9 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     section(&mut page, "envelope", "Envelope spectrum", |page| {
         let draw = |layout| envelope(report, layout);
         figure(page, "envelope", draw, &note(&report.envelopes));
+        let axes = ("envelope", "Hz", unit_of(&report.envelopes));
+        let (y, all) = (envelope_domain(report), curves(&report.envelopes));
+        embed(page, axes, y, &all, (&lanes, &lanes), true, None);
     });
     for one in &report.tables {
         table(&mut page, one);
@@ -276,7 +316,11 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         }
         page.push_str("</ul>\n");
     });
-    close(page, THINNED, &[])
+    finish(page, THINNED, &[include_str!("../page.js")])
+}
+
+fn unit_of(spectra: &[Spectrum]) -> &str {
+    spectra.first().map_or("", |s| &s.unit)
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {
