@@ -15,9 +15,9 @@ use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use super::error::{SignalError, check, require};
-use super::interleaved::Interleaved;
 use super::psd::{Detrend, Segments, psd};
 use super::spectrum::{FEWEST_SAMPLES, Spectrum};
+use super::transformed::Transformed;
 
 /// A frequency band, Hz; bins on its edges belong to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,7 +128,7 @@ pub(super) fn bins(fs: f64, length: usize, band: Band) -> Range<usize> {
 }
 
 /// Moduli of complex values: roots of sums of squares, by the much slower `hypot` only where a square would leave the range of numbers.
-fn moduli(values: &[Complex<f64>], moduli: &mut [f64]) {
+pub(super) fn moduli(values: &[Complex<f64>], moduli: &mut [f64]) {
     for (modulus, value) in moduli.iter_mut().zip(values) {
         *modulus = value.norm_sqr().sqrt();
     }
@@ -176,119 +176,6 @@ impl Demodulator {
     }
 }
 
-/// A signal transformed once, whose envelopes in many bands are wanted.
-pub struct Transformed {
-    fs: f64,
-    bins: Vec<Complex<f64>>,
-    plan: Interleaved,
-}
-
-impl Transformed {
-    /// Of `x`, sampled at `fs` Hz. Takes as much memory as `x`.
-    ///
-    /// # Errors
-    /// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples or samples that are not finite.
-    pub fn of(x: &[f64], fs: f64) -> Result<Self, SignalError> {
-        check(x, fs, FEWEST_SAMPLES, "an envelope")?;
-        Ok(Transformed::unchecked(x, fs))
-    }
-
-    fn unchecked(x: &[f64], fs: f64) -> Self {
-        let plan = Interleaved::new(x.len());
-        let bins = plan.forward(x, &mut plan.room());
-        Transformed { fs, bins, plan }
-    }
-
-    /// Hz.
-    pub fn sample_rate(&self) -> f64 {
-        self.fs
-    }
-
-    /// How many there were.
-    pub fn samples(&self) -> usize {
-        self.plan.length()
-    }
-}
-
-/// An envelope, and its means over so many neighbours.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Thinned {
-    /// Mean of the whole envelope, in the signal's unit.
-    pub mean: f64,
-    /// Means over one group of neighbours after the other; an incomplete last one is left out.
-    pub values: Vec<f64>,
-}
-
-impl Transformed {
-    /// As [`envelope()`], `every` so many neighbours in one.
-    ///
-    /// # Panics
-    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `every` is 0.
-    pub fn envelope(&self, band: Band, every: usize) -> Thinned {
-        // The analytic signal has the band's positive frequencies twice and nothing else.
-        let scale = 2.0 / self.samples() as f64;
-        self.thinned(band, every, scale, |_, _, _| {})
-    }
-
-    /// The envelope in a band of what [`whitened`](super::whitened) makes of the signal in it.
-    ///
-    /// # Panics
-    /// As [`envelope`](Self::envelope).
-    pub fn whitened_envelope(&self, band: Band, every: usize) -> Thinned {
-        let bins = &self.bins[bins(self.fs, self.samples(), band)];
-        // As many bins as hold anything, of one size, make unit RMS.
-        let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
-        let size = (2.0 / bins.count().max(1) as f64).sqrt();
-        let mut norms = Vec::new();
-        self.thinned(band, every, size, |_, bins, factors| {
-            norms.resize(bins.len(), 0.0);
-            moduli(bins, &mut norms);
-            for (factor, norm) in factors.iter_mut().zip(&norms) {
-                *factor /= if *norm > 0.0 { *norm } else { 1.0 };
-            }
-        })
-    }
-
-    /// Of the band's bins as `shape` makes them, `scale` times.
-    fn thinned(
-        &self,
-        band: Band,
-        every: usize,
-        scale: f64,
-        shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
-    ) -> Thinned {
-        let length = self.samples();
-        // What is left at the end makes a group too, for the mean.
-        let mut groups = vec![0.0; length / every + 1];
-        let mut here = [0.0; 1024];
-        let (band, mut room) = (bins(self.fs, length, band), self.plan.room());
-        self.plan
-            .backward(&self.bins, band, &mut room, shape, |part, values| {
-                let (mut group, mut place) = (part.first / every, part.first % every);
-                let (groups_on, places_on) = (part.step / every, part.step % every);
-                for values in values.chunks(here.len()) {
-                    let here = &mut here[..values.len()];
-                    moduli(values, here);
-                    for modulus in here {
-                        groups[group] += *modulus;
-                        (group, place) = (group + groups_on, place + places_on);
-                        if place >= every {
-                            (group, place) = (group + 1, place - every);
-                        }
-                    }
-                }
-            });
-        let sum: f64 = groups.iter().sum();
-        groups.pop();
-        let each = scale / every as f64;
-        groups.iter_mut().for_each(|v| *v *= each);
-        Thinned {
-            mean: scale * sum / length as f64,
-            values: groups,
-        }
-    }
-}
-
 /// The envelope of a whole signal.
 fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
     let transformed = Transformed::unchecked(x, fs);
@@ -299,9 +186,9 @@ fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::StreamSpectra;
     use super::super::spectrum::peak_near;
-    use super::super::test_signals::{ImpactTrain, Noise, cosine, integer_sequence};
-    use super::super::{StreamSpectra, whitened};
+    use super::super::test_signals::{ImpactTrain, cosine, integer_sequence};
     use super::*;
 
     const FS: f64 = 25_600.0;
@@ -412,35 +299,6 @@ mod tests {
         // Nothing half way between them.
         let between = peak_near(&result.spectrum, 150.0, 20.0).map_or(0.0, |p| p.amplitude);
         assert!(between < 1e-2 * fundamental.amplitude, "{between}");
-    }
-
-    #[test]
-    fn prop_means_over_neighbours_are_those_of_the_envelope() {
-        let band = Band::between(1000.0, 9000.0);
-        // One part, a few, and more than a transform holds.
-        for n in [9973, 12_000, 5 << 18] {
-            let x = Noise::new(5).normals(n);
-            let whitened = whitened(&x, FS, band).unwrap();
-            let transformed = Transformed::of(&x, FS).unwrap();
-            for (whole, thinned) in [
-                (
-                    envelope(&x, FS, band).unwrap(),
-                    transformed.envelope(band, 7),
-                ),
-                (
-                    envelope(&whitened, FS, band).unwrap(),
-                    transformed.whitened_envelope(band, 7),
-                ),
-            ] {
-                let mean = whole.iter().sum::<f64>() / n as f64;
-                assert!((thinned.mean / mean - 1.0).abs() < 1e-12, "{n}");
-                assert_eq!(thinned.values.len(), n / 7);
-                for (value, seven) in thinned.values.iter().zip(whole.chunks(7)) {
-                    let mean = seven.iter().sum::<f64>() / 7.0;
-                    assert!((value - mean).abs() < 1e-12, "{n}");
-                }
-            }
-        }
     }
 
     #[test]

@@ -36,6 +36,7 @@ pub mod ratio;
 pub mod spectrogram;
 pub mod spectrum;
 pub mod stream;
+pub mod transformed;
 pub mod velocity_bands;
 pub mod whiten;
 pub mod window;
@@ -51,7 +52,7 @@ pub use diagnosis::{
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
-pub use envelope::{Band, EnvelopeSpectrum, Thinned, Transformed, envelope, envelope_spectrum};
+pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
 pub use error::SignalError;
 pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};
@@ -65,6 +66,7 @@ pub use psd::{Detrend, Segments, density_interval, psd};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
 pub use stream::{Spectra, StreamSpectra};
+pub use transformed::{Thinned, Transformed};
 pub use velocity_bands::{VelocityBands, velocity_bands};
 pub use whiten::whitened;
 pub use window::Window;

@@ -1,0 +1,160 @@
+//! Envelopes in many bands of one signal, from one transform of it, thinned out as they come.
+//!
+//! What is sought in an envelope lies far below the band's own frequencies: means over some neighbours are all that is kept of it. As its
+//! samples come part by part (`interleaved.rs`), the whole is never held.
+
+use realfft::num_complex::Complex;
+
+use super::envelope::{Band, bins, moduli};
+use super::error::{SignalError, check};
+use super::interleaved::Interleaved;
+use super::spectrum::FEWEST_SAMPLES;
+
+/// An envelope thinned out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thinned {
+    /// Mean of the whole envelope, in the signal's unit.
+    pub mean: f64,
+    /// Means over groups of so many neighbours, one after the other, in the signal's unit; an incomplete last one is left out.
+    pub values: Vec<f64>,
+}
+
+/// A signal transformed once, whose envelopes in many bands are wanted.
+pub struct Transformed {
+    fs: f64,
+    bins: Vec<Complex<f64>>,
+    plan: Interleaved,
+}
+
+impl Transformed {
+    /// Of `x`, sampled at `fs` Hz. Takes as much memory as `x`.
+    ///
+    /// # Errors
+    /// [`SignalError`] with fewer than [`FEWEST_SAMPLES`] samples or samples that are not finite.
+    pub fn of(x: &[f64], fs: f64) -> Result<Self, SignalError> {
+        check(x, fs, FEWEST_SAMPLES, "an envelope")?;
+        Ok(Transformed::unchecked(x, fs))
+    }
+
+    pub(super) fn unchecked(x: &[f64], fs: f64) -> Self {
+        let plan = Interleaved::new(x.len());
+        let bins = plan.forward(x, &mut plan.room());
+        Transformed { fs, bins, plan }
+    }
+
+    /// Sample rate, Hz.
+    pub fn sample_rate(&self) -> f64 {
+        self.fs
+    }
+
+    /// How many samples there were.
+    pub fn samples(&self) -> usize {
+        self.plan.length()
+    }
+
+    /// As [`envelope()`](super::envelope()), in means over groups of `every` neighbours.
+    ///
+    /// # Panics
+    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `every` is 0.
+    pub fn envelope(&self, band: Band, every: usize) -> Thinned {
+        // The analytic signal has the band's positive frequencies twice and nothing else.
+        let scale = 2.0 / self.samples() as f64;
+        self.thinned(band, every, scale, |_, _, _| {})
+    }
+
+    /// The same of what [`whitened`](super::whitened()) makes of the signal in the band.
+    ///
+    /// # Panics
+    /// As [`envelope`](Self::envelope).
+    pub fn whitened_envelope(&self, band: Band, every: usize) -> Thinned {
+        let bins = &self.bins[bins(self.fs, self.samples(), band)];
+        // As many bins as hold anything, of one size, make unit RMS.
+        let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
+        let size = (2.0 / bins.count().max(1) as f64).sqrt();
+        let mut norms = Vec::new();
+        self.thinned(band, every, size, |_, bins, factors| {
+            norms.resize(bins.len(), 0.0);
+            moduli(bins, &mut norms);
+            for (factor, norm) in factors.iter_mut().zip(&norms) {
+                *factor /= if *norm > 0.0 { *norm } else { 1.0 };
+            }
+        })
+    }
+
+    /// Of the band's bins as `shape` makes them, `scale` times.
+    fn thinned(
+        &self,
+        band: Band,
+        every: usize,
+        scale: f64,
+        shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
+    ) -> Thinned {
+        let length = self.samples();
+        // What is left at the end makes a group too, for the mean.
+        let mut groups = vec![0.0; length / every + 1];
+        let mut here = [0.0; 1024];
+        let (band, mut room) = (bins(self.fs, length, band), self.plan.room());
+        self.plan
+            .backward(&self.bins, band, &mut room, shape, |part, values| {
+                let (mut group, mut place) = (part.first / every, part.first % every);
+                let (groups_on, places_on) = (part.step / every, part.step % every);
+                for values in values.chunks(here.len()) {
+                    let here = &mut here[..values.len()];
+                    moduli(values, here);
+                    for modulus in here {
+                        groups[group] += *modulus;
+                        (group, place) = (group + groups_on, place + places_on);
+                        if place >= every {
+                            (group, place) = (group + 1, place - every);
+                        }
+                    }
+                }
+            });
+        let sum: f64 = groups.iter().sum();
+        groups.pop();
+        let each = scale / every as f64;
+        groups.iter_mut().for_each(|v| *v *= each);
+        Thinned {
+            mean: scale * sum / length as f64,
+            values: groups,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_signals::Noise;
+    use super::super::{envelope, whitened};
+    use super::*;
+
+    const FS: f64 = 25_600.0;
+
+    #[test]
+    fn prop_means_over_neighbours_are_those_of_the_envelope() {
+        let band = Band::between(1000.0, 9000.0);
+        // One part, a few, and more than a transform holds.
+        for n in [9973, 12_000, 5 << 18] {
+            let x = Noise::new(5).normals(n);
+            let whitened = whitened(&x, FS, band).unwrap();
+            let transformed = Transformed::of(&x, FS).unwrap();
+            for (whole, thinned) in [
+                (
+                    envelope(&x, FS, band).unwrap(),
+                    transformed.envelope(band, 7),
+                ),
+                (
+                    envelope(&whitened, FS, band).unwrap(),
+                    transformed.whitened_envelope(band, 7),
+                ),
+            ] {
+                let mean = whole.iter().sum::<f64>() / n as f64;
+                assert!((thinned.mean / mean - 1.0).abs() < 1e-12, "{n}");
+                assert_eq!(thinned.values.len(), n / 7);
+                for (value, seven) in thinned.values.iter().zip(whole.chunks(7)) {
+                    let mean = seven.iter().sum::<f64>() / 7.0;
+                    assert!((value - mean).abs() < 1e-12, "{n}");
+                }
+            }
+        }
+    }
+}
