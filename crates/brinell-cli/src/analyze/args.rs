@@ -1,5 +1,6 @@
 //! The options of `brinell analyze`.
 
+use crate::args::PlotFormat;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,7 +31,7 @@ pub(crate) struct AnalyzeArgs {
     /// Unit of the times where the file does not say
     #[arg(long, value_name = "s|ms|us")]
     pub(crate) time_unit: Option<String>,
-    /// Unit of the signal: m/s^2, g, mm/s, m/s, V, ...
+    /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
     /// Shaft speed (the inner ring turns, the outer rests)
@@ -121,7 +122,27 @@ pub(crate) struct AnalyzeArgs {
     /// Folder for report.html, analysis.json and plots/
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
+    /// Formats of the pictures in FOLDER/plots
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "svg",
+        value_name = "FORMAT"
+    )]
+    pub(crate) plots: Vec<PlotFormat>,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+impl AnalyzeArgs {
+    /// Whether anything says which bearing it is.
+    pub(super) fn names_a_bearing(&self) -> bool {
+        let frequencies = [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf];
+        let lengths = [self.pitch, self.diameter, self.contact_angle];
+        self.bearing.is_some()
+            || self.rollers.is_some()
+            || lengths.iter().any(Option::is_some)
+            || frequencies.iter().any(|f| f.is_some())
+    }
 }

@@ -1,7 +1,7 @@
 //! Which defect frequencies to look for: from a name, a geometry, given frequencies, or the run that made the file.
 
 use super::args::AnalyzeArgs;
-use super::measured::Measured;
+use super::measured::{ASK_BEARING, Measured};
 use crate::failure::Failure;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
@@ -35,9 +35,7 @@ pub(super) fn orders(
         };
     }
     if orders.is_empty() {
-        return Err(Failure::Usage(
-            "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)".into(),
-        ));
+        return Err(Failure::Usage(ASK_BEARING.into()));
     }
     Ok((orders, source))
 }

@@ -8,15 +8,15 @@ mod page;
 pub(crate) use args::AnalyzeArgs;
 
 use crate::failure::Failure;
-use crate::run::make_folder;
+use crate::run::{make_folder, write_pictures};
 use crate::say::{complain, say, short};
 use brinell::analysis::{
-    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
+    Analysis, Comparison, Difference, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
     velocity,
 };
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
-use measured::{Beyond, Measured, Reading, Rest, Wanted};
+use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
 use serde_json::json;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -29,6 +29,9 @@ const HEADLINES: [Indicator; 4] = [
     Indicator::CrestFactor,
     Indicator::Kurtosis,
 ];
+
+/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
+const SHAFT_DOUBT: f64 = 0.005;
 
 /// Everything that words, JSON and page are made of.
 struct Result_ {
@@ -66,6 +69,8 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             start: args.start,
             duration: args.duration,
             whose: "",
+            ask_speed: args.speed.is_none(),
+            ask_bearing: !args.names_a_bearing(),
         },
     )?;
     let (rpm, speed) = speed(args, &measured)?;
@@ -115,7 +120,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let json = as_json(&result);
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        write(folder, &result, &json, &mut written)?;
+        write(folder, args, &result, &json, &mut written)?;
     }
     match args.json.as_deref() {
         Some(path) if path == Path::new("-") => say!("{json}"),
@@ -140,12 +145,7 @@ fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failu
     let (rpm, source) = match (args.speed, &measured.speed) {
         (Some(rpm), _) => (rpm, "--speed".to_owned()),
         (None, Some(stated)) => (stated.rpm, stated.source.clone()),
-        (None, None) => {
-            return Err(Failure::Usage(format!(
-                "{}: the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME",
-                measured.path.display()
-            )));
-        }
+        (None, None) => return Err(Failure::Usage(ASK_SPEED.into())),
     };
     if !(rpm.is_finite() && rpm != 0.0) {
         return Err(Failure::Usage(format!(
@@ -324,6 +324,7 @@ fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
 
 fn write(
     folder: &Path,
+    args: &AnalyzeArgs,
     result: &Result_,
     json: &str,
     written: &mut Vec<PathBuf>,
@@ -341,14 +342,36 @@ fn write(
         "report.html",
         brinell_report::analysis_html(&report).as_bytes(),
     )?;
-    make_folder(&folder.join("plots"))?;
-    for picture in brinell_report::analysis_pictures(&report) {
-        put(
-            &format!("plots/{}.svg", picture.name),
-            picture.svg().as_bytes(),
-        )?;
+    let pictures = brinell_report::analysis_pictures(&report);
+    write_pictures(&pictures, &args.plots, folder, written)
+}
+
+/// The other over this, where that says anything: skewness lies about zero.
+fn ratio(d: &Difference) -> Option<String> {
+    (d.indicator != Indicator::Skewness).then(|| short(d.second / d.first, 3))
+}
+
+/// What the signal's own lines say of the shaft's speed.
+fn shaft_lines(a: &Analysis) -> String {
+    if a.options.rotation.is_some() {
+        return "followed as stated".into();
     }
-    Ok(())
+    if a.shaft_lines.is_empty() {
+        return "no lines at its harmonics show it".into();
+    }
+    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
+    let off = a.shaft / a.options.shaft - 1.0;
+    let doubt = if off.abs() > SHAFT_DOUBT {
+        ", if they are this shaft's: another's, as fast to within the tolerance, would show the same"
+    } else {
+        ""
+    };
+    format!(
+        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
+        orders.join(", "),
+        60.0 * a.shaft,
+        100.0 * off
+    )
 }
 
 fn tell(result: &Result_, written: &[PathBuf]) {
@@ -363,12 +386,7 @@ fn tell(result: &Result_, written: &[PathBuf]) {
     for note in &m.notes {
         say!("  {note}");
     }
-    let refined = if a.shaft_found {
-        format!("; its own lines say {:.2} r/min", 60.0 * a.shaft)
-    } else {
-        "; no line of its own shows it".into()
-    };
-    say!("  {}{refined}", result.speed);
+    say!("  {}; {}", result.speed, shaft_lines(a));
     say!("  bearing: {}", result.bearing);
     say!("\n{}\n", a.verdict());
     let rows: Vec<String> = (a.indicators.iter())
@@ -414,11 +432,11 @@ fn tell(result: &Result_, written: &[PathBuf]) {
         );
         for d in &other.comparison.indicators {
             say!(
-                "    {:<16} {:>12} {:>12}  x {}{}",
+                "    {:<16} {:>12} {:>12}  {}{}",
                 d.indicator.name(),
                 short(d.first, 4),
                 short(d.second, 4),
-                short(d.second / d.first, 3),
+                ratio(d).map_or("-".into(), |r| format!("x {r}")),
                 match d.indicator.has_unit() {
                     true => format!(", in {}", m.unit.name),
                     false => String::new(),

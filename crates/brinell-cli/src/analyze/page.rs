@@ -1,6 +1,6 @@
 //! The page of an analysis, from its findings.
 
-use super::Result_;
+use super::{Result_, ratio};
 use crate::say::short;
 use brinell::analysis::{Analysis, Component};
 use brinell::signal::{Estimate, Indicator, Spectrum};
@@ -8,6 +8,8 @@ use brinell_report::{AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Se
 
 /// Most samples of a waveform that the page is given: more are not seen.
 const WAVEFORM: usize = 1 << 20;
+/// Most letters of a name of file or channel in titles and legends.
+const LONGEST_NAME: usize = 24;
 
 pub(super) fn report(result: &Result_) -> AnalysisReport {
     let (m, a) = (&result.measured, &result.analysis);
@@ -19,7 +21,11 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             .and_then(|f| f.file_name())
             .or_else(|| m.path.file_name())
             .map(|n| n.to_string_lossy().into_owned());
-        format!("{} · {}", file.unwrap_or_default(), m.channel)
+        format!(
+            "{} · {}",
+            shortened(&file.unwrap_or_default()),
+            shortened(&m.channel)
+        )
     };
     let quantity = m.unit.quantity.words();
     let mut notes = m.notes.clone();
@@ -111,6 +117,17 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     page.tables.push(indicators(result));
     page.tables.push(bands(a));
     page
+}
+
+/// A name that fits a legend: of a long one its ends, which tell most.
+fn shortened(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= LONGEST_NAME {
+        return name.to_owned();
+    }
+    let (head, tail) = (LONGEST_NAME / 2, LONGEST_NAME - LONGEST_NAME / 2 - 1);
+    let of = |part: &[char]| part.iter().collect::<String>();
+    format!("{}…{}", of(&letters[..head]), of(&letters[letters.len() - tail..]))
 }
 
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
@@ -348,7 +365,7 @@ fn differences(result: &Result_) -> Vec<Table> {
                 short(d.first, 4),
                 short(d.second, 4),
                 unit,
-                short(d.second / d.first, 3),
+                ratio(d).unwrap_or("–".into()),
                 apart.into(),
             ]
         })

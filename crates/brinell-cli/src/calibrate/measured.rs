@@ -72,10 +72,9 @@ pub(super) fn pattern(
             time_channel: args.time_channel.as_deref(),
             time_unit: args.time_unit.as_deref(),
             unit: args.unit.as_deref(),
-            speed_channel: None,
             start: args.start,
             duration: args.duration,
-            whose: "",
+            ..Wanted::default()
         },
     )?;
     let name = measured.path.display().to_string();

@@ -200,7 +200,8 @@ fn function(
         }
         while lines.expect()?.trim_end() != "    -1" {}
     }
-    for (i, key) in ["name", "description", "date"].iter().enumerate().skip(1) {
+    let keys = ["name", "description", "date", "id4", "id5"];
+    for (i, key) in keys.iter().enumerate().skip(1) {
         let text = records[i].trim();
         if !text.is_empty() && text != "NONE" {
             metadata

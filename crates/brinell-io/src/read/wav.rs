@@ -7,6 +7,8 @@
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
+use serde_json::{Map, Value};
+
 use super::channel::{Channel, Rate, RateSource};
 use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give};
@@ -80,7 +82,12 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
     let (start, bytes) = data.ok_or_else(|| damaged("it has no `data` chunk"))?;
     let frame = u64::from(layout.channels) * layout.stored.bytes() as u64;
     let frames = bytes / frame;
-    let brinell = names_and_units(&metadata);
+    let comment = comment(&metadata);
+    let brinell = comment.as_ref().map(names_and_units).unwrap_or_default();
+    // What brinell's comment says of the table stands beside it, as in its other formats.
+    let said = comment.iter().flat_map(|c| c.iter());
+    let said = said.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
+    metadata.pairs.extend(said);
     let channels = (0..layout.channels)
         .map(|i| {
             let mut channel =
@@ -173,12 +180,17 @@ fn info(reader: &mut impl Read, size: u64, metadata: &mut Metadata) -> Result<()
     Ok(())
 }
 
-/// Name and unit of each channel from brinell's own comment.
-fn names_and_units(metadata: &Metadata) -> Vec<(String, String)> {
+/// Brinell's own comment.
+fn comment(metadata: &Metadata) -> Option<Map<String, Value>> {
+    let comment: Map<String, Value> = serde_json::from_str(metadata.get("ICMT")?).ok()?;
+    comment.contains_key(keys::CHANNELS).then_some(comment)
+}
+
+/// Name and unit of each channel from that.
+fn names_and_units(comment: &Map<String, Value>) -> Vec<(String, String)> {
     let parse = || -> Option<Vec<(String, String)>> {
-        let comment: serde_json::Value = serde_json::from_str(metadata.get("ICMT")?).ok()?;
         let pairs = comment.get(keys::CHANNELS)?.as_array()?.iter();
-        let text = |v: &serde_json::Value, i: usize| Some(v.get(i)?.as_str()?.to_owned());
+        let text = |v: &Value, i: usize| Some(v.get(i)?.as_str()?.to_owned());
         pairs.map(|v| Some((text(v, 0)?, text(v, 1)?))).collect()
     };
     parse().unwrap_or_default()

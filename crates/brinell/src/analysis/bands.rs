@@ -78,11 +78,18 @@ pub(super) fn choose(x: &[f64], fs: f64, options: &Options) -> Result<Choice, An
                 range,
             ));
         }
+        if band.high > top && band.high.is_finite() {
+            return Err(AnalysisError::BandTooHigh {
+                high_hz: band.high,
+                most_hz: top,
+            });
+        }
+        // Everything above the lower edge.
         let band = Band::between(band.low, band.high.min(top));
         // An envelope holds nothing above its band's width.
         let needed = HARMONICS_IN_BAND * highest(options);
         if band.high - band.low < needed {
-            return Err(super::AnalysisError::BandTooNarrow {
+            return Err(AnalysisError::BandTooNarrow {
                 width_hz: band.high - band.low,
                 needed_hz: needed,
             });

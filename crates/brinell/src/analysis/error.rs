@@ -1,5 +1,6 @@
 //! Why there is no analysis.
 
+use super::Unit;
 use crate::signal::SignalError;
 
 /// What is wrong with the signal, or with what was asked of it.
@@ -60,7 +61,7 @@ pub enum AnalysisError {
     },
     /// A band to demodulate whose envelope cannot hold the lines sought.
     #[error(
-        "the band to demodulate is {width_hz:.1} Hz wide, as far as the sample rate reaches: expected {needed_hz:.1} Hz or more, for two harmonics \
+        "the band to demodulate is {width_hz:.1} Hz wide: expected {needed_hz:.1} Hz or more, for two harmonics \
          of the highest defect frequency in its envelope"
     )]
     BandTooNarrow {
@@ -68,6 +69,22 @@ pub enum AnalysisError {
         width_hz: f64,
         /// The least that would do, Hz.
         needed_hz: f64,
+    },
+    /// A band to demodulate that reaches beyond what the signal holds.
+    #[error(
+        "the band to demodulate ends at {high_hz} Hz: expected at most {most_hz} Hz, half the sample rate"
+    )]
+    BandTooHigh {
+        /// Its upper edge, Hz.
+        high_hz: f64,
+        /// Half the sample rate, Hz.
+        most_hz: f64,
+    },
+    /// A unit that nobody knows.
+    #[error("no unit is called `{spelling}`; known are {}", Unit::KNOWN)]
+    UnknownUnit {
+        /// As it was given.
+        spelling: String,
     },
     /// No defect frequency to look for.
     #[error("no defect frequency is known, so there is nothing to look for")]

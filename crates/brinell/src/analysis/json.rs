@@ -53,7 +53,8 @@ pub fn to_json(
         "shaft": {
             "given_hz": analysis.options.shaft,
             "used_hz": analysis.shaft,
-            "found_in_signal": analysis.shaft_found,
+            "found_in_signal": !analysis.shaft_lines.is_empty(),
+            "harmonics_found": analysis.shaft_lines,
         },
         "bands": analysis.views.iter().enumerate().map(|(i, v)| json!({
             "low_hz": v.band.band.low,

@@ -28,6 +28,9 @@ impl Mains {
 
 /// Chance under noise at which a line of the shaft counts as found.
 const SHAFT_LEVEL: f64 = 1e-4;
+/// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a whole bin, any line
+/// within the tolerance would agree with any other.
+const AGREE: f64 = 0.5;
 /// Bins to either side of a known line that are filled with the noise about it: Hann's main lobe.
 const FILL: f64 = 2.0;
 /// A comb with fewer bins from line to line is left alone: filled, it would leave little of the spectrum.
@@ -44,8 +47,22 @@ const KNOWN: f64 = 0.0025;
 /// How far the mains wander from their nominal frequency, relative, with the logger's clock.
 const MAINS_WANDERS: f64 = 0.002;
 
-/// Shaft speed, Hz, by its own harmonics in the spectrum within the tolerance; as given where they do not stand.
-pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool), AnalysisError> {
+/// A shaft's speed by lines at its harmonics.
+pub(super) struct ShaftLines {
+    /// Hz.
+    pub(super) speed: f64,
+    /// Which harmonics: two or more.
+    pub(super) orders: Vec<usize>,
+}
+
+/// Shaft speed by its own harmonics in the spectrum within the tolerance; `None` where they do not stand.
+///
+/// Another shaft's lines within the tolerance look the same: nothing in the signal tells the two apart.
+pub(super) fn shaft(
+    x: &[f64],
+    fs: f64,
+    options: &Options,
+) -> Result<Option<ShaftLines>, AnalysisError> {
     // Bins a fortieth of the shaft's frequency apart: 2 % are then a bin or so at the first harmonics.
     let length = (40.0 * fs / options.shaft).max(256.0) as usize;
     let length = super::fast_length(length.min(x.len()));
@@ -62,10 +79,10 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
         .filter(|l| !near_mains(l.frequency))
         .map(|l| (f64::from(l.order), l.frequency))
         .collect();
-    // The speed that most lines agree on to within a bin, then least squares of those.
+    // The speed that most lines agree on, then least squares of those.
     let agree = |f: f64| {
         mine.iter()
-            .filter(move |(h, at)| (h * f - at).abs() <= step)
+            .filter(move |(h, at)| (h * f - at).abs() <= AGREE * step)
     };
     let best = (mine.iter().map(|(h, at)| at / h))
         .rev()
@@ -77,10 +94,13 @@ pub(super) fn shaft(x: &[f64], fs: f64, options: &Options) -> Result<(f64, bool)
         orders().count() >= 2 && orders().any(|o| o <= 2) && common <= 2
     };
     let Some(best) = best.filter(|f| own(*f)) else {
-        return Ok((options.shaft, false));
+        return Ok(None);
     };
     let (above, below) = agree(best).fold((0.0, 0.0), |(a, b), (h, at)| (a + h * at, b + h * h));
-    Ok((above / below, true))
+    Ok(Some(ShaftLines {
+        speed: above / below,
+        orders: agree(best).map(|(h, _)| *h as usize).collect(),
+    }))
 }
 
 /// The combs of shaft and mains that stand in any of several spectra, Hz: what modulates one band modulates others, if more

@@ -108,10 +108,12 @@ pub struct Analysis {
     pub samples: usize,
     /// Mean that was removed.
     pub mean: f64,
-    /// Shaft speed, Hz, as refined from the shaft's own lines, or as given.
+    /// Shaft speed, Hz, as refined from lines at its harmonics, or as given.
     pub shaft: f64,
-    /// Whether the signal itself shows the shaft's speed.
+    /// Whether it is known: from lines of the signal, or as it was followed.
     pub shaft_found: bool,
+    /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
+    pub shaft_lines: Vec<usize>,
     /// Indicators of the signal less its mean, with intervals from blocks of revolutions.
     pub indicators: Vec<(Indicator, Estimate)>,
     /// Amplitude spectrum, averaged.
@@ -169,7 +171,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         let choice = scope.spawn(|| bands::choose(&x, fs, options));
         let shaft = scope.spawn(|| match options.rotation {
             // Followed, it is known.
-            Some(_) => Ok((options.shaft, true)),
+            Some(_) => Ok(None),
             None => known_lines::shaft(&x, fs, options),
         });
         let transformed = view::transformed(&x, fs);
@@ -182,7 +184,11 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         )
     });
     let (spectrum, choice) = (spectrum?, choice?);
-    let (shaft, shaft_found) = shaft?;
+    let (shaft, shaft_lines) = match shaft? {
+        Some(found) => (found.speed, found.orders),
+        None => (options.shaft, Vec::new()),
+    };
+    let shaft_found = options.rotation.is_some() || !shaft_lines.is_empty();
     let transformed = transformed?;
     let samples = x.len();
     drop(x);
@@ -210,6 +216,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         mean,
         shaft,
         shaft_found,
+        shaft_lines,
         indicators,
         spectrum,
         kurtogram: choice.best,

@@ -1,5 +1,7 @@
 //! Units of vibration signals.
 
+use super::AnalysisError;
+
 /// What a signal is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -37,18 +39,39 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Of a spelling; one that is not known stays as it is and measures [`Quantity::Other`].
+    /// Units that a user may name; the last line is of raw signals, whose scale to vibration nobody states.
+    pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
+
+    /// Of a file's spelling; one that is not known stays as it is and measures [`Quantity::Other`].
     pub fn of(spelling: &str) -> Self {
-        use Quantity::{Acceleration, Displacement, Velocity};
-        let text = spelling.trim();
-        let plain: String = (text.chars().filter(|c| !c.is_whitespace()))
+        Unit::known(spelling).unwrap_or_else(|| Unit {
+            name: spelling.trim().to_owned(),
+            quantity: Quantity::Other,
+            to_si: 1.0,
+        })
+    }
+
+    /// Of a user's spelling, who shall hear of a slip.
+    ///
+    /// # Errors
+    /// [`AnalysisError::UnknownUnit`] for any that is not of [`Unit::KNOWN`].
+    pub fn given(spelling: &str) -> Result<Self, AnalysisError> {
+        Unit::known(spelling).ok_or_else(|| AnalysisError::UnknownUnit {
+            spelling: spelling.trim().to_owned(),
+        })
+    }
+
+    fn known(spelling: &str) -> Option<Self> {
+        use Quantity::{Acceleration, Displacement, Other, Velocity};
+        let plain: String = (spelling.chars().filter(|c| !c.is_whitespace()))
             .map(|c| if c == '²' { '2' } else { c })
             .filter(|c| *c != '^' && *c != '*')
             .flat_map(char::to_lowercase)
             .collect();
-        let known = match plain.as_str() {
+        let (name, quantity, to_si) = match plain.as_str() {
             "m/s2" | "m/s/s" | "ms-2" | "m/sec2" => ("m/s^2", Acceleration, 1.0),
             "mm/s2" => ("mm/s^2", Acceleration, 1e-3),
+            "in/s2" => ("in/s^2", Acceleration, 0.0254),
             "g" | "gn" | "g0" => ("g", Acceleration, 9.80665),
             "mg" => ("mg", Acceleration, 9.80665e-3),
             "m/s" => ("m/s", Velocity, 1.0),
@@ -57,13 +80,21 @@ impl Unit {
             "m" => ("m", Displacement, 1.0),
             "mm" => ("mm", Displacement, 1e-3),
             "um" | "µm" | "μm" => ("µm", Displacement, 1e-6),
-            _ => (text, Quantity::Other, 1.0),
+            "v" | "volt" | "volts" => ("V", Other, 1.0),
+            "mv" => ("mV", Other, 1.0),
+            "uv" | "µv" | "μv" => ("µV", Other, 1.0),
+            "a" => ("A", Other, 1.0),
+            "ma" => ("mA", Other, 1.0),
+            "n" => ("N", Other, 1.0),
+            "pa" => ("Pa", Other, 1.0),
+            "count" | "counts" => ("counts", Other, 1.0),
+            _ => return None,
         };
-        Unit {
-            name: known.0.to_owned(),
-            quantity: known.1,
-            to_si: known.2,
-        }
+        Some(Unit {
+            name: name.to_owned(),
+            quantity,
+            to_si,
+        })
     }
 }
 
@@ -79,10 +110,23 @@ mod tests {
             ("G", "g", 9.80665),
             ("mm/s", "mm/s", 1e-3),
             ("V", "V", 1.0),
+            ("furlong", "furlong", 1.0),
         ] {
             let unit = Unit::of(text);
             assert_eq!((unit.name.as_str(), unit.to_si), (name, si));
         }
         assert_eq!(Unit::of("V").quantity, Quantity::Other);
+    }
+
+    #[test]
+    fn prop_every_unit_that_is_listed_is_known_and_others_are_refused() {
+        for name in Unit::KNOWN.split([',', ';']).map(str::trim) {
+            let name = name.rsplit(' ').next().unwrap_or(name);
+            if name != "signal" {
+                assert!(Unit::given(name).is_ok(), "{name}");
+            }
+        }
+        let refused = Unit::given(" furlong ").unwrap_err().to_string();
+        assert!(refused.starts_with("no unit is called `furlong`; known are m/s^2"));
     }
 }

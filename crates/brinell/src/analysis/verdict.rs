@@ -20,6 +20,10 @@ const MODULATED: f64 = 0.01;
 /// A further cause modulates the envelope by at least this share of the strongest one's.
 const FURTHER: f64 = 0.25;
 
+/// Harmonics, and the chance of noise, from which evidence is called clear.
+const FEWEST_TO_BE_CLEAR: usize = 3;
+const CLEAR: f64 = 1e-3;
+
 /// How much a finding says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strength {
@@ -71,7 +75,7 @@ impl Finding {
     pub fn clarity(&self) -> &'static str {
         match (self.evidence.shown(), self.false_alarm) {
             (4.., p) if p < 1e-6 => "very clear",
-            (3.., p) if p < 1e-3 => "clear",
+            (FEWEST_TO_BE_CLEAR.., p) if p < CLEAR => "clear",
             _ => "weak",
         }
     }
@@ -359,9 +363,10 @@ pub(super) fn words(analysis: &Analysis) -> String {
                 told(analysis, first)
             ));
             text.push(format!(
-                "The evidence is {}: noise alone would show as much with a chance of at most {}.",
+                "The evidence is {}: noise alone would show as much with a chance of at most {}{}.",
                 first.clarity(),
-                power(first.false_alarm)
+                power(first.false_alarm),
+                reserve(analysis, first)
             ));
             for other in rest {
                 text.push(format!(
@@ -400,6 +405,19 @@ pub(super) fn words(analysis: &Analysis) -> String {
         text.push(doubt(analysis, beyond));
     }
     text.join(" ")
+}
+
+/// Why evidence is weak that noise does not explain.
+fn reserve(analysis: &Analysis, finding: &Finding) -> String {
+    let shown = finding.evidence.shown();
+    if shown >= FEWEST_TO_BE_CLEAR || finding.false_alarm >= CLEAR {
+        return String::new();
+    }
+    format!(
+        ", but only {shown} of {} harmonics {}, and so few may be another source's",
+        analysis.options.harmonics,
+        if shown == 1 { "stands" } else { "stand" }
+    )
 }
 
 /// What stands beyond the tolerance, and what would make sense of it.

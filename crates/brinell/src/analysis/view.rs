@@ -16,6 +16,8 @@ const RESOLUTIONS: [f64; 2] = [8.0, 40.0];
 const ENVELOPE_RATE: f64 = 8.0;
 /// Part of the gap between two defect frequencies that a search for either covers.
 const CLEAR: f64 = 0.4;
+/// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
+const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// FTF over the shaft's frequency where nobody said.
 const USUAL_FTF: f64 = 0.4;
 
@@ -89,9 +91,9 @@ pub(super) fn looking(options: &Options, tests: f64) -> DiagnosisOptions {
     }
 }
 
-/// The transform of as much of a signal, sampled at `fs` Hz, as is transformed fast.
+/// The transform of as much of a signal, sampled at `fs` Hz, as is transformed fast, with a trace of noise.
 pub(super) fn transformed(x: &[f64], fs: f64) -> Result<Transformed, AnalysisError> {
-    Ok(Transformed::of(&x[..fast_length(x.len())], fs)?)
+    Ok(Transformed::of(&x[..fast_length(x.len())], fs)?.dithered(DITHER))
 }
 
 /// Every band at every resolution that the signal's length allows.

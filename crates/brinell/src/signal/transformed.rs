@@ -9,6 +9,7 @@ use super::envelope::{Band, bins, moduli};
 use super::error::{SignalError, check};
 use super::interleaved::Interleaved;
 use super::spectrum::FEWEST_SAMPLES;
+use crate::random::Random;
 
 /// An envelope thinned out.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +41,21 @@ impl Transformed {
         let plan = Interleaved::new(x.len());
         let bins = plan.forward(x, &mut plan.room());
         Transformed { fs, bins, plan }
+    }
+
+    /// The same with white noise of `relative` times the signal's RMS, by a seed of its own. Where a signal holds nothing, as a computed tone
+    /// between its lines, there is round-off, whose pattern no chance explains.
+    #[must_use]
+    pub fn dithered(mut self, relative: f64) -> Self {
+        let power: f64 = self.bins.iter().map(Complex::norm_sqr).sum();
+        // Noise of unit RMS has bins whose parts have a variance of half the samples; that of +-1 is a third.
+        let most = relative * (3.0 * power / self.samples() as f64).sqrt();
+        let mut random = Random::new(1);
+        let mut part = || most * (2.0 * random.part() - 1.0);
+        for bin in &mut self.bins {
+            *bin += Complex::new(part(), part());
+        }
+        self
     }
 
     /// Sample rate, Hz.
@@ -128,6 +144,20 @@ mod tests {
     use super::*;
 
     const FS: f64 = 25_600.0;
+
+    #[test]
+    fn prop_dither_is_as_strong_as_it_says_and_alike_in_every_band() {
+        let n = 48_000;
+        let x: Vec<f64> = (0..n).map(|i| (0.3 * f64::from(i)).sin()).collect();
+        let dithered = Transformed::of(&x, FS).unwrap().dithered(1e-6);
+        // 0.3 a sample is 1222 Hz. The envelope of noise in a fraction b of the spectrum has a mean of RMS sqrt(b pi / 2).
+        let rms = 1e-6 * 0.5f64.sqrt();
+        for low in [4000.0, 8000.0] {
+            let mean = dithered.envelope(Band::between(low, low + 3200.0), 1).mean;
+            let expected = rms * (0.25 * std::f64::consts::FRAC_PI_2).sqrt();
+            assert!((mean / expected - 1.0).abs() < 0.05, "{mean:e} {expected:e}");
+        }
+    }
 
     #[test]
     fn prop_means_over_neighbours_are_those_of_the_envelope() {

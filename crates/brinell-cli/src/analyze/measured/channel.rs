@@ -111,15 +111,24 @@ fn shortened(names: Vec<String>) -> String {
     }
 }
 
+/// The channel to analyse.
+pub(super) enum Chosen {
+    /// This one.
+    One(String, Channel),
+    /// One of these; the words ask which.
+    Among(Vec<Channel>, String),
+}
+
 pub(super) fn channel(
     file: &SignalFile,
     wanted: &Wanted,
     run: Option<&Loaded>,
     notes: &mut Vec<String>,
-) -> Result<(String, Channel), Failure> {
+) -> Result<Chosen, Failure> {
     let option = format!("--{}channel", wanted.whose);
+    let one = |(name, channel)| Chosen::One(name, channel);
     if let Some(text) = wanted.channel {
-        return resolve(file, text, &option);
+        return resolve(file, text, &option).map(one);
     }
     if let Some(run) = run {
         let load = run.scenario.operation.load_n;
@@ -132,30 +141,32 @@ pub(super) fn channel(
             notes.push(format!(
                 "channel {along}, along the load, as nobody named one"
             ));
-            return Ok((found.name.clone(), found.clone()));
+            return Ok(one((found.name.clone(), found.clone())));
         }
     }
     let signals: Vec<&Channel> = (file.channels().iter())
         .filter(|c| c.may_be_signal() && time_unit(c).is_none() && !is_time(c))
         .collect();
+    let among = |words: String| {
+        let signals = signals.iter().map(|c| (*c).clone()).collect();
+        Ok(Chosen::Among(signals, words))
+    };
     match signals[..] {
-        [only] if is_matrix(only) => Err(usage(format!(
-            "{}: `{name}` is {} x {}; choose a column, as {option} '{name}(:,1)', or a row, as {option} '{name}(1,:)'",
-            file.path().display(),
+        [only] if is_matrix(only) => among(format!(
+            "`{name}` is {} x {}; choose a column, as {option} '{name}(:,1)', or a row, as {option} '{name}(1,:)'",
             only.shape[0],
             only.shape[1],
             name = only.name
-        ))),
-        [only] => Ok((only.name.clone(), only.clone())),
+        )),
+        [only] => Ok(one((only.name.clone(), only.clone()))),
         [] => Err(usage(format!(
             "{}: nothing here is a signal: {}",
             file.path().display(),
             refused(file)
         ))),
-        _ => Err(usage(format!(
-            "{}: several channels may be the signal; choose one with {option}: {}",
-            file.path().display(),
-            listed(signals.into_iter())
-        ))),
+        _ => among(format!(
+            "several channels may be the signal; choose one with {option}: {}",
+            listed(signals.iter().copied())
+        )),
     }
 }

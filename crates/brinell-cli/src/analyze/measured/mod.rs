@@ -10,11 +10,11 @@ use crate::failure::Failure;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Speed;
-use brinell_io::{IoError, SignalFile, open};
-use channel::channel;
+use brinell_io::{Channel, IoError, SignalFile, open};
+use channel::{Chosen, channel};
 use rate::rate;
 pub(crate) use speed::StatedSpeed;
-use speed::speed;
+use speed::{speed, states_speed};
 use std::path::{Path, PathBuf};
 use stretch::stretch;
 pub(crate) use stretch::{Beyond, Reading, Rest};
@@ -36,6 +36,10 @@ pub(crate) struct Wanted<'a> {
     pub(crate) duration: Option<f64>,
     /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
     pub(crate) whose: &'static str,
+    /// Whether a shaft speed is asked for where the file states none.
+    pub(crate) ask_speed: bool,
+    /// Likewise the bearing.
+    pub(crate) ask_bearing: bool,
 }
 
 /// A stretch of one channel, with everything that is known of it.
@@ -59,8 +63,26 @@ pub(crate) struct Measured {
     pub(crate) scenario: Option<Box<Loaded>>,
 }
 
+/// What is asked where nobody says how fast the shaft turns.
+pub(super) const ASK_SPEED: &str = "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
+/// What is asked where nobody says which bearing it is.
+pub(super) const ASK_BEARING: &str = "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)";
+
 fn usage(message: String) -> Failure {
     Failure::Usage(message)
+}
+
+/// All that has to be given, at once.
+fn asking(path: &Path, asked: &[String]) -> Failure {
+    let path = path.display();
+    usage(match asked {
+        [only] => format!("{path}: {only}"),
+        _ => format!(
+            "{path}: {} things have to be given:\n  {}",
+            asked.len(),
+            asked.join("\n  ")
+        ),
+    })
 }
 
 /// Reads what was wanted.
@@ -69,24 +91,32 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let mut file = open(&path).map_err(bad)?;
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
-    let (name, channel) = channel(&file, wanted, scenario.as_deref(), &mut notes)?;
-    let (rate, rate_note) = rate(
-        &mut file,
-        &channel,
-        wanted,
-        scenario.is_some(),
-        &mut warnings,
-    )?;
+    let run = scenario.as_deref();
+    let mut asked = Vec::new();
+    let (name, channel) = match channel(&file, wanted, run, &mut notes)? {
+        Chosen::One(name, channel) => (name, channel),
+        Chosen::Among(channels, words) => {
+            asked.push(words);
+            // What any of them states is not asked for yet.
+            let states = |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
+            let most = channels.into_iter().rev().max_by_key(states);
+            most.map(|c| (c.name.clone(), c)).ok_or_else(|| asking(&path, &asked))?
+        }
+    };
+    let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
+    let unit = unit(&name, &channel, wanted, run, &mut notes, &mut warnings)?;
+    asked.extend(rate.as_ref().err().cloned());
+    asked.extend(unit.as_ref().err().cloned());
+    if wanted.ask_speed && !states_speed(&file, wanted, run, &name) {
+        asked.push(ASK_SPEED.into());
+    }
+    if wanted.ask_bearing && run.is_none() {
+        asked.push(ASK_BEARING.into());
+    }
+    let (Ok((rate, rate_note)), Ok(unit), []) = (rate, unit, &asked[..]) else {
+        return Err(asking(&path, &asked));
+    };
     notes.push(rate_note);
-    let unit = unit(
-        &path,
-        &name,
-        &channel,
-        wanted,
-        scenario.as_deref(),
-        &mut notes,
-        &mut warnings,
-    )?;
 
     let positive = |option: &str, value: Option<f64>, least: f64| match value {
         Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
@@ -193,7 +223,11 @@ fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
         .find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))
         .map(|(_, text)| text.clone());
     let beside = || {
-        let own = path.file_stem()? == "signals" && file.channels().first()?.name == "t";
+        // CSV has no place for a word of brinell's, and UFF has one without room.
+        let words = file.metadata().pairs.iter();
+        let signed = words.into_iter().any(|(_, v)| v.starts_with("brinell "));
+        let own = path.file_stem()? == "signals"
+            && (signed || file.channels().first()?.name == "t");
         own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?
     };
     let text = carried.or_else(beside)?;

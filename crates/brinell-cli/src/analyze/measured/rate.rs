@@ -3,6 +3,7 @@
 use super::channel::resolve;
 use super::{Wanted, stretch, usage};
 use crate::failure::Failure;
+use crate::say::short;
 use brinell_io::{Channel, RateSource, SignalFile};
 
 /// Steps between times may differ by so much from their mean, relative, before a rate is refused.
@@ -41,23 +42,45 @@ fn seconds(unit: &str) -> Option<f64> {
     })
 }
 
-/// The rate of a column of times whose unit the file states, and that column.
-fn by_times(file: &mut SignalFile) -> Option<(f64, String)> {
+/// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the column's name.
+fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
     let channels = file.channels().iter();
     let (name, unit) = channels
         .filter(|c| c.may_be_signal())
         .find_map(|c| Some((c.name.clone(), time_unit(c)?)))?;
     let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
-    Some((even(&times, unit).ok()?, format!("the column `{name}`")))
+    Some((even(&times, unit), name))
 }
 
+/// A warning, where a rate that was given is not the one that the file tells.
+fn contradiction(
+    given: &str,
+    hz: f64,
+    stated: Option<(f64, String)>,
+    file: &mut SignalFile,
+) -> Option<String> {
+    let (other, place) = match (stated, by_times(file)) {
+        (Some(stated), _) => stated,
+        (None, None) => return None,
+        (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
+        (None, Some((Err(why), name))) => {
+            return Some(format!(
+                "{given} Hz was taken, but the times in `{name}` tell no rate: {why}"
+            ));
+        }
+    };
+    ((other / hz - 1.0).abs() > DIFFERS)
+        .then(|| format!("{given} Hz was taken, but {place} says {other} Hz"))
+}
+
+/// The rate and where it comes from; `Err` within are the words that ask for it.
 pub(super) fn rate(
     file: &mut SignalFile,
     channel: &Channel,
     wanted: &Wanted,
     own: bool,
     warnings: &mut Vec<String>,
-) -> Result<(f64, String), Failure> {
+) -> Result<Result<(f64, String), String>, Failure> {
     let stated = channel.rate.as_ref().map(|rate| {
         let place = match &rate.source {
             RateSource::Header(field) => format!("the file's header ({field})"),
@@ -70,16 +93,16 @@ pub(super) fn rate(
         if !(given > 0.0 && given.is_finite()) {
             return Err(usage(format!("{option} {given}: expected more than 0 Hz")));
         }
-        let stated = stated.or_else(|| by_times(file));
-        if let Some((hz, place)) = stated.filter(|(hz, _)| (hz / given - 1.0).abs() > DIFFERS) {
-            warnings.push(format!(
-                "{option} {given} Hz was taken, but {place} says {hz} Hz"
-            ));
-        }
-        return Ok((given, format!("sample rate {given} Hz, as given")));
+        warnings.extend(contradiction(
+            &format!("{option} {given}"),
+            given,
+            stated,
+            file,
+        ));
+        return Ok(Ok((given, format!("sample rate {given} Hz, as given"))));
     }
     if let Some((hz, place)) = stated {
-        return Ok((hz, format!("sample rate {hz} Hz, from {place}")));
+        return Ok(Ok((hz, format!("sample rate {hz} Hz, from {place}"))));
     }
     let time = match wanted.time_channel {
         Some(text) => Some(resolve(file, text, "--time-channel")?.1),
@@ -90,9 +113,8 @@ pub(super) fn rate(
             .cloned(),
     };
     let Some(time) = time else {
-        return Err(usage(format!(
-            "{}: the file states no sample rate; give {option} HZ",
-            file.path().display()
+        return Ok(Err(format!(
+            "the file states no sample rate; give {option} HZ"
         )));
     };
     let unit = match (wanted.time_unit, time.unit.as_deref().and_then(seconds)) {
@@ -102,9 +124,8 @@ pub(super) fn rate(
         // By brinell's own contract.
         (None, None) if own && time.name == "t" => 1.0,
         (None, None) => {
-            return Err(usage(format!(
-                "{}: the file states no sample rate, and no unit for its times in `{}`; give {option} HZ{}",
-                file.path().display(),
+            return Ok(Err(format!(
+                "the file states no sample rate, and no unit for its times in `{}`; give {option} HZ{}",
                 time.name,
                 if wanted.whose.is_empty() {
                     ", or --time-unit s"
@@ -122,10 +143,8 @@ pub(super) fn rate(
             time.name
         ))
     })?;
-    Ok((
-        hz,
-        format!("sample rate {hz} Hz, from the times in `{}`", time.name),
-    ))
+    let place = format!("sample rate {hz} Hz, from the times in `{}`", time.name);
+    Ok(Ok((hz, place)))
 }
 
 /// The rate of evenly spaced times; `Err` says what is wrong with them.
@@ -149,11 +168,18 @@ fn even(times: &[f64], unit: f64) -> Result<f64, String> {
         .iter()
         .enumerate()
         .all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
-    if let Some((i, w)) = off.filter(|_| !rounded) {
+    if off.is_some() && !rounded {
+        let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+        let middle = steps.len() / 2;
+        let usual = *steps.clone().select_nth_unstable_by(middle, f64::total_cmp).1;
+        let away = |(_, step): &(usize, &f64)| (*step - usual).abs();
+        let worst = (steps.iter().enumerate()).max_by(|a, b| away(a).total_cmp(&away(b)));
+        let (i, step) = worst.unwrap_or((0, &usual));
         return Err(format!(
-            "its steps are uneven ({} after {} values, {step} on average)",
-            w[1] - w[0],
-            i + 1
+            "its steps are uneven ({} after {} values, where {} is usual)",
+            short(*step, 5),
+            i + 1,
+            short(usual, 5)
         ));
     }
     let hz = 1.0 / (step * unit);

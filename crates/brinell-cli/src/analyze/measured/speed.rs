@@ -4,8 +4,10 @@ use super::channel::resolve;
 use super::{MOST, Wanted, stretch, usage};
 use crate::failure::Failure;
 use brinell::document::Loaded;
+use brinell::operation::Rotation;
 use brinell::scenario::Speed;
 use brinell_io::SignalFile;
+use std::f64::consts::PI;
 
 /// A speed that strays from its mean by more than this share is followed; below, the tolerance covers it.
 const VARIES: f64 = 0.005;
@@ -71,51 +73,101 @@ pub(super) fn speed(
                 values.len()
             )));
         }
-        let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-            (l.min(p.1), h.max(p.1))
-        });
-        if low <= 0.0 && high >= 0.0 {
-            return Err(usage(format!(
-                "--speed-channel {name}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way"
-            )));
-        }
-        let source = format!(
-            "{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft"
-        );
-        return Ok(Some(StatedSpeed {
-            rpm: mean,
-            source,
-            course,
-        }));
+        return followed(mean, course, &source, &format!("--speed-channel {name}")).map(Some);
     }
     if let Some(run) = run {
+        let source = "the scenario of the run in the file";
         if let Speed::Constant(rpm) = run.scenario.operation.speed_rpm {
-            let source = "the scenario of the run in the file".into();
-            return Ok(Some(StatedSpeed::steady(rpm, source)));
+            return Ok(Some(StatedSpeed::steady(rpm, source.into())));
         }
-        return Ok(None);
+        let (mean, course) = prescribed(&run.scenario.operation.speed_rpm, start, seconds);
+        if !varies(&course, mean) {
+            return Ok(Some(StatedSpeed::steady(mean, source.into())));
+        }
+        return followed(mean, course, source, "operation.speed_rpm").map(Some);
     }
-    // A single number called like a speed, as X097RPM beside X097_DE_time.
-    let prefix: String = signal
-        .chars()
-        .take_while(char::is_ascii_alphanumeric)
-        .collect();
-    let named: Vec<String> = (file.channels().iter())
-        .filter(|c| c.length == Some(1) && c.unreadable.is_none())
-        .map(|c| c.name.clone())
-        .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
-        .collect();
-    let mine: Vec<&String> = named.iter().filter(|n| n.starts_with(&prefix)).collect();
-    let name = match (&mine[..], &named[..]) {
-        ([only], _) => (*only).clone(),
-        (_, [only]) => only.clone(),
-        _ => return Ok(None),
+    let Some(name) = variable(file, signal) else {
+        return Ok(None);
     };
     let (values, _) = stretch(file, &name, 0, 1)?;
     Ok((values.first().filter(|v| v.is_finite())).map(|rpm| {
         let source = format!("the variable `{name}` in the file, taken as r/min");
         StatedSpeed::steady(*rpm, source)
     }))
+}
+
+/// Whether a speed follows from the file, or from a channel that was named.
+pub(super) fn states_speed(
+    file: &SignalFile,
+    wanted: &Wanted,
+    run: Option<&Loaded>,
+    signal: &str,
+) -> bool {
+    wanted.speed_channel.is_some() || run.is_some() || variable(file, signal).is_some()
+}
+
+/// A single number called like a speed, as X097RPM beside X097_DE_time.
+fn variable(file: &SignalFile, signal: &str) -> Option<String> {
+    let prefix: String = signal
+        .chars()
+        .take_while(char::is_ascii_alphanumeric)
+        .collect();
+    let named: Vec<&str> = (file.channels().iter())
+        .filter(|c| c.length == Some(1) && c.unreadable.is_none())
+        .map(|c| c.name.as_str())
+        .filter(|n| n.to_lowercase().trim_end_matches("_").ends_with("rpm"))
+        .collect();
+    let mine: Vec<&str> = (named.iter().copied())
+        .filter(|n| n.starts_with(&prefix))
+        .collect();
+    match (&mine[..], &named[..]) {
+        ([only], _) | (_, [only]) => Some((*only).to_owned()),
+        _ => None,
+    }
+}
+
+/// A speed that varies, which has to keep its sign: `of` is what states it.
+fn followed(
+    rpm: f64,
+    course: Vec<(f64, f64)>,
+    source: &str,
+    of: &str,
+) -> Result<StatedSpeed, Failure> {
+    let (low, high) = (course.iter()).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
+        (l.min(p.1), h.max(p.1))
+    });
+    if low <= 0.0 && high >= 0.0 {
+        return Err(usage(format!(
+            "{of}: the speed goes from {low:.1} to {high:.1} r/min; expected a shaft that keeps turning one way: choose a stretch with \
+             --start and --duration"
+        )));
+    }
+    let source =
+        format!("{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft");
+    Ok(StatedSpeed {
+        rpm,
+        source,
+        course,
+    })
+}
+
+/// Mean speed and its course over a stretch of a run, both exact.
+fn prescribed(speed: &Speed, start: f64, seconds: f64) -> (f64, Vec<(f64, f64)>) {
+    let rotation = Rotation::new(speed);
+    let end = start + seconds;
+    let knots = match speed {
+        Speed::Constant(_) => &[][..],
+        Speed::Profile(points) => points,
+    };
+    let within = knots.iter().map(|k| k[0]).filter(|t| (start..end).contains(t) && *t > start);
+    let course = std::iter::once(start).chain(within).chain([end]);
+    let course = course.map(|t| (t - start, rotation.at(t).0 * 30.0 / PI)).collect();
+    let turned = rotation.at(end).1 - rotation.at(start).1;
+    (turned * 30.0 / PI / seconds, course)
+}
+
+fn varies(course: &[(f64, f64)], mean: f64) -> bool {
+    (course.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs())
 }
 
 /// Means over a tenth of a second or two turns, whichever is longer; none where they stay within [`VARIES`] of the mean.
@@ -128,6 +180,9 @@ fn course(values: &[f64], rate: f64, mean: f64) -> Vec<(f64, f64)> {
             (middle / rate, part.iter().sum::<f64>() / part.len() as f64)
         })
         .collect();
-    let varies = (points.iter()).any(|(_, v)| (v - mean).abs() > VARIES * mean.abs());
-    if varies { points } else { Vec::new() }
+    if varies(&points, mean) {
+        points
+    } else {
+        Vec::new()
+    }
 }

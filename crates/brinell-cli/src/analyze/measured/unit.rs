@@ -6,21 +6,20 @@ use brinell::analysis::Unit;
 use brinell::channel::measured;
 use brinell::document::Loaded;
 use brinell_io::Channel;
-use std::path::Path;
 
-#[allow(clippy::too_many_arguments)]
+/// The unit; `Err` within are the words that ask for it.
 pub(super) fn unit(
-    path: &Path,
     name: &str,
     channel: &Channel,
     wanted: &Wanted,
     run: Option<&Loaded>,
     notes: &mut Vec<String>,
     warnings: &mut Vec<String>,
-) -> Result<Unit, Failure> {
+) -> Result<Result<Unit, String>, Failure> {
     let stated = channel.unit.as_deref().map(Unit::of);
     if let Some(text) = wanted.unit {
-        let given = Unit::of(text);
+        let given = Unit::given(text)
+            .map_err(|error| usage(format!("--{}unit {text}: {error}", wanted.whose)))?;
         if let Some(other) = stated.filter(|s| s.name != given.name) {
             warnings.push(format!(
                 "--unit {} was taken, but the file says {}",
@@ -28,19 +27,18 @@ pub(super) fn unit(
             ));
         }
         notes.push(format!("unit {}, as given", given.name));
-        return Ok(given);
+        return Ok(Ok(given));
     }
     if let Some(unit) = stated {
         notes.push(format!("unit {}, from the file", unit.name));
-        return Ok(unit);
+        return Ok(Ok(unit));
     }
     if let Some(unit) = run.and_then(|run| own_unit(name, run)) {
         notes.push(format!("unit {unit}, as brinell's own channels have it"));
-        return Ok(Unit::of(unit));
+        return Ok(Ok(Unit::of(unit)));
     }
-    Err(usage(format!(
-        "{}: the file states no unit for `{name}`; give --{whose}unit, such as --{whose}unit g or --{whose}unit m/s^2",
-        path.display(),
+    Ok(Err(format!(
+        "the file states no unit for `{name}`; give --{whose}unit, such as --{whose}unit g or --{whose}unit m/s^2",
         whose = wanted.whose
     )))
 }
