@@ -200,37 +200,54 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
         let against = [&["--against", "y.csv"][..], more].concat();
         brinell(folder.path(), &with("x.csv", &against))
     };
-    over(&[])
-        .exits(2)
-        .complains(&["y.csv: the file states no sample rate; give --against-rate HZ"]);
+    over(&[]).exits(2).complains(&[
+        "y.csv: 2 things have to be given:",
+        "the file states no sample rate; give --against-rate HZ",
+        "give --against-unit, such as --against-unit g",
+    ]);
     over(&["--against-rate", "12000"])
         .exits(2)
-        .complains(&["give --against-unit, such as --against-unit g"]);
+        .complains(&["y.csv: the file states no unit", "--against-unit m/s^2"]);
+    over(&["--against-rate", "12000", "--against-unit", "furlong"])
+        .exits(2)
+        .complains(&["--against-unit furlong: no unit is called `furlong`"]);
     over(&["--against-rate", "12000", "--against-unit", "g"])
         .exits(0)
         .says(&["the other over this"]);
     brinell(folder.path(), &with("x.csv", &["--band", "1000", "1010"]))
         .exits(2)
         .complains(&["is 10.0 Hz wide", "Hz or more, for two harmonics"]);
+    brinell(folder.path(), &with("x.csv", &["--band", "1000", "7000"]))
+        .exits(2)
+        .complains(&["ends at 7000 Hz: expected at most 6000 Hz, half the sample rate"]);
 }
 
 #[test]
 fn regress_what_the_file_does_not_say_is_asked_for() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));
+    let all = [
+        "the file states no sample rate; give --rate HZ",
+        "the file states no unit for",
+        "the file states no shaft speed",
+        "which bearing? Give --bearing NAME",
+    ];
+    brinell(folder.path(), &["analyze", "x.csv"])
+        .exits(2)
+        .complains(&["x.csv: 4 things have to be given:"])
+        .complains(&all);
     for (args, part) in [
         (
-            &["--unit", "g"][..],
-            "the file states no sample rate; give --rate HZ",
+            &["--unit", "g", "--speed", "1800", "--bearing", "6205"][..],
+            "x.csv: the file states no sample rate; give --rate HZ",
         ),
-        (&["--rate", "12000"], "the file states no unit for"),
         (
-            &["--rate", "12000", "--unit", "g"],
-            "the file states no shaft speed",
+            &["--rate", "12000", "--unit", "furlong"],
+            "--unit furlong: no unit is called `furlong`; known are m/s^2",
         ),
         (
             &["--rate", "12000", "--unit", "g", "--speed", "1800"],
-            "which bearing? Give --bearing NAME",
+            "x.csv: which bearing? Give --bearing NAME",
         ),
         (
             &["--rate", "-1", "--unit", "g"],
@@ -272,5 +289,114 @@ fn regress_what_the_file_does_not_say_is_asked_for() {
             .chain(args.iter().copied())
             .collect();
         brinell(folder.path(), &all).exits(2).complains(&[part]);
+    }
+}
+
+#[test]
+fn regress_which_of_two_channels_is_asked_with_all_the_rest() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("two.csv"), "a,b\n1,2\n2,3\n").unwrap();
+    brinell(folder.path(), &["analyze", "two.csv", "--rate", "12000"])
+        .exits(2)
+        .complains(&[
+            "two.csv: 4 things have to be given:",
+            "choose one with --channel: a, b",
+            "the file states no unit for",
+        ]);
+}
+
+#[test]
+fn regress_uneven_times_are_told_by_their_worst_step() {
+    let folder = tempdir().unwrap();
+    let mut text = String::from("time [s],acc [g]\n");
+    for (i, v) in signal(1.0, 0.0, 0.0).iter().enumerate() {
+        let gap = if i < 3000 { 0.0 } else { 0.5 };
+        let _ = writeln!(text, "{:.6},{v:.4}", i as f64 / FS + gap);
+    }
+    fs::write(folder.path().join("gap.csv"), text).unwrap();
+    let call = |more: &[&'static str]| {
+        let given = ["analyze", "gap.csv", "--speed", "1800", "--bearing", "6205"];
+        brinell(folder.path(), &[&given[..], more].concat())
+    };
+    let why = "its steps are uneven (0.50008 after 3000 values, where 8.3";
+    call(&[])
+        .exits(2)
+        .complains(&["no sample rate follows from `time [s]`", why]);
+    call(&["--rate", "12000"]).exits(0).complains(&[
+        "warning: --rate 12000 Hz was taken, but the times in `time [s]` tell no rate",
+        why,
+    ]);
+}
+
+/// What a run's files say of it: every format in its folder, and alone as far as it carries the scenario; a speed that varies is followed.
+#[test]
+fn regress_a_run_is_known_whatever_its_format() {
+    let folder = tempdir().unwrap();
+    let run = |name: &str, more: &[&'static str]| {
+        let out = format!("out/{name}");
+        let short = [
+            "run",
+            "s.toml",
+            "--no-report",
+            "--set",
+            "simulation.duration_s=0.4",
+            "-o",
+            &out,
+        ];
+        brinell(folder.path(), &[&short[..], more].concat()).exits(0);
+    };
+    brinell(folder.path(), &["init", "s.toml"]).exits(0);
+    run("steady", &["--signals", "csv,parquet,mat,npz,uff58,wav"]);
+    for ending in ["csv", "parquet", "mat", "npz", "uff", "wav"] {
+        let file = format!("out/steady/signals.{ending}");
+        let words = "shaft speed 1800 r/min, from the scenario of the run in the file";
+        brinell(folder.path(), &["analyze", &file])
+            .exits(0)
+            .says(&[words]);
+        if !["csv", "uff"].contains(&ending) {
+            let alone = format!("alone.{ending}");
+            fs::copy(folder.path().join(file), folder.path().join(&alone)).unwrap();
+            brinell(folder.path(), &["analyze", &alone])
+                .exits(0)
+                .says(&[words]);
+        }
+    }
+    run(
+        "ramp",
+        &[
+            "--set",
+            "operation.speed_rpm=[[0.0, 1600.0], [0.4, 2000.0]]",
+        ],
+    );
+    brinell(folder.path(), &["analyze", "out/ramp"]).exits(0).says(&[
+        "from the scenario of the run in the file: 1620.0 to 2000.0, so envelopes are taken at equal angles",
+    ]);
+}
+
+#[test]
+fn regress_pictures_in_the_formats_asked_for() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));
+    brinell(
+        folder.path(),
+        &with("x.csv", &["-o", "look", "--plots", "svg,png"]),
+    )
+    .exits(0);
+    for name in [
+        "waveform",
+        "close-up",
+        "spectrum",
+        "kurtogram",
+        "envelope-spectrum",
+    ] {
+        for ending in ["svg", "png"] {
+            assert!(
+                folder
+                    .path()
+                    .join(format!("look/plots/{name}.{ending}"))
+                    .is_file(),
+                "{name}.{ending}"
+            );
+        }
     }
 }

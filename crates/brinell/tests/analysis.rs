@@ -198,6 +198,67 @@ fn regress_the_verdict_at_falling_signal_to_noise() {
     }
 }
 
+/// A tone that was computed has round-off between its lines, and round-off has a pattern: it is nobody's damage.
+#[test]
+fn regress_a_computed_tone_is_no_damage() {
+    for hz in [330.0, 1000.0, 2517.0] {
+        let x: Vec<f64> = (0..60_000)
+            .map(|i| (TAU * hz * f64::from(i) / 12_000.0).sin())
+            .collect();
+        let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+        let analysis = analyze(&x, 12_000.0, &Options::new(1750.0 / 60.0, orders)).unwrap();
+        assert_eq!(first(&analysis), None, "{hz} Hz: {}", analysis.verdict());
+    }
+}
+
+/// Lines at multiples of one speed tell it; two lines that merely lie near the first and the second harmonic do not.
+#[test]
+fn prop_the_speed_is_told_by_lines_that_agree() {
+    let fs = 12_000.0;
+    let tones = |tones: [f64; 2]| {
+        let mut noise = Random::new(3);
+        let x: Vec<f64> = (0..60_000)
+            .map(|i| {
+                let t = f64::from(i) / fs;
+                let lines: f64 = tones.iter().map(|f| 0.3 * (TAU * f * t).sin()).sum();
+                lines + noise.normal()
+            })
+            .collect();
+        look(&x, fs)
+    };
+    let own = tones([SHAFT, 2.0 * SHAFT]);
+    assert_eq!(own.shaft_lines, [1, 2]);
+    assert!((own.shaft / SHAFT - 1.0).abs() < 1e-3);
+    let strangers = tones([0.985 * TOLD, 2.0 * 1.01 * TOLD]);
+    assert!(strangers.shaft_lines.is_empty() && !strangers.shaft_found);
+    assert_eq!(strangers.shaft, TOLD);
+}
+
+/// Evidence of a line or two that noise does not explain is weak for another reason, which is said.
+#[test]
+fn regress_weak_evidence_says_why() {
+    let fs = 12_000.0;
+    let mut noise = Random::new(11);
+    // The carrier's level turns with the outer race's frequency, and with nothing else.
+    let x: Vec<f64> = (0..60_000)
+        .map(|i| {
+            let turn = TAU * 3.5848 * TOLD * f64::from(i) / fs;
+            noise.normal() * (1.0 + 0.5 * turn.sin())
+        })
+        .collect();
+    let words = look(&x, fs).verdict();
+    assert!(
+        words.contains(
+            "The evidence is weak: noise alone would show as much with a chance of at most 1e-"
+        ),
+        "{words}"
+    );
+    assert!(
+        words.contains(", but only 1 of 5 harmonics stands, and so few may be another source's."),
+        "{words}"
+    );
+}
+
 #[test]
 fn regress_words_on_what_cannot_be_analysed() {
     let orders = NamedBearing::find("6205-2RS").unwrap().orders();

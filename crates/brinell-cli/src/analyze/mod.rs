@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::run::{make_folder, write_pictures};
 use crate::say::{complain, say, short};
 use brinell::analysis::{
-    Analysis, Comparison, Difference, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
-    velocity,
+    Analysis, Comparison, Difference, Options, Quantity, Side, analyze as analysis_of, compare,
+    to_json, velocity,
 };
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;

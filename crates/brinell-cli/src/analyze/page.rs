@@ -127,7 +127,11 @@ fn shortened(name: &str) -> String {
     }
     let (head, tail) = (LONGEST_NAME / 2, LONGEST_NAME - LONGEST_NAME / 2 - 1);
     let of = |part: &[char]| part.iter().collect::<String>();
-    format!("{}…{}", of(&letters[..head]), of(&letters[letters.len() - tail..]))
+    format!(
+        "{}…{}",
+        of(&letters[..head]),
+        of(&letters[letters.len() - tail..])
+    )
 }
 
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {

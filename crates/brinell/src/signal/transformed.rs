@@ -148,14 +148,19 @@ mod tests {
     #[test]
     fn prop_dither_is_as_strong_as_it_says_and_alike_in_every_band() {
         let n = 48_000;
-        let x: Vec<f64> = (0..n).map(|i| (0.3 * f64::from(i)).sin()).collect();
+        // Whole periods: nothing leaks out of their bin.
+        let step = std::f64::consts::TAU * 2300.0 / f64::from(n);
+        let x: Vec<f64> = (0..n).map(|i| (step * f64::from(i)).sin()).collect();
         let dithered = Transformed::of(&x, FS).unwrap().dithered(1e-6);
-        // 0.3 a sample is 1222 Hz. The envelope of noise in a fraction b of the spectrum has a mean of RMS sqrt(b pi / 2).
+        // The envelope of noise in a fraction b of the spectrum has a mean of RMS sqrt(b pi / 2).
         let rms = 1e-6 * 0.5f64.sqrt();
         for low in [4000.0, 8000.0] {
             let mean = dithered.envelope(Band::between(low, low + 3200.0), 1).mean;
             let expected = rms * (0.25 * std::f64::consts::FRAC_PI_2).sqrt();
-            assert!((mean / expected - 1.0).abs() < 0.05, "{mean:e} {expected:e}");
+            assert!(
+                (mean / expected - 1.0).abs() < 0.05,
+                "{mean:e} {expected:e}"
+            );
         }
     }
 

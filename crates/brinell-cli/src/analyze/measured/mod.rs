@@ -98,12 +98,15 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         Chosen::Among(channels, words) => {
             asked.push(words);
             // What any of them states is not asked for yet.
-            let states = |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
+            let states =
+                |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
             let most = channels.into_iter().rev().max_by_key(states);
-            most.map(|c| (c.name.clone(), c)).ok_or_else(|| asking(&path, &asked))?
+            most.map(|c| (c.name.clone(), c))
+                .ok_or_else(|| asking(&path, &asked))?
         }
     };
     let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
+    notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
     let unit = unit(&name, &channel, wanted, run, &mut notes, &mut warnings)?;
     asked.extend(rate.as_ref().err().cloned());
     asked.extend(unit.as_ref().err().cloned());
@@ -113,10 +116,9 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     if wanted.ask_bearing && run.is_none() {
         asked.push(ASK_BEARING.into());
     }
-    let (Ok((rate, rate_note)), Ok(unit), []) = (rate, unit, &asked[..]) else {
+    let (Ok((rate, _)), Ok(unit), []) = (rate, unit, &asked[..]) else {
         return Err(asking(&path, &asked));
     };
-    notes.push(rate_note);
 
     let positive = |option: &str, value: Option<f64>, least: f64| match value {
         Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
@@ -226,8 +228,8 @@ fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
         // CSV has no place for a word of brinell's, and UFF has one without room.
         let words = file.metadata().pairs.iter();
         let signed = words.into_iter().any(|(_, v)| v.starts_with("brinell "));
-        let own = path.file_stem()? == "signals"
-            && (signed || file.channels().first()?.name == "t");
+        let own =
+            path.file_stem()? == "signals" && (signed || file.channels().first()?.name == "t");
         own.then(|| std::fs::read_to_string(path.with_file_name("scenario.toml")).ok())?
     };
     let text = carried.or_else(beside)?;

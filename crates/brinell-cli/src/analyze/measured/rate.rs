@@ -171,7 +171,10 @@ fn even(times: &[f64], unit: f64) -> Result<f64, String> {
     if off.is_some() && !rounded {
         let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
-        let usual = *steps.clone().select_nth_unstable_by(middle, f64::total_cmp).1;
+        let usual = *steps
+            .clone()
+            .select_nth_unstable_by(middle, f64::total_cmp)
+            .1;
         let away = |(_, step): &(usize, &f64)| (*step - usual).abs();
         let worst = (steps.iter().enumerate()).max_by(|a, b| away(a).total_cmp(&away(b)));
         let (i, step) = worst.unwrap_or((0, &usual));

@@ -142,8 +142,9 @@ fn followed(
              --start and --duration"
         )));
     }
-    let source =
-        format!("{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft");
+    let source = format!(
+        "{source}: {low:.1} to {high:.1}, so envelopes are taken at equal angles of the shaft"
+    );
     Ok(StatedSpeed {
         rpm,
         source,
@@ -159,9 +160,14 @@ fn prescribed(speed: &Speed, start: f64, seconds: f64) -> (f64, Vec<(f64, f64)>)
         Speed::Constant(_) => &[][..],
         Speed::Profile(points) => points,
     };
-    let within = knots.iter().map(|k| k[0]).filter(|t| (start..end).contains(t) && *t > start);
+    let within = knots
+        .iter()
+        .map(|k| k[0])
+        .filter(|t| (start..end).contains(t) && *t > start);
     let course = std::iter::once(start).chain(within).chain([end]);
-    let course = course.map(|t| (t - start, rotation.at(t).0 * 30.0 / PI)).collect();
+    let course = course
+        .map(|t| (t - start, rotation.at(t).0 * 30.0 / PI))
+        .collect();
     let turned = rotation.at(end).1 - rotation.at(start).1;
     (turned * 30.0 / PI / seconds, course)
 }
