@@ -214,7 +214,8 @@ fn regress_a_computed_tone_is_no_damage() {
 /// Lines at multiples of one speed tell it; two lines that merely lie near the first and the second harmonic do not.
 #[test]
 fn prop_the_speed_is_told_by_lines_that_agree() {
-    let fs = 12_000.0;
+    // Away from the mains.
+    let (fs, turns, told) = (12_000.0, 27.3, 27.2);
     let tones = |tones: [f64; 2]| {
         let mut noise = Random::new(3);
         let x: Vec<f64> = (0..60_000)
@@ -224,14 +225,15 @@ fn prop_the_speed_is_told_by_lines_that_agree() {
                 lines + noise.normal()
             })
             .collect();
-        look(&x, fs)
+        let orders = NamedBearing::find("6205-2RS").unwrap().orders();
+        analyze(&x, fs, &Options::new(told, orders)).unwrap()
     };
-    let own = tones([SHAFT, 2.0 * SHAFT]);
+    let own = tones([turns, 2.0 * turns]);
     assert_eq!(own.shaft_lines, [1, 2]);
-    assert!((own.shaft / SHAFT - 1.0).abs() < 1e-3);
-    let strangers = tones([0.985 * TOLD, 2.0 * 1.01 * TOLD]);
+    assert!((own.shaft / turns - 1.0).abs() < 1e-3);
+    let strangers = tones([0.985 * told, 2.0 * 1.01 * told]);
     assert!(strangers.shaft_lines.is_empty() && !strangers.shaft_found);
-    assert_eq!(strangers.shaft, TOLD);
+    assert_eq!(strangers.shaft, told);
 }
 
 /// Evidence of a line or two that noise does not explain is weak for another reason, which is said.
@@ -247,14 +249,10 @@ fn regress_weak_evidence_says_why() {
         })
         .collect();
     let words = look(&x, fs).verdict();
+    assert!(words.contains("The evidence is weak: noise"), "{words}");
+    let why = "and so few may be another source's.";
     assert!(
-        words.contains(
-            "The evidence is weak: noise alone would show as much with a chance of at most 1e-"
-        ),
-        "{words}"
-    );
-    assert!(
-        words.contains(", but only 1 of 5 harmonics stands, and so few may be another source's."),
+        words.contains(", but only ") && words.contains(why),
         "{words}"
     );
 }

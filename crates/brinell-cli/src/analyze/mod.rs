@@ -4,15 +4,16 @@ mod args;
 mod bearing;
 pub(crate) mod measured;
 mod page;
+mod words;
 
 pub(crate) use args::AnalyzeArgs;
 
 use crate::failure::Failure;
 use crate::run::{make_folder, write_pictures};
-use crate::say::{complain, say, short};
+use crate::say::{complain, say};
 use brinell::analysis::{
-    Analysis, Comparison, Difference, Options, Quantity, Side, analyze as analysis_of, compare,
-    to_json, velocity,
+    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
+    velocity,
 };
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
@@ -29,9 +30,6 @@ const HEADLINES: [Indicator; 4] = [
     Indicator::CrestFactor,
     Indicator::Kurtosis,
 ];
-
-/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
-const SHAFT_DOUBT: f64 = 0.005;
 
 /// Everything that words, JSON and page are made of.
 struct Result_ {
@@ -57,6 +55,9 @@ struct Against {
 }
 
 pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
+    if let Some(rpm) = args.speed {
+        turning(rpm, "--speed")?;
+    }
     let mut measured = measured::load(
         &args.file,
         &Wanted {
@@ -111,7 +112,11 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         measured,
         rest,
         analysis,
-        speed: format!("shaft speed {rpm} r/min, from {speed}"),
+        // A mean has more digits than anybody reads.
+        speed: format!(
+            "shaft speed {} r/min, from {speed}",
+            (100.0 * rpm).round() / 100.0
+        ),
         bearing,
         last,
         velocity,
@@ -135,7 +140,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             complain!("warning: {warning}");
         }
         if args.json.as_deref() != Some(Path::new("-")) {
-            tell(&result, &written);
+            words::tell(&result, &written);
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -147,12 +152,17 @@ fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failu
         (None, Some(stated)) => (stated.rpm, stated.source.clone()),
         (None, None) => return Err(Failure::Usage(ASK_SPEED.into())),
     };
-    if !(rpm.is_finite() && rpm != 0.0) {
-        return Err(Failure::Usage(format!(
-            "shaft speed {rpm} r/min, from {source}: expected a speed other than 0; give --speed RPM"
-        )));
-    }
+    turning(rpm, &source)?;
     Ok((rpm, source))
+}
+
+fn turning(rpm: f64, source: &str) -> Result<(), Failure> {
+    if rpm.is_finite() && rpm != 0.0 {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "shaft speed {rpm} r/min, from {source}: expected a speed other than 0; give --speed RPM"
+    )))
 }
 
 fn look(measured: &Measured, options: &Options) -> Result<Analysis, Failure> {
@@ -344,107 +354,4 @@ fn write(
     )?;
     let pictures = brinell_report::analysis_pictures(&report);
     write_pictures(&pictures, &args.plots, folder, written)
-}
-
-/// The other over this, where that says anything: skewness lies about zero.
-fn ratio(d: &Difference) -> Option<String> {
-    (d.indicator != Indicator::Skewness).then(|| short(d.second / d.first, 3))
-}
-
-/// What the signal's own lines say of the shaft's speed.
-fn shaft_lines(a: &Analysis) -> String {
-    if a.options.rotation.is_some() {
-        return "followed as stated".into();
-    }
-    if a.shaft_lines.is_empty() {
-        return "no lines at its harmonics show it".into();
-    }
-    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
-    let off = a.shaft / a.options.shaft - 1.0;
-    let doubt = if off.abs() > SHAFT_DOUBT {
-        ", if they are this shaft's: another's, as fast to within the tolerance, would show the same"
-    } else {
-        ""
-    };
-    format!(
-        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
-        orders.join(", "),
-        60.0 * a.shaft,
-        100.0 * off
-    )
-}
-
-fn tell(result: &Result_, written: &[PathBuf]) {
-    let (m, a) = (&result.measured, &result.analysis);
-    say!(
-        "{}, channel {}: {:.3} s, {} samples",
-        m.path.display(),
-        m.channel,
-        a.duration(),
-        a.samples
-    );
-    for note in &m.notes {
-        say!("  {note}");
-    }
-    say!("  {}; {}", result.speed, shaft_lines(a));
-    say!("  bearing: {}", result.bearing);
-    say!("\n{}\n", a.verdict());
-    let rows: Vec<String> = (a.indicators.iter())
-        .filter(|(i, _)| HEADLINES.contains(i))
-        .map(|(i, e)| {
-            let unit = if i.has_unit() {
-                format!(" {}", m.unit.name)
-            } else {
-                String::new()
-            };
-            format!("{} {}{unit}", i.name().replace('_', " "), short(e.value, 4))
-        })
-        .collect();
-    say!("  {}", rows.join(", "));
-    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
-        say!(
-            "\nThe last {} samples, from {:.1} s on: {}",
-            last.samples,
-            rest.last_start,
-            last.verdict()
-        );
-        let whole: Vec<String> = whole_indicators(rest)
-            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
-            .collect();
-        say!("\n  of all {} samples: {}", rest.samples, whole.join(", "));
-    }
-    if let Some(other) = &result.against {
-        say!(
-            "  against {}, channel {}: {}",
-            other.measured.path.display(),
-            other.measured.channel,
-            other.analysis.verdict()
-        );
-        let (mean, rms) = other.comparison.level_db;
-        say!(
-            "  the other's third octaves lie {mean:+.1} dB from this one's on average, {rms:.1} dB RMS"
-        );
-        say!(
-            "    {:<16} {:>12} {:>12}  the other over this",
-            "",
-            "this",
-            "the other"
-        );
-        for d in &other.comparison.indicators {
-            say!(
-                "    {:<16} {:>12} {:>12}  {}{}",
-                d.indicator.name(),
-                short(d.first, 4),
-                short(d.second, 4),
-                ratio(d).map_or("-".into(), |r| format!("x {r}")),
-                match d.indicator.has_unit() {
-                    true => format!(", in {}", m.unit.name),
-                    false => String::new(),
-                }
-            );
-        }
-    }
-    for path in written {
-        say!("  wrote {}", path.display());
-    }
 }

@@ -1,6 +1,7 @@
 //! The page of an analysis, from its findings.
 
-use super::{Result_, ratio};
+use super::Result_;
+use super::words::{ratio, shaft_lines};
 use crate::say::short;
 use brinell::analysis::{Analysis, Component};
 use brinell::signal::{Estimate, Indicator, Spectrum};
@@ -29,7 +30,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     };
     let quantity = m.unit.quantity.words();
     let mut notes = m.notes.clone();
-    notes.push(result.speed.clone());
+    notes.push(format!("{}; {}", result.speed, shaft_lines(a)));
     notes.push(format!("bearing: {}", result.bearing));
     notes.push(format!(
         "mean removed: {} {}",

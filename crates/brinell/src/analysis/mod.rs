@@ -38,6 +38,7 @@ mod known_lines;
 mod unit;
 mod verdict;
 mod view;
+mod words;
 
 pub use bands::{BandChoice, ChosenBand};
 pub use beyond::Beyond;
@@ -140,7 +141,7 @@ impl Analysis {
 
     /// The verdict in plain words.
     pub fn verdict(&self) -> String {
-        verdict::words(self)
+        words::verdict(self)
     }
 
     /// The envelope spectrum that shows most.

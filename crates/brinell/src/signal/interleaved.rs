@@ -161,7 +161,7 @@ pub(super) struct Part {
 fn parts(length: usize) -> usize {
     let fits = || (2..=MOST_PARTS).filter(|p| length.is_multiple_of(*p));
     let short = fits().find(|p| length / p <= LONGEST);
-    short.or(fits().last()).unwrap_or(1)
+    short.or(fits().next_back()).unwrap_or(1)
 }
 
 #[cfg(test)]

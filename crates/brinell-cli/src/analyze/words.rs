@@ -1,0 +1,113 @@
+//! What is printed of an analysis.
+
+use super::{HEADLINES, Result_, whole_indicators};
+use crate::say::{say, short};
+use brinell::analysis::{Analysis, Difference};
+use brinell::signal::Indicator;
+use std::path::PathBuf;
+
+/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
+const SHAFT_DOUBT: f64 = 0.005;
+
+/// The other over this, where that says anything: skewness lies about zero.
+pub(super) fn ratio(d: &Difference) -> Option<String> {
+    (d.indicator != Indicator::Skewness).then(|| short(d.second / d.first, 3))
+}
+
+/// What the signal's own lines say of the shaft's speed.
+pub(super) fn shaft_lines(a: &Analysis) -> String {
+    if a.options.rotation.is_some() {
+        return "followed as stated".into();
+    }
+    if a.shaft_lines.is_empty() {
+        return "no lines at its harmonics show it".into();
+    }
+    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
+    let off = a.shaft / a.options.shaft - 1.0;
+    let doubt = if off.abs() > SHAFT_DOUBT {
+        ", if they are this shaft's: another's, as fast to within the tolerance, would show the same"
+    } else {
+        ""
+    };
+    format!(
+        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
+        orders.join(", "),
+        60.0 * a.shaft,
+        100.0 * off
+    )
+}
+
+pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
+    let (m, a) = (&result.measured, &result.analysis);
+    say!(
+        "{}, channel {}: {:.3} s, {} samples",
+        m.path.display(),
+        m.channel,
+        a.duration(),
+        a.samples
+    );
+    for note in &m.notes {
+        say!("  {note}");
+    }
+    say!("  {}; {}", result.speed, shaft_lines(a));
+    say!("  bearing: {}", result.bearing);
+    say!("\n{}\n", a.verdict());
+    let rows: Vec<String> = (a.indicators.iter())
+        .filter(|(i, _)| HEADLINES.contains(i))
+        .map(|(i, e)| {
+            let unit = if i.has_unit() {
+                format!(" {}", m.unit.name)
+            } else {
+                String::new()
+            };
+            format!("{} {}{unit}", i.name().replace('_', " "), short(e.value, 4))
+        })
+        .collect();
+    say!("  {}", rows.join(", "));
+    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
+        say!(
+            "\nThe last {} samples, from {:.1} s on: {}",
+            last.samples,
+            rest.last_start,
+            last.verdict()
+        );
+        let whole: Vec<String> = whole_indicators(rest)
+            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
+            .collect();
+        say!("\n  of all {} samples: {}", rest.samples, whole.join(", "));
+    }
+    if let Some(other) = &result.against {
+        say!(
+            "  against {}, channel {}: {}",
+            other.measured.path.display(),
+            other.measured.channel,
+            other.analysis.verdict()
+        );
+        let (mean, rms) = other.comparison.level_db;
+        say!(
+            "  the other's third octaves lie {mean:+.1} dB from this one's on average, {rms:.1} dB RMS"
+        );
+        say!(
+            "    {:<16} {:>12} {:>12}  the other over this",
+            "",
+            "this",
+            "the other"
+        );
+        for d in &other.comparison.indicators {
+            say!(
+                "    {:<16} {:>12} {:>12}  {}{}",
+                d.indicator.name(),
+                short(d.first, 4),
+                short(d.second, 4),
+                ratio(d).map_or("-".into(), |r| format!("x {r}")),
+                match d.indicator.has_unit() {
+                    true => format!(", in {}", m.unit.name),
+                    false => String::new(),
+                }
+            );
+        }
+    }
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
+}
