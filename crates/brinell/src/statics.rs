@@ -290,16 +290,19 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
                 high = r;
             }
             let newton = if slope > 0.0 { r + f / slope } else { f64::NAN };
+            // Where it is found, the step leads nowhere, and so not into the bracket either.
+            if (newton - r).abs() <= grain {
+                break;
+            }
             let next = if newton > low && newton < high {
                 newton
             } else {
                 0.5 * (low + high)
             };
-            if (next - r).abs() <= grain || high - low <= grain {
-                r = next;
+            r = next;
+            if high - low <= grain {
                 break;
             }
-            r = next;
         }
     }
     let (q_in, k_in) = contact(Side::Inner, inner_at - r);
