@@ -279,6 +279,8 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         reach *= 2.0;
     }
     let mut r = if own < 0.0 { low } else { high };
+    // Approaches are differences of r and of where the raceways stand: finer than their round-off is nothing.
+    let grain = 1e-22 + 2.0 * f64::EPSILON * (inner_at.abs() + outer_at.abs());
     if balance(r).0 != 0.0 {
         for _ in 0..200 {
             let (f, slope) = balance(r);
@@ -288,16 +290,19 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
                 high = r;
             }
             let newton = if slope > 0.0 { r + f / slope } else { f64::NAN };
+            // Where it is found, the step leads nowhere, and so not into the bracket either.
+            if (newton - r).abs() <= grain {
+                break;
+            }
             let next = if newton > low && newton < high {
                 newton
             } else {
                 0.5 * (low + high)
             };
-            if (next - r).abs() <= 1e-22 + 4.0 * f64::EPSILON * r.abs() || high - low <= 1e-22 {
-                r = next;
+            r = next;
+            if high - low <= grain {
                 break;
             }
-            r = next;
         }
     }
     let (q_in, k_in) = contact(Side::Inner, inner_at - r);

@@ -56,16 +56,24 @@ fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; 
     let whole = head.len() * L::COUNT;
     let columns = groups::<L, N>(&lists, head.len());
     // Two sums a list: one product need not wait for the last.
-    let mut sums = [[L::zero(); 2]; N];
-    for (group, list) in head.iter().enumerate() {
+    let (mut evens, mut odds) = ([L::zero(); N], [L::zero(); N]);
+    let product = |group: usize, sums: &mut [L; N]| {
         for k in 0..N {
-            let sum = &mut sums[k][group % 2];
-            *sum = L::new(*list).times_plus(L::new(columns[k][group]), *sum);
+            sums[k] = L::new(head[group]).times_plus(L::new(columns[k][group]), sums[k]);
         }
+    };
+    let mut group = 0;
+    while group + 1 < head.len() {
+        product(group, &mut evens);
+        product(group + 1, &mut odds);
+        group += 2;
+    }
+    if group < head.len() {
+        product(group, &mut evens);
     }
     let mut out = [0.0; N];
     for k in 0..N {
-        out[k] = (sums[k][0] + sums[k][1]).sum();
+        out[k] = (evens[k] + odds[k]).sum();
         for (a, b) in list[whole..].iter().zip(&lists[k][whole..]) {
             out[k] += a * b;
         }

@@ -123,8 +123,6 @@ impl<L: Lanes> Cages<L> {
 /// Sums of power over the rollers.
 #[derive(Clone, Copy)]
 struct Flows<L> {
-    contact: L,
-    friction: L,
     drive: L,
     pocket: L,
     pocket_friction: L,
@@ -305,56 +303,54 @@ fn on_damage(
     }
 }
 
-/// One side's contacts as the forces read and write them.
-struct Closed<'a, L: Lanes> {
-    near: &'a [bool],
-    rate: &'a [L::Group],
-    slip: &'a [L::Group],
-    elastic: &'a [L::Group],
-    /// tanh of the slip, and then the friction.
-    friction: &'a mut [L::Group],
-    force: &'a mut [L::Group],
-    damping: L,
+/// What the closed contacts of one side dissipate, and their stiffest.
+#[derive(Clone, Copy)]
+struct Closed<L> {
+    contact: L,
+    friction: L,
     heaviest: L,
 }
 
-impl<'a, L: Lanes> Closed<'a, L> {
-    #[inline(always)]
-    fn new(contacts: &'a mut Contacts, near: &'a [bool], damping: f64, count: usize) -> Self {
-        Self {
-            near: &near[..count],
-            rate: column::<L>(&contacts.approach_rate, 0, count),
-            slip: column::<L>(&contacts.slip, 0, count),
-            elastic: column::<L>(&contacts.elastic, 0, count),
-            friction: &mut L::groups_mut(&mut contacts.friction)[..count],
-            force: &mut L::groups_mut(&mut contacts.force)[..count],
-            damping: L::splat(damping),
-            heaviest: L::zero(),
-        }
-    }
-
-    /// Normal force (section 2) and friction (section 4).
-    #[inline(always)]
-    fn act(&mut self, group: usize, mu: L, flows: &mut Flows<L>) -> (L, L) {
-        let (mut normal, mut friction) = (L::zero(), L::zero());
-        if self.near[group] {
-            let elastic = L::new(self.elastic[group]);
-            let rate = L::new(self.rate[group]);
-            let pressed = rate.times_plus(self.damping, elastic).positive_part();
+/// Normal forces (section 2) and friction (section 4) of one side.
+#[inline(always)]
+fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) -> Closed<L> {
+    let count = model.layout.slots / L::COUNT;
+    let contacts = &mut ws.contacts[side as usize];
+    let near = &ws.near[side as usize][..count];
+    let rate = column::<L>(&contacts.approach_rate, 0, count);
+    let slip = column::<L>(&contacts.slip, 0, count);
+    let elastic = column::<L>(&contacts.elastic, 0, count);
+    // tanh of the slip, and then the friction.
+    let friction = &mut L::groups_mut(&mut contacts.friction)[..count];
+    let force = &mut L::groups_mut(&mut contacts.force)[..count];
+    let damping = L::splat(model.contact(side).damping);
+    let mu = L::splat(model.friction.coefficient);
+    let mut sums = Closed {
+        contact: L::zero(),
+        friction: L::zero(),
+        heaviest: L::zero(),
+    };
+    for group in 0..count {
+        let (mut normal, mut tangential) = (L::zero(), L::zero());
+        if near[group] {
+            let elastic = L::new(elastic[group]);
+            let rate = L::new(rate[group]);
+            let pressed = rate.times_plus(damping, elastic).positive_part();
             normal = elastic.if_above(L::zero(), pressed, L::zero());
             // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
-            friction = mu * normal * L::new(self.friction[group]);
-            flows.contact = (normal - elastic).times_plus(rate, flows.contact);
-            flows.friction = friction.times_plus(L::new(self.slip[group]), flows.friction);
-            self.heaviest = self.heaviest.at_least(elastic);
+            tangential = mu * normal * L::new(friction[group]);
+            sums.contact = (normal - elastic).times_plus(rate, sums.contact);
+            sums.friction = tangential.times_plus(L::new(slip[group]), sums.friction);
+            sums.heaviest = sums.heaviest.at_least(elastic);
         }
-        self.force[group] = normal.array();
-        self.friction[group] = friction.array();
-        (normal, friction)
+        force[group] = normal.array();
+        friction[group] = tangential.array();
     }
+    L::groups_mut(&mut ws.heaviest[side as usize])[0] = sums.heaviest.array();
+    sums
 }
 
-/// Normal forces and friction, pockets (section 5), drag (section 7) and the rollers' own motion (Eq. 51).
+/// Pockets (section 5), drag (section 7) and the rollers' own motion (Eq. 51).
 #[inline(always)]
 fn forces<L: Lanes>(
     model: &Model,
@@ -379,11 +375,12 @@ fn forces<L: Lanes>(
     a[cage_at..cage_at + 3 * l.rows].fill(0.0);
     let (a_rollers, a_bodies) = a.split_at_mut(cage_at);
     let [out_r, out_theta, out_phi] = columns_mut::<L>(a_rollers, count);
+    let inner = closed::<L>(model, Side::Inner, ws);
+    let outer = closed::<L>(model, Side::Outer, ws);
     let Workspace {
         sin,
         cos,
-        contacts: [inner, outer],
-        near: [near_in, near_out],
+        contacts: [at_inner, at_outer],
         pocket_force,
         pocket_friction,
         ..
@@ -392,14 +389,15 @@ fn forces<L: Lanes>(
     let cos = column::<L>(cos, 0, count);
     let pocket_force = &mut L::groups_mut(pocket_force)[..count];
     let pocket_friction = &mut L::groups_mut(pocket_friction)[..count];
-    let mut inner = Closed::<L>::new(inner, near_in, model.inner_contact.damping, count);
-    let mut outer = Closed::<L>::new(outer, near_out, model.outer_contact.damping, count);
+    let force_in = column::<L>(&at_inner.force, 0, count);
+    let force_out = column::<L>(&at_outer.force, 0, count);
+    let friction_in = column::<L>(&at_inner.friction, 0, count);
+    let friction_out = column::<L>(&at_outer.friction, 0, count);
 
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let surface = L::splat(w * g.inner_radius);
     let gravity = pair(&model.gravity);
-    let mu = L::splat(model.friction.coefficient);
     let per_mass = L::splat(1.0 / m.roller);
     let per_spin = L::splat(1.0 / m.roller_spin);
     let drag_factor = L::splat(model.drag);
@@ -408,8 +406,6 @@ fn forces<L: Lanes>(
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
     let mut flows = Flows {
-        contact: L::zero(),
-        friction: L::zero(),
         drive: L::zero(),
         pocket: L::zero(),
         pocket_friction: L::zero(),
@@ -428,8 +424,8 @@ fn forces<L: Lanes>(
             let (sin, cos) = (L::new(sin[group]), L::new(cos[group]));
             let axes = (sin, cos);
             let orbit_speed = pitch * dtheta;
-            let (q_in, f_in) = inner.act(group, mu, &mut flows);
-            let (q_out, f_out) = outer.act(group, mu, &mut flows);
+            let (q_in, f_in) = (L::new(force_in[group]), L::new(friction_in[group]));
+            let (q_out, f_out) = (L::new(force_out[group]), L::new(friction_out[group]));
             flows.drive = f_in.times_plus(surface, flows.drive);
 
             // Pocket.
@@ -501,15 +497,12 @@ fn forces<L: Lanes>(
             }
         }
     }
-    for (to, from) in ws.heaviest.iter_mut().zip([inner.heaviest, outer.heaviest]) {
-        L::groups_mut(to)[0] = from.array();
-    }
     Sums {
         on_inner: on_inner.map(L::sum),
         on_outer: on_outer.map(L::sum),
         power: Power {
-            contact: flows.contact.sum(),
-            friction: flows.friction.sum(),
+            contact: (inner.contact + outer.contact).sum(),
+            friction: (inner.friction + outer.friction).sum(),
             drive: flows.drive.sum(),
             pocket: flows.pocket.sum(),
             pocket_friction: flows.pocket_friction.sum(),
