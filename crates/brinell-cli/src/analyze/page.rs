@@ -29,7 +29,9 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
         )
     };
     let quantity = m.unit.quantity.words();
-    let mut notes = m.notes.clone();
+    // In whole, which the title may have shortened.
+    let mut notes = vec![format!("{}, channel {}", m.path.display(), m.channel)];
+    notes.extend(m.notes.iter().cloned());
     notes.push(format!("{}; {}", result.speed, shaft_lines(a)));
     notes.push(format!("bearing: {}", result.bearing));
     notes.push(format!(

@@ -87,8 +87,11 @@ pub(crate) fn sniff(path: &Path, file: &mut File) -> Result<FileKind, IoError> {
             Err(mislabelled(name, kind.to_string()))
         }
         (Ok(kind), _) => Ok(kind),
-        (Err(what), Some((_, name))) => Err(mislabelled(name, what.to_owned())),
-        (Err(what), None) => Err(IoError::UnknownContent {
+        // Text of a kind that is not read is what its name says.
+        (Err(what), Some((_, name))) if !what.starts_with(name) => {
+            Err(mislabelled(name, what.to_owned()))
+        }
+        (Err(what), _) => Err(IoError::UnknownContent {
             path: path.to_owned(),
             what,
         }),
