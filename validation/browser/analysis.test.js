@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, launch, open, pngSize } from "./browser.js";
+import { drawn, launch, open, pngSize, quietly } from "./browser.js";
 
 const path = resolve(process.env.ANALYSIS || "../../out/analysis/report.html"), url = pathToFileURL(path).href;
 let browser;
@@ -14,16 +14,7 @@ describe("the page of an analysis", { skip: existsSync(path) ? false : `no page 
   before(async () => { browser = await launch(); });
   after(async () => { await browser?.close(); });
 
-  async function on(look) {
-    const page = await open(browser, url, {});
-    try {
-      await look(page);
-      assert.deepEqual(page.said, []);
-      assert.deepEqual(page.asked.filter((u) => u !== url && !u.startsWith("data:") && !u.startsWith("blob:")), []);
-    } finally {
-      await page.context().close();
-    }
-  }
+  const on = (look) => quietly(browser, url, {}, look);
   const figure = (page, name) => page.locator("figure", { has: page.locator(`svg.wide[data-name="${name}"]`) });
   const curves = (page, name) => page.locator(`svg.wide[data-name="${name}"] .series path`).evaluateAll((all) => all.map((p) => p.getAttribute("d")));
   const zoomIn = (page, name) => figure(page, name).getByRole("button", { name: /^Zoom in/ }).click();

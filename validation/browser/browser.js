@@ -1,4 +1,5 @@
 // Chromium as it is installed, and a page that keeps account of what it asks for and complains of.
+import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { chromium } from "playwright-core";
 
@@ -22,6 +23,18 @@ export async function open(browser, url, { width = 1280, height = 900, ...option
   page.on("pageerror", (error) => page.said.push(`error: ${error.message}`));
   await page.goto(url, { waitUntil: "load" });
   return page;
+}
+
+// Runs `look` on the page in a window of its own, and holds the page to silence and to itself.
+export async function quietly(browser, url, options, look) {
+  const page = await open(browser, url, options);
+  try {
+    await look(page);
+    assert.deepEqual(page.said, []);
+    assert.deepEqual(page.asked.filter((u) => u !== url && !u.startsWith("data:") && !u.startsWith("blob:")), []);
+  } finally {
+    await page.context().close();
+  }
 }
 
 // The next frames of the page have been drawn.

@@ -4,7 +4,7 @@ import { readFile } from "node:fs/promises";
 import { resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, launch, open, pngSize } from "./browser.js";
+import { drawn, launch, pngSize, quietly } from "./browser.js";
 
 const url = pathToFileURL(resolve(process.env.REPORT || "../../out/rectangle/report.html")).href;
 let browser;
@@ -12,17 +12,7 @@ let browser;
 before(async () => { browser = await launch(); });
 after(async () => { await browser?.close(); });
 
-// Runs `look` on the page in a window of its own, and holds the page to silence and to itself.
-async function on(options, look) {
-  const page = await open(browser, url, options);
-  try {
-    await look(page);
-    assert.deepEqual(page.said, []);
-    assert.deepEqual(page.asked.filter((u) => u !== url && !u.startsWith("data:") && !u.startsWith("blob:")), []);
-  } finally {
-    await page.context().close();
-  }
-}
+const on = (options, look) => quietly(browser, url, options, look);
 
 const plot = (page, name) => page.locator(`svg.wide[data-name="${name}"]`);
 const figure = (page, name) => page.locator("figure", { has: plot(page, name) });

@@ -1,8 +1,8 @@
 //! Adaptive explicit Runge-Kutta-Nystrom integration of q'' = f(t, q, q') with dense output.
 //!
-//! The state is y = (q, v), positions and their rates. A quantity (here, flows of energy) may be integrated along with it. Errors are measured on the rates, weighted by the system's masses,
-//! so the tolerance is the square root of an energy per step: an error of a velocity there is an error of a force
-//! integrated over the step. Nothing is allocated after [`Stepper::new`].
+//! The state is y = (q, v), positions and their rates. A quantity (here, flows of energy) may be integrated along with it. Errors are
+//! measured on the rates, weighted by the system's masses, so the tolerance is the square root of an energy per step: an error of a
+//! velocity there is an error of a force integrated over the step. Nothing is allocated after [`Stepper::new`].
 
 mod tableau;
 
