@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, launch, open, pngSize, quietly } from "./browser.js";
+import { drawn, launch, pngSize, quietly } from "./browser.js";
 
 const path = resolve(process.env.ANALYSIS || "../../out/analysis/report.html"), url = pathToFileURL(path).href;
 let browser;
@@ -19,20 +19,15 @@ describe("the page of an analysis", { skip: existsSync(path) ? false : `no page 
   const curves = (page, name) => page.locator(`svg.wide[data-name="${name}"] .series path`).evaluateAll((all) => all.map((p) => p.getAttribute("d")));
   const zoomIn = (page, name) => figure(page, name).getByRole("button", { name: /^Zoom in/ }).click();
 
-  it("on a phone wide tables scroll within their own boxes, and the page nowhere aside", async () => {
-    const page = await open(browser, url, { width: 390 });
-    try {
-      await drawn(page);
-      const { aside, boxes } = await page.evaluate(() => ({
-        aside: document.documentElement.scrollWidth - document.documentElement.clientWidth,
-        boxes: [...document.querySelectorAll(".scroll")].map((e) => [e.scrollWidth > e.clientWidth, getComputedStyle(e).overflowX]),
-      }));
-      assert.equal(aside, 0);
-      assert.ok(boxes.some(([wide]) => wide) && boxes.every(([, overflow]) => overflow === "auto"), JSON.stringify(boxes));
-    } finally {
-      await page.context().close();
-    }
-  });
+  it("on a phone wide tables scroll within their own boxes, and the page nowhere aside", () => quietly(browser, url, { width: 390 }, async (page) => {
+    await drawn(page);
+    const { aside, boxes } = await page.evaluate(() => ({
+      aside: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+      boxes: [...document.querySelectorAll(".scroll")].map((e) => [e.scrollWidth > e.clientWidth, getComputedStyle(e).overflowX]),
+    }));
+    assert.equal(aside, 0);
+    assert.ok(boxes.some(([wide]) => wide) && boxes.every(([, overflow]) => overflow === "auto"), JSON.stringify(boxes));
+  }));
 
   for (const name of ["close-up", "spectrum", "envelope-spectrum"]) {
     it(`${name}: both curves follow the view, and come back`, () => on(async (page) => {

@@ -81,6 +81,9 @@ fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
 /// The pair that integrates.
 const PAIR: Tableau = DAMPED_CONTACT;
 
+/// The integrator in words, for whoever reports it.
+pub const METHOD: &str = "Runge-Kutta-Nystrom 3(2), adaptive, dense output";
+
 /// `standard`: see [`tolerance`]; measured to stay within 1.5 % of `reference` (tests/accuracy.rs).
 const STANDARD: f64 = 2.4e-4;
 /// `reference`: where a tighter tolerance no longer brings the two given trajectories closer.

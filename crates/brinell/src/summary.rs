@@ -1,5 +1,6 @@
 //! `summary.json`: what a run found, what it cost, what it assumed. SI units unless a key says otherwise.
 
+use crate::accuracy::METHOD;
 use crate::document::{Loaded, Provenance};
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
@@ -252,7 +253,7 @@ fn load_zone(parts: &Parts) -> Value {
 fn solver(outcome: &Outcome) -> Value {
     let w = &outcome.work;
     json!({
-        "method": "Runge-Kutta-Nystrom 3(2), adaptive, dense output",
+        "method": METHOD,
         "steps": w.solver.steps,
         "rejections": w.solver.rejections,
         "right_hand_sides": w.solver.evaluations,

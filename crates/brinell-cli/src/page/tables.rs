@@ -2,6 +2,7 @@
 
 use super::axis;
 use crate::say::short;
+use brinell::accuracy::METHOD;
 use brinell::observe::Kind;
 use brinell::observe::passes::place;
 use brinell::scenario::Accuracy;
@@ -194,12 +195,7 @@ pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
         Accuracy::Reference => "reference",
     };
     vec![
-        Fact::new(
-            "Accuracy",
-            accuracy,
-            "",
-            "Runge-Kutta-Nystrom 3(2), adaptive, dense output",
-        ),
+        Fact::new("Accuracy", accuracy, "", METHOD),
         count("Steps", w.solver.steps, ""),
         count("Rejected steps", w.solver.rejections, ""),
         count("Right-hand sides", w.solver.evaluations, "for steps"),
