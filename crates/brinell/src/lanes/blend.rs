@@ -16,7 +16,7 @@ macro_rules! dispatched {
                 }
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2<const N: usize>($($arg: $type),*) $(-> $out)? {
-                    $body::<Avx2, N>($($arg),*)
+                    $body::<<Avx2 as Lanes>::Pair, N>($($arg),*)
                 }
                 if is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512dq")
@@ -51,25 +51,32 @@ dispatched! {
 }
 
 #[inline(always)]
+fn add_products<L: Lanes, const N: usize>(
+    sums: &mut [L; N],
+    head: &[L::Group],
+    columns: &[&[L::Group]; N],
+    group: usize,
+) {
+    for k in 0..N {
+        sums[k] = L::new(head[group]).times_plus(L::new(columns[k][group]), sums[k]);
+    }
+}
+
+#[inline(always)]
 fn inner_products_lanes<L: Lanes, const N: usize>(list: &[f64], lists: [&[f64]; N]) -> [f64; N] {
     let head = L::groups(list);
     let whole = head.len() * L::COUNT;
     let columns = groups::<L, N>(&lists, head.len());
     // Two sums a list: one product need not wait for the last.
     let (mut evens, mut odds) = ([L::zero(); N], [L::zero(); N]);
-    let product = |group: usize, sums: &mut [L; N]| {
-        for k in 0..N {
-            sums[k] = L::new(head[group]).times_plus(L::new(columns[k][group]), sums[k]);
-        }
-    };
     let mut group = 0;
     while group + 1 < head.len() {
-        product(group, &mut evens);
-        product(group + 1, &mut odds);
+        add_products(&mut evens, head, &columns, group);
+        add_products(&mut odds, head, &columns, group + 1);
         group += 2;
     }
     if group < head.len() {
-        product(group, &mut evens);
+        add_products(&mut evens, head, &columns, group);
     }
     let mut out = [0.0; N];
     for k in 0..N {
@@ -122,21 +129,40 @@ fn scalar<const N: usize>(factors: &[f64; N], lists: &[&[f64]; N], k: usize) -> 
     sum
 }
 
+/// The same of a group.
+#[inline(always)]
+fn sum<L: Lanes, const N: usize>(
+    factors: &[f64; N],
+    columns: &[&[L::Group]; N],
+    group: usize,
+) -> L {
+    let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
+    for k in 1..N {
+        sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
+    }
+    sum
+}
+
 #[inline(always)]
 fn blend_lanes<L: Lanes, const N: usize>(out: &mut [f64], factors: [f64; N], lists: [&[f64]; N]) {
-    let whole = out.len() / L::COUNT * L::COUNT;
-    let (head, tail) = out.split_at_mut(whole);
-    let head = L::groups_mut(head);
-    let columns = groups::<L, N>(&lists, head.len());
-    for (group, out) in head.iter_mut().enumerate() {
-        let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
-        for k in 1..N {
-            sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
-        }
-        *out = sum.array();
+    let count = out.len() / L::COUNT;
+    let whole = count * L::COUNT;
+    let columns = groups::<L, N>(&lists, count);
+    for (group, out) in L::groups_mut(out).iter_mut().enumerate() {
+        *out = sum::<L, N>(&factors, &columns, group).array();
     }
-    for (k, out) in tail.iter_mut().enumerate() {
-        *out = scalar(&factors, &lists, whole + k);
+    if whole == out.len() {
+        return;
+    }
+    if let Some(start) = out.len().checked_sub(L::COUNT) {
+        // A last group that overlaps the one before, whose entries come out as they were.
+        let last = lists.map(|list| &list[start..]);
+        let columns = groups::<L, N>(&last, 1);
+        L::groups_mut(&mut out[start..])[0] = sum::<L, N>(&factors, &columns, 0).array();
+    } else {
+        for (k, out) in out.iter_mut().enumerate() {
+            *out = scalar(&factors, &lists, k);
+        }
     }
 }
 
@@ -151,10 +177,7 @@ fn weighted_square_lanes<L: Lanes, const N: usize>(
     let columns = groups::<L, N>(&lists, head.len());
     let mut total = L::zero();
     for (group, weight) in head.iter().enumerate() {
-        let mut sum = L::splat(factors[0]) * L::new(columns[0][group]);
-        for k in 1..N {
-            sum = L::splat(factors[k]).times_plus(L::new(columns[k][group]), sum);
-        }
+        let sum = sum::<L, N>(&factors, &columns, group);
         total = (L::new(*weight) * sum).times_plus(sum, total);
     }
     let rest: f64 = (whole..weight.len())

@@ -211,6 +211,10 @@ mod tests {
                 fn avx2(x: Group) -> Group {
                     in_groups(x, |x: Avx2| $function(x))
                 }
+                #[target_feature(enable = "avx2,fma")]
+                fn avx2_pair(x: Group) -> Group {
+                    in_groups(x, |x: <Avx2 as Lanes>::Pair| $function(x))
+                }
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
                 fn avx512(x: Group) -> Group {
                     in_groups(x, |x: Avx512| $function(x))
@@ -218,6 +222,7 @@ mod tests {
                 // SAFETY: asked for at once.
                 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
                     all.push(("avx2", |x| unsafe { avx2(x) }));
+                    all.push(("a pair of avx2", |x| unsafe { avx2_pair(x) }));
                 }
                 if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
                     all.push(("avx512", |x| unsafe { avx512(x) }));

@@ -7,6 +7,8 @@
 mod blend;
 mod column;
 mod functions;
+#[cfg(target_arch = "x86_64")]
+mod pair;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -35,7 +37,10 @@ pub trait Lanes:
     + AddAssign
     + SubAssign
 {
-    /// Numbers in a group: 2, 4 or 8.
+    /// Two groups at once, for long chains of operations that wait for one another; a group itself where it is the widest, or two of them
+    /// would not fit the registers.
+    type Pair: Lanes;
+    /// Numbers in a group: 4 or 8.
     const COUNT: usize;
     /// An array of them.
     type Group: Copy + AsRef<[f64]> + AsMut<[f64]>;

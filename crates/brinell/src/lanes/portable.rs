@@ -91,6 +91,7 @@ impl SubAssign for Portable {
 }
 
 impl Lanes for Portable {
+    type Pair = Self;
     grouped!(COUNT);
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 //! Values of these types must only be used in functions compiled for their instructions; the equations of motion are
 //! entered through such functions alone, after the processor has been asked.
 
+use super::pair::Avx2Pair;
 use super::{Lanes, grouped};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -79,6 +80,7 @@ impl Avx512 {
 
 // SAFETY of every block: see the module.
 impl Lanes for Avx512 {
+    type Pair = Self;
     grouped!(8);
 
     #[inline(always)]
@@ -224,6 +226,7 @@ impl Avx2 {
 
 // SAFETY of every block: see the module.
 impl Lanes for Avx2 {
+    type Pair = Avx2Pair;
     grouped!(4);
 
     #[inline(always)]

@@ -4,8 +4,8 @@
 //! parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures over a step.
 
 use super::{Layout, Model, Workspace};
-use crate::defect::{Angles, SIDES, energy};
-use crate::lanes::Column;
+use crate::defect::{Angles, SIDES, Side, energy};
+use crate::lanes::{Column, WIDTH};
 use crate::scenario::ModelKind;
 use std::ops::{AddAssign, Mul};
 
@@ -226,38 +226,49 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
     let mut work = 0.0;
     for side in SIDES {
         let k = side as usize;
-        if !before.on_damage[k].contains(&true) && !after.on_damage[k].contains(&true) {
-            continue;
-        }
-        for &slot in &model.exposure[k].slots {
-            let on_damage = |k: usize| before.on_damage[k][slot] || after.on_damage[k][slot];
-            // The reference model has one contact in series for both sides: count it once.
-            let counted = model.kind == ModelKind::Reference && k == 1 && on_damage(0);
-            if !on_damage(k) || counted {
+        let (from, _) = before.on_damage[k].as_chunks::<WIDTH>();
+        let (to, _) = after.on_damage[k].as_chunks::<WIDTH>();
+        for (group, (from, to)) in from.iter().zip(to).enumerate() {
+            if *from == [false; WIDTH] && *to == [false; WIDTH] {
                 continue;
             }
-            let (from, to) = (before.angles(slot), after.angles(slot));
-            let change = |delta: f64| match model.kind {
-                ModelKind::Full => {
-                    let held = |angles: &Angles| {
-                        energy(
-                            model.defects_of(slot, side),
-                            model.contact(side),
-                            angles,
-                            side,
-                            delta,
-                        )
-                    };
-                    held(&to) - held(&from)
+            for lane in 0..WIDTH {
+                if from[lane] || to[lane] {
+                    work += work_at(model, side, WIDTH * group + lane, before, after);
                 }
-                ModelKind::Reference => {
-                    let held =
-                        |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
-                    held(&to) - held(&from)
-                }
-            };
-            work += 0.5 * (change(before.approach[k][slot]) + change(after.approach[k][slot]));
+            }
         }
     }
     work
+}
+
+/// The share of one contact.
+fn work_at(
+    model: &Model,
+    side: Side,
+    slot: usize,
+    before: &ContactState,
+    after: &ContactState,
+) -> f64 {
+    let k = side as usize;
+    let (from, to) = (before.angles(slot), after.angles(slot));
+    let delta = [before.approach[k][slot], after.approach[k][slot]];
+    let change = |delta: f64| match model.kind {
+        ModelKind::Full => {
+            let (defects, law) = (|| model.defects_of(slot, side), model.contact(side));
+            let held = |angles: &Angles| energy(defects(), law, angles, side, delta);
+            held(&to) - held(&from)
+        }
+        // One contact in series for both sides: counted at the inner one where that is on damage.
+        ModelKind::Reference
+            if side == Side::Outer && (before.on_damage[0][slot] || after.on_damage[0][slot]) =>
+        {
+            0.0
+        }
+        ModelKind::Reference => {
+            let held = |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
+            held(&to) - held(&from)
+        }
+    };
+    0.5 * (change(delta[0]) + change(delta[1]))
 }

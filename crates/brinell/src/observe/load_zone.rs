@@ -9,6 +9,13 @@ use std::f64::consts::TAU;
 /// Angular bins around the bearing.
 pub const BINS: usize = 72;
 
+/// The bin of an orbit angle, rad.
+pub(super) fn bin_at(orbit: f64) -> usize {
+    let turn = wrap(orbit) * (1.0 / TAU);
+    let turn = if turn < 0.0 { turn + 1.0 } else { turn };
+    ((turn * BINS as f64) as usize).min(BINS - 1)
+}
+
 /// Forces at the outer contacts of one row, by orbit angle: bin k spans [k, k + 1) 2 pi / BINS from +X, counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowLoad {
@@ -63,9 +70,7 @@ impl LoadZone {
                 ModelKind::Full => f.y[l.theta() + slot],
                 ModelKind::Reference => f.ws.kinematic_orbit[slot],
             };
-            let turn = wrap(orbit) / TAU;
-            let turn = if turn < 0.0 { turn + 1.0 } else { turn };
-            let bin = ((turn * BINS as f64) as usize).min(BINS - 1);
+            let bin = bin_at(orbit);
             let row = &mut self.rows[l.row(slot)];
             row.sum[bin] += force[slot];
             row.max[bin] = row.max[bin].max(force[slot]);

@@ -1,11 +1,9 @@
 //! Slip of cages and rollers against pure rolling: over time from the start on, and over the place in the bearing.
 
 use crate::channel::Frame;
-use crate::defect::wrap;
 use crate::model::Layout;
-use crate::observe::load_zone::BINS;
+use crate::observe::load_zone::{BINS, bin_at};
 use crate::scenario::ModelKind;
-use std::f64::consts::TAU;
 
 /// Stretches of time, at most.
 pub const STRETCHES: usize = 1024;
@@ -90,28 +88,24 @@ impl SlipCourse {
         }
         let l = &f.model.layout;
         let dof = l.dof();
-        let (rolling, spinning) = (
-            f.model.rolling_orbit_speed(w),
-            f.model.rolling_spin_speed(w),
-        );
+        let per_rolling = 1.0 / f.model.rolling_orbit_speed(w);
+        let per_spinning = 1.0 / f.model.rolling_spin_speed(w);
         let first = self.stretches.len() - self.rows;
         for row in 0..self.rows {
             let sums = &mut self.stretches[first + row];
-            sums.cage += 1.0 - f.y[dof + l.cage(row) + 2] / rolling;
+            sums.cage += 1.0 - f.y[dof + l.cage(row) + 2] * per_rolling;
             sums.cages += 1;
         }
         for slot in 0..l.rollers() {
             let row = l.row(slot);
-            let orbit = 1.0 - f.y[dof + l.theta() + slot] / rolling;
-            let spin = 1.0 - f.y[dof + l.phi() + slot] / spinning;
+            let orbit = 1.0 - f.y[dof + l.theta() + slot] * per_rolling;
+            let spin = 1.0 - f.y[dof + l.phi() + slot] * per_spinning;
             let sums = &mut self.stretches[first + row];
             sums.orbit += orbit;
             sums.spin += spin;
             sums.rollers += 1;
             if settled {
-                let turn = (wrap(f.y[l.theta() + slot]) / TAU).rem_euclid(1.0);
-                let bin = ((turn * BINS as f64) as usize).min(BINS - 1);
-                let sums = &mut self.places[row * BINS + bin];
+                let sums = &mut self.places[row * BINS + bin_at(f.y[l.theta() + slot])];
                 sums.orbit += orbit;
                 sums.spin += spin;
                 sums.rollers += 1;

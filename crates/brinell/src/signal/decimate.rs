@@ -158,12 +158,14 @@ impl Decimator {
             return None;
         }
         self.wait = FACTOR - 1;
-        for (out, ring) in self
-            .output
-            .iter_mut()
-            .zip(self.rings.chunks_exact(2 * length))
-        {
-            [*out] = inner_products(&self.taps, [&ring[self.at..self.at + length]]);
+        let window = |channel: usize| &self.rings[2 * length * channel + self.at..][..length];
+        // Two channels at a time share the taps that they load.
+        let (pairs, rest) = self.output.as_chunks_mut::<2>();
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            *pair = inner_products(&self.taps, [window(2 * k), window(2 * k + 1)]);
+        }
+        if let [last] = rest {
+            [*last] = inner_products(&self.taps, [window(self.channels - 1)]);
         }
         Some(&self.output)
     }

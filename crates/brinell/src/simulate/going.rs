@@ -214,9 +214,11 @@ impl<'a> Run<'a> {
                 self.observer.sample(index, &frame);
             }
         }
-        for (place, entry) in &self.simulation.filtered_entries {
-            self.fast[*place] = self.stepper.interpolated_acceleration(t, *entry);
-        }
+        self.stepper.interpolated_accelerations(
+            t,
+            &self.simulation.filtered_entries,
+            &mut self.fast,
+        );
         if let (Some(sensing), Some(chain)) = (&mut self.sensing, &self.simulation.sensor) {
             if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {
                 self.fast[2] = own;

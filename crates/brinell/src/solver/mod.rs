@@ -303,16 +303,27 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         blend(v, factors, [v0, v1, &self.stages[STAGES], &self.stages[0]]);
     }
 
-    /// Slope of that polynomial of the rate of position `index`: second order at an instant, but its mean over the step is exact.
-    pub fn interpolated_acceleration(&self, t: f64, index: usize) -> f64 {
+    /// Slopes of that polynomial, of the rates of positions: for each (place, position) of `entries` into that place of `slopes`.
+    /// Second order at an instant, but their means over the step are exact.
+    pub fn interpolated_accelerations(
+        &self,
+        t: f64,
+        entries: &[(usize, usize)],
+        slopes: &mut [f64],
+    ) {
         let (s, h) = self.within(t);
-        let (before, after) = (self.stages[STAGES][index], self.stages[0][index]);
-        if h <= 0.0 {
-            return after;
-        }
         let r = 1.0 - s;
-        let rate = self.y.len() / 2 + index;
-        let rise = (self.y[rate] - self.previous[rate]) / h;
-        6.0 * s * r * rise + r * (1.0 - 3.0 * s) * before + s * (1.0 - 3.0 * r) * after
+        // Of the rise of the rate over the step, and of both ends' slopes.
+        let (rise, first, last) = if h > 0.0 {
+            (6.0 * s * r / h, r * (1.0 - 3.0 * s), s * (1.0 - 3.0 * r))
+        } else {
+            (0.0, 0.0, 1.0)
+        };
+        let (_, v0) = self.previous.split_at(self.previous.len() / 2);
+        let (_, v1) = self.y.split_at(self.y.len() / 2);
+        let (before, after) = (&self.stages[STAGES], &self.stages[0]);
+        for &(place, k) in entries {
+            slopes[place] = rise * (v1[k] - v0[k]) + first * before[k] + last * after[k];
+        }
     }
 }

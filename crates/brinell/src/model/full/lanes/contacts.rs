@@ -1,0 +1,225 @@
+//! Contacts of rollers with raceways: how each moves, what may stand on damage, elementary functions, damage, and what those that are closed
+//! carry.
+
+use super::{column, columns, pair, polar};
+use crate::defect::{Angles, SIDES, Side, acting_given};
+use crate::elementary::Exponent;
+use crate::lanes::{self, Lanes};
+use crate::model::workspace::Contacts;
+use crate::model::{Model, Workspace};
+
+/// Finds what may stand on damage.
+#[inline(always)]
+pub(super) fn exposed<L: Lanes>(model: &Model, ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
+    let sin = column::<L>(&ws.sin, 0, count);
+    let cos = column::<L>(&ws.cos, 0, count);
+    for (k, exposure) in model.exposure.iter().enumerate() {
+        if exposure.slots.is_empty() {
+            continue;
+        }
+        exposure.lanes::<L>((sin, cos), &ws.directions[k], &mut ws.exposed[k][..count]);
+    }
+}
+
+/// How each contact moves: approach, its rate and slip.
+#[inline(always)]
+pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
+    let l = &model.layout;
+    let g = &model.geometry;
+    let count = l.slots / L::COUNT;
+    let q_r = column::<L>(q, 0, count);
+    let [v_r, v_theta, v_phi] = columns::<L>(v, count);
+    let (xi, vi) = (pair(&q[l.inner()..]), pair(&v[l.inner()..]));
+    let (xo, vo) = (pair(&q[l.outer()..]), pair(&v[l.outer()..]));
+    let pitch = L::splat(g.pitch_radius);
+    let radius = L::splat(g.roller_radius);
+    let surface = L::splat(w * g.inner_radius);
+    let gap_in = column::<L>(&model.gaps[0], 0, count);
+    let gap_out = column::<L>(&model.gaps[1], 0, count);
+    let Workspace {
+        sin,
+        cos,
+        contacts: [inner, outer],
+        ..
+    } = ws;
+    let sin = column::<L>(sin, 0, count);
+    let cos = column::<L>(cos, 0, count);
+    let [delta_in, rate_in, slip_in] = motion_of::<L>(inner, count);
+    let [delta_out, rate_out, slip_out] = motion_of::<L>(outer, count);
+    for group in 0..count {
+        let r = L::new(q_r[group]);
+        let dr = L::new(v_r[group]);
+        let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
+        let axes = (L::new(sin[group]), L::new(cos[group]));
+        let (xi_r, xi_t) = polar(axes, &xi);
+        let (vi_r, vi_t) = polar(axes, &vi);
+        let (xo_r, xo_t) = polar(axes, &xo);
+        let (vo_r, vo_t) = polar(axes, &vo);
+        delta_in[group] = (xi_r - r - L::new(gap_in[group])).array();
+        delta_out[group] = (r - xo_r - L::new(gap_out[group])).array();
+        rate_in[group] = (dtheta.times_plus(xi_t, vi_r) - dr).array();
+        rate_out[group] = dtheta.minus_times(xo_t, dr - vo_r).array();
+        let orbit_in = pitch.minus_times(dtheta, surface + vi_t);
+        let orbit_out = pitch.minus_times(dtheta, vo_t);
+        slip_in[group] = radius.times_plus(dphi, orbit_in).array();
+        slip_out[group] = radius.minus_times(dphi, orbit_out).array();
+    }
+}
+
+/// Approach, its rate and slip, to write to.
+#[inline(always)]
+fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 3] {
+    [
+        &mut L::groups_mut(&mut contacts.approach)[..count],
+        &mut L::groups_mut(&mut contacts.approach_rate)[..count],
+        &mut L::groups_mut(&mut contacts.slip)[..count],
+    ]
+}
+
+/// What each contact asks of elementary functions: the elastic force of a healthy raceway (section 2), and tanh of the slip in place of the
+/// friction.
+#[inline(always)]
+pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
+    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    for side in SIDES {
+        let law = model.contact(side);
+        let stiffness = L::splat(law.stiffness);
+        let contacts = &mut ws.contacts[side as usize];
+        let approach = column::<L>(&contacts.approach, 0, count);
+        let slip = column::<L>(&contacts.slip, 0, count);
+        let exposed = &ws.exposed[side as usize][..count];
+        let power = &mut L::groups_mut(&mut contacts.power)[..count];
+        let elastic = &mut L::groups_mut(&mut contacts.elastic)[..count];
+        let tanh = &mut L::groups_mut(&mut contacts.friction)[..count];
+        let near = &mut ws.near[side as usize][..count];
+        for group in 0..count {
+            let delta = L::new(approach[group]);
+            // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
+            near[group] = exposed[group] != 0 || delta.any_positive();
+            let mut x = L::zero();
+            if near[group] {
+                x = self::power(law.exponent, delta);
+            }
+            power[group] = x.array();
+            elastic[group] = (stiffness * x).array();
+        }
+        for group in 0..count {
+            if near[group] {
+                tanh[group] = lanes::tanh(L::new(slip[group]) * per_slip).array();
+            }
+        }
+    }
+}
+
+/// Elastic forces of the contacts that stand on damage, section 3, in place of those of healthy raceways.
+#[inline(always)]
+pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
+    for side in SIDES {
+        let k = side as usize;
+        if model.exposure[k].slots.is_empty() {
+            continue;
+        }
+        let contacts = &mut ws.contacts[k];
+        contacts.on_damage.fill(false);
+        contacts.damaged_length.fill(0.0);
+        let count = model.layout.slots / L::COUNT;
+        for (group, exposed) in ws.exposed[k][..count].iter().enumerate() {
+            if *exposed != 0 {
+                let first = group * L::COUNT;
+                on_damage(model, (side, first, *exposed), (q, ring_angle), contacts);
+            }
+        }
+    }
+}
+
+/// `exposed` has a bit for each slot from `first`.
+#[inline(never)]
+fn on_damage(
+    model: &Model,
+    (side, first, mut exposed): (Side, usize, u8),
+    (q, ring_angle): (&[f64], f64),
+    contacts: &mut Contacts,
+) {
+    let l = &model.layout;
+    while exposed != 0 {
+        let slot = first + exposed.trailing_zeros() as usize;
+        exposed &= exposed - 1;
+        let angles = Angles {
+            orbit: q[l.theta() + slot],
+            spin: q[l.phi() + slot],
+            ring: ring_angle,
+        };
+        let acting = acting_given(
+            model.defects_of(slot, side),
+            model.contact(side),
+            &angles,
+            side,
+            contacts.approach[slot],
+            contacts.power[slot],
+        );
+        if let Some(acting) = acting {
+            contacts.elastic[slot] = acting.elastic;
+            contacts.on_damage[slot] = true;
+            contacts.damaged_length[slot] = acting.floor.damaged_length;
+        }
+    }
+}
+
+/// What the closed contacts of one side dissipate, and their stiffest.
+#[derive(Clone, Copy)]
+pub(super) struct Closed<L> {
+    pub(super) contact: L,
+    pub(super) friction: L,
+    heaviest: L,
+}
+
+/// Normal forces (section 2) and friction (section 4) of one side.
+#[inline(always)]
+pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) -> Closed<L> {
+    let count = model.layout.slots / L::COUNT;
+    let contacts = &mut ws.contacts[side as usize];
+    let near = &ws.near[side as usize][..count];
+    let rate = column::<L>(&contacts.approach_rate, 0, count);
+    let slip = column::<L>(&contacts.slip, 0, count);
+    let elastic = column::<L>(&contacts.elastic, 0, count);
+    // tanh of the slip, and then the friction.
+    let friction = &mut L::groups_mut(&mut contacts.friction)[..count];
+    let force = &mut L::groups_mut(&mut contacts.force)[..count];
+    let damping = L::splat(model.contact(side).damping);
+    let mu = L::splat(model.friction.coefficient);
+    let mut sums = Closed {
+        contact: L::zero(),
+        friction: L::zero(),
+        heaviest: L::zero(),
+    };
+    for group in 0..count {
+        let (mut normal, mut tangential) = (L::zero(), L::zero());
+        if near[group] {
+            let elastic = L::new(elastic[group]);
+            let rate = L::new(rate[group]);
+            let pressed = rate.times_plus(damping, elastic).positive_part();
+            normal = elastic.if_above(L::zero(), pressed, L::zero());
+            // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
+            tangential = mu * normal * L::new(friction[group]);
+            sums.contact = (normal - elastic).times_plus(rate, sums.contact);
+            sums.friction = tangential.times_plus(L::new(slip[group]), sums.friction);
+            sums.heaviest = sums.heaviest.at_least(elastic);
+        }
+        force[group] = normal.array();
+        friction[group] = tangential.array();
+    }
+    L::groups_mut(&mut ws.heaviest[side as usize])[0] = sums.heaviest.array();
+    sums
+}
+
+/// `[delta]_+^n`.
+#[inline(always)]
+fn power<L: Lanes>(exponent: Exponent, delta: L) -> L {
+    match exponent {
+        Exponent::TenNinths => lanes::ten_ninths(delta),
+        Exponent::One => delta.positive_part(),
+        Exponent::Other(_) => delta.each(|x| exponent.of(x)),
+    }
+}

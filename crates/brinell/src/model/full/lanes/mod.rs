@@ -1,0 +1,93 @@
+//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may stand on damage; the elementary functions;
+//! damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
+
+mod contacts;
+mod forces;
+mod pockets;
+
+use super::{Sums, Turn};
+use crate::lanes::{self, Lanes};
+use crate::model::{Model, Workspace};
+
+/// The rollers' accelerations, into `a`, and what they do to everything else.
+#[inline(always)]
+pub(super) fn rollers<L: Lanes>(
+    model: &Model,
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+    turn: Turn,
+    ws: &mut Workspace,
+) -> Sums {
+    for (exposure, directions) in model.exposure.iter().zip(&mut ws.directions) {
+        exposure.turn(turn.angle, directions);
+    }
+    // A pass for each function that is a long chain of operations which wait for one another: with little in between, the processor
+    // works on several groups at once.
+    directions::<L::Pair>(model, q, ws);
+    contacts::motion::<L>(model, q, v, turn.speed, ws);
+    contacts::exposed::<L::Pair>(model, ws);
+    contacts::functions::<L::Pair>(model, ws);
+    contacts::damage::<L::Pair>(model, q, turn.angle, ws);
+    forces::forces::<L>(model, q, v, a, turn.speed, ws)
+}
+
+/// Column `k` of a structure of arrays, as `count` groups.
+#[inline(always)]
+fn column<L: Lanes>(from: &[f64], k: usize, count: usize) -> &[L::Group] {
+    &L::groups(from)[k * count..][..count]
+}
+
+/// r, theta and phi.
+#[inline(always)]
+fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
+    [
+        column::<L>(from, 0, count),
+        column::<L>(from, 1, count),
+        column::<L>(from, 2, count),
+    ]
+}
+
+/// Three columns to write to.
+#[inline(always)]
+fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> [&mut [L::Group]; 3] {
+    let (first, rest) = L::groups_mut(from).split_at_mut(count);
+    let (second, third) = rest.split_at_mut(count);
+    [first, second, &mut third[..count]]
+}
+
+/// A vector in the plane, the same in every lane.
+type Plane<L> = [L; 2];
+
+#[inline(always)]
+fn pair<L: Lanes>(from: &[f64]) -> Plane<L> {
+    [L::splat(from[0]), L::splat(from[1])]
+}
+
+/// u along e_r and along e_t.
+#[inline(always)]
+fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
+    (
+        cos.times_plus(u[0], sin * u[1]),
+        sin.minus_times(u[0], cos * u[1]),
+    )
+}
+
+/// u along e_t.
+#[inline(always)]
+fn along_t<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> L {
+    sin.minus_times(u[0], cos * u[1])
+}
+
+/// Sine and cosine of every orbit angle.
+#[inline(always)]
+fn directions<L: Lanes>(model: &Model, q: &[f64], ws: &mut Workspace) {
+    let count = model.layout.slots / L::COUNT;
+    let theta = column::<L>(q, 1, count);
+    let sin = &mut L::groups_mut(&mut ws.sin)[..count];
+    let cos = &mut L::groups_mut(&mut ws.cos)[..count];
+    for group in 0..count {
+        let (s, c) = lanes::sin_cos(L::new(theta[group]));
+        sin[group] = s.array();
+        cos[group] = c.array();
+    }
+}

@@ -1,0 +1,149 @@
+//! Pockets, section 5.
+
+use super::{Plane, along_t, column, columns, polar};
+use crate::lanes::{self, Lanes};
+use crate::model::{Model, Workspace};
+
+/// x, y and theta of each lane's cage, and their rates.
+#[derive(Clone, Copy)]
+struct Cages<L> {
+    x: Plane<L>,
+    theta: L,
+    v: Plane<L>,
+    dtheta: L,
+}
+
+impl<L: Lanes> Cages<L> {
+    /// For the groups that stand as `phase` does in the pattern of rows.
+    #[inline(always)]
+    fn spread(model: &Model, q: &[f64], v: &[f64], phase: usize) -> Self {
+        let l = &model.layout;
+        let mut all = [L::zero(); 6];
+        for (row, lanes) in model.row_lanes.iter().enumerate() {
+            let lanes = L::new(L::groups(lanes)[phase]);
+            let at = l.cage(row);
+            for k in 0..3 {
+                all[k] = lanes.times_plus(L::splat(q[at + k]), all[k]);
+                all[3 + k] = lanes.times_plus(L::splat(v[at + k]), all[3 + k]);
+            }
+        }
+        let [x, y, theta, dx, dy, dtheta] = all;
+        Self {
+            x: [x, y],
+            theta,
+            v: [dx, dy],
+            dtheta,
+        }
+    }
+}
+
+/// What the pockets make of the rollers' and cages' motion.
+#[derive(Clone, Copy)]
+pub(super) struct Pockets<L> {
+    pub(super) pocket: L,
+    pub(super) friction: L,
+    pub(super) lever: L,
+}
+
+/// Pockets, section 5: their forces on the rollers, and the reactions on the cages, into `a`.
+#[inline(always)]
+pub(super) fn pockets<L: Lanes>(
+    model: &Model,
+    q: &[f64],
+    v: &[f64],
+    a: &mut [f64],
+    ws: &mut Workspace,
+) -> Pockets<L> {
+    let l = &model.layout;
+    let g = &model.geometry;
+    let count = l.slots / L::COUNT;
+    let theta = column::<L>(q, 1, count);
+    let [v_r, v_theta, v_phi] = columns::<L>(v, count);
+    let pocket_angle = column::<L>(&model.pocket_angle, 0, count);
+    let pocket_gap = column::<L>(&model.pocket_gap, 0, count);
+    let Workspace {
+        sin,
+        cos,
+        pocket_force,
+        pocket_friction,
+        ..
+    } = ws;
+    let sin = column::<L>(sin, 0, count);
+    let cos = column::<L>(cos, 0, count);
+    let pocket_force = &mut L::groups_mut(pocket_force)[..count];
+    let pocket_friction = &mut L::groups_mut(pocket_friction)[..count];
+    let pitch = L::splat(g.pitch_radius);
+    let radius = L::splat(g.roller_radius);
+    let one = L::splat(1.0);
+    let mut sums = Pockets {
+        pocket: L::zero(),
+        friction: L::zero(),
+        lever: L::zero(),
+    };
+    let period = l.row_period() / L::COUNT;
+    for phase in 0..period {
+        let cage = Cages::<L>::spread(model, q, v, phase);
+        let [mut to_x, mut to_y, mut to_spin] = [L::zero(); 3];
+        let mut group = phase;
+        while group < count {
+            let axes = (L::new(sin[group]), L::new(cos[group]));
+            let xc_t = along_t(axes, &cage.x);
+            let gone = cage.theta + L::new(pocket_angle[group]) - L::new(theta[group]);
+            let s = pitch.times_plus(gone, xc_t);
+            let depth = (s.abs() - L::new(pocket_gap[group])).positive_part();
+            let (mut push, mut rub) = (L::zero(), L::zero());
+            if depth.any_positive() {
+                let (sin, cos) = axes;
+                let (dr, dtheta, dphi) = (
+                    L::new(v_r[group]),
+                    L::new(v_theta[group]),
+                    L::new(v_phi[group]),
+                );
+                let (xc_r, _) = polar(axes, &cage.x);
+                let (vc_r, vc_t) = polar(axes, &cage.v);
+                let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
+                // Both sides at once: what closes on the side of s, with its sign.
+                let closing = ds * one.with_sign(s);
+                let elastic = L::splat(model.pocket.stiffness) * depth;
+                let size = closing
+                    .times_plus(L::splat(model.pocket.damping), elastic)
+                    .positive_part();
+                let size = depth.if_above(L::zero(), size, L::zero());
+                push = size.with_sign(s);
+                // sigma = -sign(F_c), 0 where the pocket is open.
+                let sigma = size.if_above(L::zero(), one.with_sign(-push), L::zero());
+                let u = dr - sigma * radius * (dphi - cage.dtheta) - vc_r;
+                rub = -(traction(u.abs()) * size).with_sign_of(u);
+                sums.pocket = (size - elastic).times_plus(closing, sums.pocket);
+                sums.friction -= rub * u;
+                sums.lever = (dtheta * push).minus_times(xc_r, sums.lever);
+                to_x += push * sin - rub * cos;
+                to_y -= push * cos + rub * sin;
+                to_spin += sigma * radius * rub - push * pitch;
+            }
+            pocket_force[group] = push.array();
+            pocket_friction[group] = rub.array();
+            group += period;
+        }
+        for (row, lanes) in model.row_lanes.iter().enumerate() {
+            let lanes = L::new(L::groups(lanes)[phase]);
+            let at = l.cage(row);
+            for (k, sum) in [to_x, to_y, to_spin].into_iter().enumerate() {
+                a[at + k] += (sum * lanes).sum();
+            }
+        }
+    }
+    sums
+}
+
+/// The traction curve, Eq. (48), of |u|: see [`crate::cage::traction`].
+#[inline(always)]
+fn traction<L: Lanes>(u: L) -> L {
+    use crate::cage::{TRACTION_DECAY, TRACTION_LIMIT, TRACTION_SLOPE};
+    // Beyond this slip the exponential is below the last bit of the limit.
+    let enough = L::splat(40.0 / TRACTION_DECAY);
+    let u = u.if_above(enough, enough, u);
+    let limit = L::splat(TRACTION_LIMIT);
+    let rise = u.times_plus(L::splat(TRACTION_SLOPE), -limit);
+    rise.times_plus(lanes::exp(u * L::splat(-TRACTION_DECAY)), limit)
+}
