@@ -51,6 +51,7 @@ pub use unit::{Quantity, Unit};
 pub use verdict::{Finding, Strength};
 pub use view::View;
 
+use crate::signal::lengths::fast_up_to;
 use crate::signal::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     VelocityBands, psd,
@@ -321,21 +322,5 @@ fn out_of_range(name: &'static str, value: f64, range: &'static str) -> Analysis
 /// Samples of a segment of the shown spectrum: lines about 1 Hz apart, eight averages where the signal is long enough.
 fn spectrum_length(samples: usize, fs: f64) -> usize {
     let wanted = (fs as usize).clamp(256, 1 << 16);
-    fast_length(wanted.min((samples / 4).max(256)))
-}
-
-/// The longest length up to `n` without prime factors above 5: others are transformed several times slower.
-fn fast_length(n: usize) -> usize {
-    let smooth = |mut m: usize| {
-        for p in [2, 3, 5] {
-            while m.is_multiple_of(p) {
-                m /= p;
-            }
-        }
-        m == 1
-    };
-    (1..=n)
-        .rev()
-        .find(|m| m % 2 == 0 && smooth(*m))
-        .unwrap_or(n)
+    fast_up_to(wanted.min((samples / 4).max(256)))
 }

@@ -35,16 +35,17 @@ pub(super) struct Room {
 
 impl Interleaved {
     pub(super) fn new(length: usize) -> Self {
+        Interleaved::planned(length, &mut FftPlanner::new())
+    }
+
+    /// With tables from a planner, which keeps those of every length of a part.
+    pub(super) fn planned(length: usize, planner: &mut FftPlanner<f64>) -> Self {
         let parts = parts(length);
         Interleaved {
             length,
             parts,
-            fft: FftPlanner::new().plan_fft_inverse(length / parts),
+            fft: planner.plan_fft_inverse(length / parts),
         }
-    }
-
-    pub(super) fn length(&self) -> usize {
-        self.length
     }
 
     pub(super) fn room(&self) -> Room {
@@ -91,7 +92,8 @@ impl Interleaved {
     }
 
     /// The complex signal that has the bins of `range` and no others, N times as large, part by part: `each` gets p and the samples p,
-    /// p + P, p + 2 P, ... of P in all. `bins` are those from 0 on. `shape` gets the number of the first of a few bins, these, and factors that
+    /// p + P, p + 2 P, ... of P in all. `bins` are those from 0 on, of a transform of any length: with N bins or fewer in `range` the samples
+    /// are the signal's at N equal steps. `shape` gets the number of the first of a few bins, these, and factors that
     /// it may change.
     pub(super) fn backward(
         &self,

@@ -2,21 +2,33 @@
 //!
 //! What is sought in an envelope lies far below the band's own frequencies: means over some neighbours are all that is kept of it. As its
 //! samples come part by part (`interleaved.rs`), the whole is never held.
+//!
+//! The analytic signal a(t) of a band of b bins is a sum of b turning values, so a transform of any length M of b or more gives it exactly at
+//! M times: no more are taken than the band's width asks for. |a|^2 holds nothing above the width B; of noise the part of |a| beyond B
+//! has a density below 1 % of that at low frequencies (the series of R. Deutsch and others: with r the correlation of a, that of |a|
+//! is 1 + r^2 / 4 + r^4 / 64 + ..., and r^2 ends at B). Sampled at [`AMPLE`] B, only that part folds back to low frequencies.
+
+use std::sync::{Mutex, PoisonError};
 
 use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
 
 use super::envelope::{Band, bins, moduli};
 use super::error::{SignalError, check};
 use super::interleaved::Interleaved;
+use super::lengths::fast_from;
 use super::spectrum::FEWEST_SAMPLES;
 use crate::random::Random;
+
+/// Times at which an envelope is taken, at least, over the bins of its band.
+const AMPLE: f64 = 9.0 / 8.0;
 
 /// An envelope thinned out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thinned {
     /// Mean of the whole envelope, in the signal's unit.
     pub mean: f64,
-    /// Means over groups of so many neighbours, one after the other, in the signal's unit; an incomplete last one is left out.
+    /// Means over so many equal stretches of the signal, one after the other, in the signal's unit.
     pub values: Vec<f64>,
 }
 
@@ -24,7 +36,9 @@ pub struct Thinned {
 pub struct Transformed {
     fs: f64,
     bins: Vec<Complex<f64>>,
-    plan: Interleaved,
+    length: usize,
+    /// Keeps what transforms of one length share.
+    planner: Mutex<FftPlanner<f64>>,
 }
 
 impl Transformed {
@@ -38,9 +52,15 @@ impl Transformed {
     }
 
     pub(super) fn unchecked(x: &[f64], fs: f64) -> Self {
-        let plan = Interleaved::new(x.len());
+        let mut planner = FftPlanner::new();
+        let plan = Interleaved::planned(x.len(), &mut planner);
         let bins = plan.forward(x, &mut plan.room());
-        Transformed { fs, bins, plan }
+        Transformed {
+            fs,
+            bins,
+            length: x.len(),
+            planner: Mutex::new(planner),
+        }
     }
 
     /// The same with white noise of `relative` times the signal's RMS, by a seed of its own. Where a signal holds nothing, as a computed tone
@@ -65,30 +85,31 @@ impl Transformed {
 
     /// How many samples there were.
     pub fn samples(&self) -> usize {
-        self.plan.length()
+        self.length
     }
 
-    /// As [`envelope()`](super::envelope()), in means over groups of `every` neighbours.
+    /// As [`envelope()`](super::envelope()), in means over `count` equal stretches, each of samples as close as the band's width asks for: with
+    /// as many stretches as there were samples, the envelope sample by sample.
     ///
     /// # Panics
-    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `every` is 0.
-    pub fn envelope(&self, band: Band, every: usize) -> Thinned {
+    /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `count` is 0.
+    pub fn envelope(&self, band: Band, count: usize) -> Thinned {
         // The analytic signal has the band's positive frequencies twice and nothing else.
         let scale = 2.0 / self.samples() as f64;
-        self.thinned(band, every, scale, |_, _, _| {})
+        self.thinned(band, count, scale, |_, _, _| {})
     }
 
     /// The same of what [`whitened`](super::whitened()) makes of the signal in the band.
     ///
     /// # Panics
     /// As [`envelope`](Self::envelope).
-    pub fn whitened_envelope(&self, band: Band, every: usize) -> Thinned {
+    pub fn whitened_envelope(&self, band: Band, count: usize) -> Thinned {
         let bins = &self.bins[bins(self.fs, self.samples(), band)];
         // As many bins as hold anything, of one size, make unit RMS.
         let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
         let size = (2.0 / bins.count().max(1) as f64).sqrt();
         let mut norms = Vec::new();
-        self.thinned(band, every, size, |_, bins, factors| {
+        self.thinned(band, count, size, |_, bins, factors| {
             norms.resize(bins.len(), 0.0);
             moduli(bins, &mut norms);
             for (factor, norm) in factors.iter_mut().zip(&norms) {
@@ -101,17 +122,25 @@ impl Transformed {
     fn thinned(
         &self,
         band: Band,
-        every: usize,
+        count: usize,
         scale: f64,
         shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
     ) -> Thinned {
-        let length = self.samples();
-        // What is left at the end makes a group too, for the mean.
-        let mut groups = vec![0.0; length / every + 1];
+        let band = bins(self.fs, self.samples(), band);
+        let every = fast_from((AMPLE * band.len() as f64 / count as f64).ceil() as usize);
+        let plan = {
+            let planner = self.planner.lock();
+            let mut planner = planner.unwrap_or_else(PoisonError::into_inner);
+            Interleaved::planned(count * every, &mut planner)
+        };
+        let mut groups = vec![0.0; count];
         let mut here = [0.0; 1024];
-        let (band, mut room) = (bins(self.fs, length, band), self.plan.room());
-        self.plan
-            .backward(&self.bins, band, &mut room, shape, |part, values| {
+        plan.backward(
+            &self.bins,
+            band,
+            &mut plan.room(),
+            shape,
+            |part, values| {
                 let (mut group, mut place) = (part.first / every, part.first % every);
                 let (groups_on, places_on) = (part.step / every, part.step % every);
                 for values in values.chunks(here.len()) {
@@ -125,13 +154,12 @@ impl Transformed {
                         }
                     }
                 }
-            });
-        let sum: f64 = groups.iter().sum();
-        groups.pop();
+            },
+        );
         let each = scale / every as f64;
         groups.iter_mut().for_each(|v| *v *= each);
         Thinned {
-            mean: scale * sum / length as f64,
+            mean: groups.iter().sum::<f64>() / count as f64,
             values: groups,
         }
     }
