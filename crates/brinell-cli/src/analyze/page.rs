@@ -3,7 +3,7 @@
 use super::Result_;
 use super::words::{ratio, shaft_lines};
 use crate::say::short;
-use brinell::analysis::{Analysis, Component};
+use brinell::analysis::{Analysis, Component, shown_spectrum};
 use brinell::signal::{Estimate, Indicator, Spectrum};
 use brinell_report::{AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Series, Table};
 
@@ -95,7 +95,11 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     );
     match &result.against {
         None => {
-            page.spectra = vec![spectrum(&a.spectrum, label, note(&a.spectrum) + &shaded)];
+            // Samples that could be analysed have a spectrum.
+            let shown = shown_spectrum(&m.x, m.rate).ok();
+            page.spectra = (shown.iter())
+                .map(|s| spectrum(s, label.clone(), note(s) + &shaded))
+                .collect();
             let s = &a.view().spectrum;
             page.envelopes = vec![spectrum(s, of_envelope, note(s) + lanes)];
         }

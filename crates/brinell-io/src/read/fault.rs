@@ -27,6 +27,16 @@ pub(crate) enum Fault {
     },
 }
 
+impl Fault {
+    /// The same, so many lines further down.
+    pub(crate) fn after(mut self, lines: u64) -> Self {
+        if let Self::Number { line, .. } | Self::Row { line, .. } = &mut self {
+            *line += lines;
+        }
+        self
+    }
+}
+
 impl From<io::Error> for Fault {
     fn from(error: io::Error) -> Self {
         match error.kind() {

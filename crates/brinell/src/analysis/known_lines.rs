@@ -2,6 +2,7 @@
 
 use super::verdict::LINE_LEVEL;
 use super::{AnalysisError, Options};
+use crate::signal::lengths::fast_up_to;
 use crate::signal::{Candidate, DiagnosisOptions, Segments, Spectrum, diagnose, harmonics, psd};
 
 /// A mains frequency.
@@ -65,7 +66,7 @@ pub(super) fn shaft(
 ) -> Result<Option<ShaftLines>, AnalysisError> {
     // Bins a fortieth of the shaft's frequency apart: 2 % are then a bin or so at the first harmonics.
     let length = (40.0 * fs / options.shaft).max(256.0) as usize;
-    let length = super::fast_length(length.min(x.len()));
+    let length = fast_up_to(length.min(x.len()));
     let spectrum = psd(x, fs, &Segments::of(length))?;
     let step = spectrum.frequency_step;
     let reach = options.tolerance * options.shaft;

@@ -51,6 +51,7 @@ pub use unit::{Quantity, Unit};
 pub use verdict::{Finding, Strength};
 pub use view::View;
 
+use crate::signal::lengths::fast_up_to;
 use crate::signal::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     VelocityBands, psd,
@@ -117,8 +118,6 @@ pub struct Analysis {
     pub shaft_lines: Vec<usize>,
     /// Indicators of the signal less its mean, with intervals from blocks of revolutions.
     pub indicators: Vec<(Indicator, Estimate)>,
-    /// Amplitude spectrum, averaged.
-    pub spectrum: Spectrum,
     /// The most impulsive band, where there is one.
     pub kurtogram: Option<KurtogramBand>,
     /// The kurtogram it was found in, unless the band was given.
@@ -164,11 +163,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     check(x, fs, options)?;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
-    let segments = Segments::of(spectrum_length(x.len(), fs));
     // What asks for nothing but the samples goes side by side.
-    let (indicators, spectrum, choice, shaft, transformed) = thread::scope(|scope| {
+    let (indicators, choice, shaft, transformed) = thread::scope(|scope| {
         let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
-        let spectrum = scope.spawn(|| psd(&x, fs, &segments));
         let choice = scope.spawn(|| bands::choose(&x, fs, options));
         let shaft = scope.spawn(|| match options.rotation {
             // Followed, it is known.
@@ -176,15 +173,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             None => known_lines::shaft(&x, fs, options),
         });
         let transformed = view::transformed(&x, fs);
-        (
-            done(indicators),
-            done(spectrum),
-            done(choice),
-            done(shaft),
-            transformed,
-        )
+        (done(indicators), done(choice), done(shaft), transformed)
     });
-    let (spectrum, choice) = (spectrum?, choice?);
+    let choice = choice?;
     let (shaft, shaft_lines) = match shaft? {
         Some(found) => (found.speed, found.orders),
         None => (options.shaft, Vec::new()),
@@ -219,7 +210,6 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         shaft_found,
         shaft_lines,
         indicators,
-        spectrum,
         kurtogram: choice.best,
         map: choice.map,
         views,
@@ -241,6 +231,19 @@ fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
 /// What a thread came to; its panic goes on here.
 fn done<T>(thread: ScopedJoinHandle<T>) -> T {
     (thread.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// Amplitude spectrum of `x` less its mean, sampled at `fs` Hz, averaged: lines about 1 Hz apart, eight averages where the signal is long
+/// enough. No verdict rests on it.
+///
+/// # Errors
+/// As [`psd`].
+pub fn shown_spectrum(x: &[f64], fs: f64) -> Result<Spectrum, AnalysisError> {
+    let wanted = (fs as usize).clamp(256, 1 << 16);
+    let length = fast_up_to(wanted.min((x.len() / 4).max(256)));
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+    Ok(psd(&x, fs, &Segments::of(length))?)
 }
 
 /// RMS velocity in the bands of ISO 15242, m/s, of an acceleration in m/s^2 sampled at `fs` Hz; see
@@ -316,26 +319,4 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
 
 fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
     crate::signal::SignalError::OutOfRange { name, value, range }.into()
-}
-
-/// Samples of a segment of the shown spectrum: lines about 1 Hz apart, eight averages where the signal is long enough.
-fn spectrum_length(samples: usize, fs: f64) -> usize {
-    let wanted = (fs as usize).clamp(256, 1 << 16);
-    fast_length(wanted.min((samples / 4).max(256)))
-}
-
-/// The longest length up to `n` without prime factors above 5: others are transformed several times slower.
-fn fast_length(n: usize) -> usize {
-    let smooth = |mut m: usize| {
-        for p in [2, 3, 5] {
-            while m.is_multiple_of(p) {
-                m /= p;
-            }
-        }
-        m == 1
-    };
-    (1..=n)
-        .rev()
-        .find(|m| m % 2 == 0 && smooth(*m))
-        .unwrap_or(n)
 }

@@ -301,7 +301,7 @@ fn examine(
         lines: lines.collect(),
     };
     let standing = found.standing(LINE_LEVEL).count();
-    let frequency = common_frequency(&found).unwrap_or(best.frequency);
+    let frequency = common_frequency(&found, |l| l.frequency).unwrap_or(best.frequency);
     let many = candidates.len() as f64;
     let sidebands = spacing.and_then(|s| about(floor, frequency, s, options, many, &unseen));
     // What any other frequency shows, in place of noise alone: less what this one accounts for.
@@ -325,9 +325,10 @@ fn examine(
     let carried: Vec<i32> = (sidebands.iter().filter(|s| s.false_alarm <= options.level))
         .flat_map(|s| s.carry(&found, aside, reach))
         .collect();
-    // A peak beyond the tolerance may lend its skirt to a comb within.
-    let within =
-        (frequency - candidate.frequency).abs() <= candidate.tolerance + 0.5 * floor.step();
+    // A peak beyond the tolerance may lend its skirt to a comb within: what counts is where the peaks are.
+    let peaks = common_frequency(&found, |l| floor.summit(l.frequency, REACH));
+    let within = (peaks.unwrap_or(frequency) - candidate.frequency).abs()
+        <= candidate.tolerance + 0.5 * floor.step();
     Ok(Evidence {
         candidate: index,
         frequency,
@@ -354,12 +355,12 @@ fn mark(marks: &mut [bool], middle: f64, reach: f64) {
     }
 }
 
-/// The fundamental by least squares from the harmonics that stand, each weighted by its power over noise.
-fn common_frequency(found: &LineSet) -> Option<f64> {
+/// The fundamental by least squares from the harmonics that stand, `at` certain frequencies, each weighted by its power over noise.
+fn common_frequency(found: &LineSet, at: impl Fn(&Line) -> f64) -> Option<f64> {
     let (mut above, mut below) = (0.0, 0.0);
     for line in found.standing(LINE_LEVEL) {
         let (order, weight) = (f64::from(line.order), 10f64.powf(0.1 * line.snr_db));
-        above += weight * order * line.frequency;
+        above += weight * order * at(line);
         below += weight * order * order;
     }
     (below > 0.0).then(|| above / below)

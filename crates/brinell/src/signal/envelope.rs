@@ -179,7 +179,7 @@ impl Demodulator {
 /// The envelope of a whole signal.
 fn demodulated(x: &[f64], fs: f64, band: Band) -> Vec<f64> {
     let transformed = Transformed::unchecked(x, fs);
-    transformed.envelope(band, 1).values
+    transformed.envelope(band, x.len()).values
 }
 
 #[cfg(test)]

@@ -7,10 +7,11 @@
 use std::f64::consts::TAU;
 
 use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
 
 use super::envelope::{Band, bins};
 use super::error::{SignalError, check, require};
-use super::interleaved::Interleaved;
+use super::interleaved::{Interleaved, Room};
 use super::psd::Detrend;
 
 /// Velocity from acceleration `a` (unit/s^2 gives unit/s) sampled at `fs` Hz, of what lies within a band: the transform
@@ -25,15 +26,25 @@ use super::psd::Detrend;
 /// half the sampling rate and the upper edge.
 pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
     let mut v = Vec::new();
-    velocities(a, fs, &[band], |_, velocity| v = velocity.to_vec())?;
+    velocities(
+        a,
+        fs,
+        &[band],
+        |_| a.len(),
+        |_, velocity| {
+            v = velocity.to_vec();
+        },
+    )?;
     Ok(v)
 }
 
-/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it.
+/// [`velocity`] in several bands, from one transform: `each` gets a band's place and the velocity in it, at as many equal steps over the
+/// whole as `count` makes of the number of periods of the band's highest frequency in `a`: as many as it has bins, or more.
 pub(super) fn velocities(
     a: &[f64],
     fs: f64,
     bands: &[Band],
+    count: impl Fn(usize) -> usize,
     mut each: impl FnMut(usize, &[f64]),
 ) -> Result<(), SignalError> {
     check(a, fs, 8, "integration")?;
@@ -45,23 +56,24 @@ pub(super) fn velocities(
             "above 0, below the upper edge and half the sampling rate",
         )?;
     }
-    let plan = Interleaved::new(a.len());
-    let mut room = plan.room();
-    let mut x = a.to_vec();
-    Detrend::Linear.apply(&mut x);
-    let spectrum = plan.forward(&x, &mut room);
-    let mut v = x;
+    let mut planner = FftPlanner::new();
+    let mut room = Room::default();
+    let mut v = a.to_vec();
+    Detrend::Linear.apply(&mut v);
+    let spectrum = Interleaved::planned(a.len(), &mut planner).forward(&v, &mut room);
     // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
     let scale = 2.0 / (TAU * fs);
     for (place, band) in bands.iter().enumerate() {
-        let divide = |first: usize, _: &[_], factors: &mut [Complex<f64>]| {
-            for (i, factor) in factors.iter_mut().enumerate() {
-                *factor = Complex::new(factor.im, -factor.re) * (scale / (first + i) as f64);
+        let integral = |first: usize, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| {
+            for (i, (shaped, bin)) in shaped.iter_mut().zip(bins).enumerate() {
+                *shaped = Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64);
             }
         };
         let inside = bins(fs, a.len(), *band);
-        plan.backward(&spectrum, inside, &mut room, divide, |part, values| {
-            let places = v[part.first..].iter_mut().step_by(part.step);
+        let plan = Interleaved::planned(count(inside.end), &mut planner);
+        v.resize(count(inside.end), 0.0);
+        plan.backward(&spectrum, inside, &mut room, integral, |place, values| {
+            let places = v[place.first..].iter_mut().step_by(place.step);
             (places.zip(values)).for_each(|(v, value)| *v = value.re);
         });
         each(place, &v);
@@ -140,7 +152,11 @@ mod tests {
             Band::above(10.0),
         ];
         let mut v = Vec::new();
-        velocities(&a, FS, &bands, |_, velocity| v.push(velocity.to_vec())).unwrap();
+        let whole = |_| a.len();
+        velocities(&a, FS, &bands, whole, |_, velocity| {
+            v.push(velocity.to_vec())
+        })
+        .unwrap();
         let worst = (0..999)
             .map(|i| (v[0][i] + v[1][i] - v[2][i]).abs())
             .fold(0.0, f64::max);

@@ -119,18 +119,8 @@ pub fn kurtogram(x: &[f64], fs: f64, depth: usize) -> Result<Kurtogram, SignalEr
     };
     let whole = moments.get(Indicator::Kurtosis).ok_or(constant)? - 3.0;
     let filters = Filters {
-        half: doubled(&fir(
-            HALF_TAPS,
-            Passband::Below(HALF_EDGE),
-            Window::Hamming,
-            1.0,
-        )?),
-        third: doubled(&fir(
-            THIRD_TAPS,
-            Passband::Below(THIRD_EDGE),
-            Window::Hamming,
-            1.0,
-        )?),
+        half: Branches::of(HALF_TAPS, HALF_EDGE, 2, 1.0 / 8.0)?,
+        third: Branches::of(THIRD_TAPS, THIRD_EDGE, 3, 1.0 / 6.0)?,
     };
     // Samples of a node after so many halvings: the tree shortens every node alike. Thirds two levels up hold more.
     let mut lengths = vec![x.len()];
@@ -189,10 +179,89 @@ fn outputs(length: usize, taps: usize, factor: usize) -> usize {
     }
 }
 
-/// Taps of the prototypes, each twice: for real and imaginary part.
 struct Filters {
-    half: Vec<f64>,
-    third: Vec<f64>,
+    half: Branches,
+    third: Branches,
+}
+
+/// A prototype moved up and down in frequency by one distance, and as it is.
+///
+/// With taps h_o about the middle and an angle t from sample to sample, the sum of h_o e^(-i t o) v_(c + o) is A - i B, and with -t it is A + i B:
+/// A is that of h_o cos(t o) (v_(c + o) + v_(c - o)), B that of h_o sin(t o) (v_(c + o) - v_(c - o)).
+struct Branches {
+    /// Tap in the middle.
+    middle: f64,
+    /// Taps to either side.
+    half: usize,
+    /// Samples from one output to the next.
+    factor: usize,
+    rows: Vec<Row>,
+}
+
+/// Two taps, unless zero.
+struct Row {
+    offset: usize,
+    plain: f64,
+    cosine: f64,
+    sine: f64,
+}
+
+impl Branches {
+    /// Of a low-pass of so many taps, up to `edge` and moved by `turn`, both in cycles a sample.
+    fn of(taps: usize, edge: f64, factor: usize, turn: f64) -> Result<Self, SignalError> {
+        let h = fir(taps, Passband::Below(edge), Window::Hamming, 1.0)?;
+        let half = taps / 2;
+        let row = |offset: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * turn * offset as f64).sin_cos();
+            let plain = h[half + offset];
+            Row {
+                offset,
+                plain,
+                cosine: plain * cos,
+                sine: plain * sin,
+            }
+        };
+        // A low-pass has its zeros at multiples of half a period of its edge.
+        let zero = |offset: usize| 2.0 * edge * offset as f64 % 1.0 == 0.0;
+        Ok(Branches {
+            middle: h[half],
+            half,
+            factor,
+            rows: (1..=half).filter(|o| !zero(*o)).map(row).collect(),
+        })
+    }
+
+    /// Of every output: what passes the prototype below, where it is (`MIDDLE`, or else zero), and above, moved to zero frequency but for the
+    /// phase at the middle tap.
+    fn outputs<const MIDDLE: bool>(
+        &self,
+        node: &[Complex<f64>],
+        mut each: impl FnMut(usize, [Complex<f64>; 3]),
+    ) {
+        let windows = node.windows(2 * self.half + 1).step_by(self.factor);
+        for (m, around) in windows.enumerate() {
+            let center = around[self.half];
+            let middle = [self.middle * center.re, self.middle * center.im];
+            let (mut a, mut b, mut c) = (middle, [0.0; 2], middle);
+            for row in &self.rows {
+                let (u, v) = (
+                    around[self.half + row.offset],
+                    around[self.half - row.offset],
+                );
+                let (sum, difference) = ([u.re + v.re, u.im + v.im], [u.re - v.re, u.im - v.im]);
+                for i in 0..2 {
+                    a[i] += row.cosine * sum[i];
+                    b[i] += row.sine * difference[i];
+                    if MIDDLE {
+                        c[i] += row.plain * sum[i];
+                    }
+                }
+            }
+            let below = Complex::new(a[0] - b[1], a[1] + b[0]);
+            let above = Complex::new(a[0] + b[1], a[1] - b[0]);
+            each(m, [below, Complex::new(c[0], c[1]), above]);
+        }
+    }
 }
 
 struct Tree {
@@ -206,83 +275,64 @@ impl Tree {
     /// of its sampling rate to either side.
     fn descend(&mut self, filters: &Filters, node: &[Complex<f64>], halvings: usize, index: usize) {
         if halvings + 2 <= self.depth {
-            for (part, turn) in [5, 0, 1].into_iter().enumerate() {
-                let child = branch(node, &filters.third, 3, 6, turn);
-                self.thirds[halvings][3 * index + part] = kurtosis(&child);
+            let mut thirds = [Powers::default(); 3];
+            filters.third.outputs::<true>(node, |_, parts| {
+                for (powers, value) in thirds.iter_mut().zip(&parts) {
+                    powers.push(value);
+                }
+            });
+            for (part, powers) in thirds.iter().enumerate() {
+                self.thirds[halvings][3 * index + part] = powers.kurtosis();
             }
         }
         if halvings < self.depth {
-            for (part, turn) in [7, 1].into_iter().enumerate() {
-                let child = branch(node, &filters.half, 2, 8, turn);
-                self.halves[halvings + 1][2 * index + part] = kurtosis(&child);
+            let mut children = [(); 2].map(|()| Vec::with_capacity(node.len() / 2));
+            let mut powers = [Powers::default(); 2];
+            filters.half.outputs::<false>(node, |m, [below, _, above]| {
+                // An eighth of a cycle a sample is a quarter from one output to the next; at the first it is whole turns.
+                let [below, above] = match m % 4 {
+                    0 => [below, above],
+                    1 => [times_i(below), -times_i(above)],
+                    2 => [-below, -above],
+                    _ => [-times_i(below), times_i(above)],
+                };
+                children[0].push(below);
+                children[1].push(above);
+                powers[0].push(&below);
+                powers[1].push(&above);
+            });
+            for (part, child) in children.into_iter().enumerate() {
+                self.halves[halvings + 1][2 * index + part] = powers[part].kurtosis();
                 self.descend(filters, &child, halvings + 1, 2 * index + part);
             }
         }
     }
 }
 
-/// The part of a node about `turn / phases` cycles a sample, moved to zero frequency, filtered and decimated.
-fn branch(
-    node: &[Complex<f64>],
-    doubled_taps: &[f64],
-    factor: usize,
-    phases: usize,
-    turn: usize,
-) -> Vec<Complex<f64>> {
-    let taps = doubled_taps.len() / 2;
-    let table: Vec<Complex<f64>> = (0..phases)
-        .map(|i| {
-            let angle = -std::f64::consts::TAU * ((i * turn) % phases) as f64 / phases as f64;
-            Complex::from_polar(1.0, angle)
-        })
-        .collect();
-    let mut turned = Vec::with_capacity(2 * node.len());
-    for block in node.chunks(phases) {
-        for (value, phase) in block.iter().zip(&table) {
-            let v = value * phase;
-            turned.extend([v.re, v.im]);
-        }
-    }
-    let count = outputs(node.len(), taps, factor);
-    (0..count)
-        .map(|m| {
-            let window = &turned[2 * factor * m..][..2 * taps];
-            inner_product(doubled_taps, window)
-        })
-        .collect()
+fn times_i(c: Complex<f64>) -> Complex<f64> {
+    Complex::new(-c.im, c.re)
 }
 
-/// Sum of taps times interleaved complex values, in lanes that the compiler can use.
-fn inner_product(doubled_taps: &[f64], values: &[f64]) -> Complex<f64> {
-    const LANES: usize = 4;
-    let mut sums = [0.0; LANES];
-    let (t, v) = (doubled_taps.chunks_exact(LANES), values.chunks_exact(LANES));
-    let (rest_t, rest_v) = (t.remainder(), v.remainder());
-    for (t, v) in t.zip(v) {
-        for lane in 0..LANES {
-            sums[lane] += t[lane] * v[lane];
-        }
-    }
-    // An odd number of taps leaves one.
-    Complex::new(
-        sums[0] + sums[2] + rest_t[0] * rest_v[0],
-        sums[1] + sums[3] + rest_t[1] * rest_v[1],
-    )
+/// Sums over a complex envelope.
+#[derive(Clone, Copy, Default)]
+struct Powers {
+    count: usize,
+    second: f64,
+    fourth: f64,
 }
 
-fn doubled(taps: &[f64]) -> Vec<f64> {
-    taps.iter().flat_map(|h| [*h, *h]).collect()
-}
-
-/// Of a complex envelope, less 2.
-fn kurtosis(c: &[Complex<f64>]) -> f64 {
-    let (mut second, mut fourth) = (0.0, 0.0);
-    for v in c {
-        let power = v.norm_sqr();
-        second += power;
-        fourth += power * power;
+impl Powers {
+    fn push(&mut self, value: &Complex<f64>) {
+        let power = value.norm_sqr();
+        self.count += 1;
+        self.second += power;
+        self.fourth += power * power;
     }
-    fourth * c.len() as f64 / (second * second) - 2.0
+
+    /// Less 2.
+    fn kurtosis(&self) -> f64 {
+        self.fourth * self.count as f64 / (self.second * self.second) - 2.0
+    }
 }
 
 #[cfg(test)]

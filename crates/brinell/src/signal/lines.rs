@@ -258,6 +258,27 @@ impl<'a> Floor<'a> {
         move |power| tail.at(power / level.power)
     }
 
+    /// Where the peak is whose top or skirt is seen at a frequency, Hz: uphill from there, over `reach` bins at most.
+    pub(super) fn summit(&self, frequency: f64, reach: f64) -> f64 {
+        let step = self.spectrum.frequency_step;
+        let Some(bin) = self.bin(frequency) else {
+            return frequency;
+        };
+        let reach = reach as usize;
+        let amplitude = &self.spectrum.amplitude;
+        let higher = |next: usize, from: usize| amplitude[next] > amplitude[from];
+        let up = (bin..bin + reach).take_while(|k| k + 2 < amplitude.len() && higher(k + 1, *k));
+        let down = (bin - reach + 1..=bin)
+            .rev()
+            .take_while(|k| higher(k - 1, *k));
+        let tops = [bin + up.count(), bin - down.count()];
+        let top = tops
+            .into_iter()
+            .max_by(|a, b| amplitude[*a].total_cmp(&amplitude[*b]));
+        let top = top.unwrap_or(bin) as f64 * step;
+        peak_near(self.spectrum, top, 0.5 * step).map_or(top, |p| p.frequency)
+    }
+
     /// The line within `tolerance` of `expected`, both Hz.
     pub(super) fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
         let step = self.spectrum.frequency_step;

@@ -29,6 +29,7 @@ pub mod indicators;
 pub mod integrate;
 mod interleaved;
 pub mod kurtogram;
+pub(crate) mod lengths;
 pub mod lines;
 pub mod order;
 pub mod psd;

@@ -12,6 +12,8 @@ use super::envelope::Band;
 use super::error::{SignalError, require};
 use super::indicators::{Blocks, Estimate, Indicator};
 use super::integrate::velocities;
+use super::lengths::fast_from;
+use super::spectrum::FEWEST_SAMPLES;
 
 /// The speed that [`NOMINAL`] belongs to, Hz: 1800 r/min.
 pub const NOMINAL_SPEED: f64 = 30.0;
@@ -78,8 +80,11 @@ pub fn velocity_bands(
         .collect();
     let wanted: Vec<Band> = inside.iter().map(|i| bands[*i]).collect();
     let mut found = [None; 3];
-    velocities(a, fs, &wanted, |place, velocity| {
+    // Squares reach up to twice a band's highest frequency: with more steps than that none folds back to where a block's mean would see it.
+    let count = |periods: usize| fast_from(5 * periods / 2).min(a.len()).max(FEWEST_SAMPLES);
+    velocities(a, fs, &wanted, count, |place, velocity| {
         let band = wanted[place];
+        let samples = samples * velocity.len() as f64 / a.len() as f64;
         let rms = Blocks::of(velocity, samples).estimate(Indicator::Rms);
         found[inside[place]] = rms.map(|rms| BandVelocity {
             band,

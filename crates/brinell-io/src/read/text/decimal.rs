@@ -3,6 +3,63 @@
 //! A general parser goes digit by digit, and on a column of noise the processor guesses wrong where each number ends: that took
 //! half of the time of reading one.
 
+/// As [`decimal`], of the number at a place of a text: up to eight digits, a digit or more on either side of the point. `None` also near
+/// the text's ends.
+///
+/// Sixteen bytes are compared at once, which tells where the point is and where the number ends; its digits are then put side by side, as if
+/// there were no point.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+#[inline]
+pub(super) fn short(text: &[u8], at: usize) -> Option<(f64, usize)> {
+    const ZEROS: u64 = 0x3030_3030_3030_3030;
+    // The number begins at the ninth byte.
+    let around: &[u8; 32] = text.get(at.checked_sub(8)?..)?.first_chunk()?;
+    let word = |from: usize| {
+        let bytes = around.get(from..)?.first_chunk()?;
+        Some(u64::from_le_bytes(*bytes))
+    };
+    // SAFETY: every such processor has SSE2, and the build takes it for granted.
+    let digits = unsafe { digits_among(word(8)?, word(16)?) };
+    let minus = u32::from(around[8] == b'-');
+    let others = !digits ^ minus;
+    let point = others.trailing_zeros();
+    let end = (others & (others - 1)).trailing_zeros();
+    let (whole, fraction) = (point.wrapping_sub(minus), end - point - 1);
+    let fits = whole.wrapping_sub(1) < 7 && fraction.wrapping_sub(1) < 8 - whole;
+    if !fits || around[8 + point as usize] != b'.' || around[8 + end as usize] | 0x20 == b'e' {
+        return None;
+    }
+    // Each with its last digit in the highest byte.
+    let (high, low) = (word(point as usize)? ^ ZEROS, word(end as usize)? ^ ZEROS);
+    let digits = high >> (8 * fraction) | low & u64::MAX << (64 - 8 * fraction);
+    let digits = digits & u64::MAX << (64 - 8 * (whole + fraction));
+    let size = eight(digits) as f64 / f64::from(TENS[fraction as usize]);
+    let sign = u64::from(minus) << 63;
+    Some((f64::from_bits(size.to_bits() | sign), end as usize))
+}
+
+/// Which of sixteen bytes are digits: a bit for each, the first in the lowest.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+#[inline]
+#[target_feature(enable = "sse2")]
+fn digits_among(first: u64, second: u64) -> u32 {
+    use std::arch::x86_64::{
+        _mm_cmpeq_epi8, _mm_min_epu8, _mm_movemask_epi8, _mm_set_epi64x, _mm_set1_epi8,
+        _mm_xor_si128,
+    };
+    let bytes = _mm_set_epi64x(second.cast_signed(), first.cast_signed());
+    let values = _mm_xor_si128(bytes, _mm_set1_epi8(0x30));
+    let digits = _mm_cmpeq_epi8(_mm_min_epu8(values, _mm_set1_epi8(9)), values);
+    _mm_movemask_epi8(digits).cast_unsigned()
+}
+
+/// Without such comparisons there is no short way.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+#[inline]
+pub(super) fn short(_: &[u8], _: usize) -> Option<(f64, usize)> {
+    None
+}
+
 /// Powers of ten by their exponents; all are exact, as are numbers of 15 digits.
 const TENS: [u32; 8] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000, 10_000_000];
 
@@ -43,12 +100,17 @@ fn digits(text: &[u8], at: usize) -> Option<(usize, u64)> {
     let count = others.trailing_zeros() as usize / 8;
     // Zeros in front, the last digit in the highest byte.
     let values = values.checked_shl(64 - 8 * count as u32).unwrap_or(0);
+    Some((count, eight(values)))
+}
+
+/// The number that eight digits make, the first in the lowest byte.
+#[inline]
+fn eight(values: u64) -> u64 {
     let pairs =
         (10 * (values & 0x00ff_00ff_00ff_00ff)).wrapping_add(values >> 8) & 0x00ff_00ff_00ff_00ff;
     let fours =
         (100 * (pairs & 0xffff_0000_ffff)).wrapping_add(pairs >> 16) & 0x0000_ffff_0000_ffff;
-    let eight = 10_000 * (fours & 0xffff_ffff) + (fours >> 32);
-    Some((count, eight))
+    10_000 * (fours & 0xffff_ffff) + (fours >> 32)
 }
 
 #[cfg(test)]
@@ -86,6 +148,40 @@ mod tests {
         }
     }
 
+    #[test]
+    fn regress_what_the_short_way_takes() {
+        for (text, expected) in [
+            ("-0.00000,3.1415", Some((-0.0, 8))),
+            ("1.2345678\n", Some((1.234_567_8, 9))),
+            ("1.23456789\n", None),
+            ("1.234567\n", Some((1.234_567, 8))),
+            ("-1234567.8\n", Some((-1_234_567.8, 10))),
+            ("12345678.9\n", None),
+            ("5.\n", None),
+            (".5\n", None),
+            ("-.5\n", None),
+            ("+1.5\n", None),
+            ("--1.5\n", None),
+            ("75\n", None),
+            ("1,5\n", None),
+            ("nan\n", None),
+            ("\n1.5\n", None),
+            ("1.5e3\n", None),
+            ("1.5E3\n", None),
+        ] {
+            let padded = format!("1.25\n0.5\n{text}{}", "7".repeat(24));
+            let found = short(padded.as_bytes(), 9);
+            let expected =
+                expected.filter(|_| cfg!(all(target_arch = "x86_64", target_feature = "sse2")));
+            assert_eq!(
+                found.map(|f| (f.0.to_bits(), f.1)),
+                expected.map(|f: (f64, _)| (f.0.to_bits(), f.1)),
+                "{text}"
+            );
+        }
+        assert_eq!(short(b"1.5\n", 0), None);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(5000))]
         /// Bit for bit what the general parser makes of the same bytes, wherever it takes them at all.
@@ -93,6 +189,12 @@ mod tests {
         fn xval_fast_float(text in "-?[0-9]{0,9}[.e]?[0-9]{0,9}[ ,\n.e+:/;\u{e9}-]?[0-9.]{0,12}") {
             if let Some((value, length)) = decimal(text.as_bytes()) {
                 let (expected, taken) = fast_float2::parse_partial::<f64, _>(&text).unwrap();
+                prop_assert_eq!(value.to_bits(), expected.to_bits(), "{}", text);
+                prop_assert_eq!(length, taken, "{}", text);
+            }
+            let padded = format!("98765.4\n{text}\n{}", "-1.5\n".repeat(6));
+            if let Some((value, length)) = short(padded.as_bytes(), 8) {
+                let (expected, taken) = fast_float2::parse_partial::<f64, _>(&padded[8..8 + length]).unwrap();
                 prop_assert_eq!(value.to_bits(), expected.to_bits(), "{}", text);
                 prop_assert_eq!(length, taken, "{}", text);
             }

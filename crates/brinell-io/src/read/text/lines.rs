@@ -5,7 +5,7 @@ use std::thread::{self, ScopedJoinHandle};
 
 use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
-use super::decimal::decimal;
+use super::decimal::{decimal, short};
 use super::layout::Layout;
 use super::{Decimal, Delimiter};
 use crate::read::fault::{Fault, damaged};
@@ -154,33 +154,40 @@ impl<'a> Wanted<'a> {
                 }
                 let end = memchr(b'\n', rest.get(length..).unwrap_or_default());
                 let (mine, others) = rest.split_at(end.map_or(rest.len(), |end| length + end + 1));
-                let first = *line;
-                *line += memchr_iter(b'\n', mine).count() as u64;
                 rest = others;
-                threads.push(scope.spawn(move || self.lines(mine, first, values)));
+                threads.push(scope.spawn(move || self.lines(mine, values)));
             }
-            threads.into_iter().map(joined).collect()
+            let found = threads.into_iter().map(joined);
+            let told = found.map(|(lines, result)| {
+                let first = *line;
+                *line += lines;
+                result.map_err(|fault| fault.after(first))
+            });
+            told.collect()
         })
     }
 
-    fn lines(&self, mut text: &[u8], mut line: u64, values: &mut Vec<f64>) -> Result<(), Fault> {
-        while !text.is_empty() {
-            let plain = self.plain.as_ref().and_then(|plain| plain.value(text));
-            let length = match plain {
-                Some((value, length)) => {
+    /// How many lines there are up to the end, or to the fault; of a fault the line is counted from there, from 0.
+    fn lines(&self, text: &[u8], values: &mut Vec<f64>) -> (u64, Result<(), Fault>) {
+        let (mut at, mut line) = (0, 0);
+        while at < text.len() {
+            match self.plain.as_ref().and_then(|plain| plain.value(text, at)) {
+                Some((value, end)) => {
                     values.push(value);
-                    length
+                    at = end;
                 }
                 None => {
-                    let end = memchr(b'\n', text).unwrap_or(text.len());
-                    row(&text[..end], self.layout, self.field, line, values)?;
-                    (end + 1).min(text.len())
+                    let rest = &text[at..];
+                    let end = memchr(b'\n', rest).unwrap_or(rest.len());
+                    if let Err(fault) = row(&rest[..end], self.layout, self.field, line, values) {
+                        return (line, Err(fault));
+                    }
+                    at += end + 1;
                 }
-            };
-            text = &text[length..];
+            }
             line += 1;
         }
-        Ok(())
+        (line, Ok(()))
     }
 }
 
@@ -193,19 +200,20 @@ struct Plain {
 }
 
 impl Plain {
-    /// The wanted value of the line that `text` begins with, and the line's length with its end. `None` says nothing: see [`row`].
+    /// The wanted value of the line that begins at `from`, and where the next one does. `None` says nothing: see [`row`].
     #[inline]
-    fn value(&self, text: &[u8]) -> Option<(f64, usize)> {
-        if matches!(text[0], b'#' | b'%') {
+    fn value(&self, text: &[u8], from: usize) -> Option<(f64, usize)> {
+        if matches!(text[from], b'#' | b'%') {
             return None;
         }
-        let mut at = 0;
+        let mut at = from;
         for _ in 0..self.before {
             at = self.beyond_delimiter(text, at)?;
         }
-        let number = &text[at..];
-        let (value, length) =
-            decimal(number).or_else(|| fast_float2::parse_partial(number).ok())?;
+        let (value, length) = short(text, at).or_else(|| {
+            let number = &text[at..];
+            decimal(number).or_else(|| fast_float2::parse_partial(number).ok())
+        })?;
         at += length;
         if self.after > 0 {
             if *text.get(at)? != self.delimiter {
