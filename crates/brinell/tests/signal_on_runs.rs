@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use brinell::analysis::{Component, DefectOrders, Options, analyze};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::document;
 use brinell::random::Random;
 use brinell::scenario::{Scenario, Shape, Surface};
 use brinell::signal::double_impulse::{Events, consensus, defect_length, separations};
@@ -141,7 +142,7 @@ fn analytic_roller_damage() {
 fn regress_verdicts_on_short_runs_with_and_without_noise() {
     let rate = 25_600.0;
     let mut wrong = Vec::new();
-    let mut count = 0;
+    let (mut count, mut passings) = (0, 0);
     for rpm in [1800.0, 2400.0] {
         for (on, component) in [
             (None, None),
@@ -171,7 +172,13 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                     let analysis = analyze(&x, rate, &Options::new(rpm / 60.0, orders)).unwrap();
                     let first = analysis.causes().next().map(|f| f.component);
                     count += 1;
-                    if first != component {
+                    // Where nothing else is heard, the rollers of a healthy bearing show by themselves, in some runs and not in others
+                    // that differ in their last digits; that may be said, but weakly.
+                    let passing = first.is_some()
+                        && component.is_none()
+                        && analysis.causes().all(|f| f.may_be_passing());
+                    passings += usize::from(passing);
+                    if first != component && !passing {
                         let verdict = analysis.verdict();
                         wrong.push(format!("{on:?} {rpm} r/min {seconds} s {noise}: {verdict}"));
                     }
@@ -179,7 +186,10 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
             }
         }
     }
-    println!("{} of {count} wrong", wrong.len());
+    println!(
+        "{} of {count} wrong; {passings} of 24 healthy ones weakly show how rollers pass",
+        wrong.len()
+    );
     // Damage of the outer race in half a second, fifteen turns: which of these runs shows a second rate weakly beside it depends on the
     // last digits of the run. Two new sets of runs had one and two wrong, the set that the verdict was made on none.
     assert!(wrong.len() <= 3, "{}", wrong.join("\n"));
@@ -190,6 +200,42 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
         "{}",
         wrong.join("\n")
     );
+}
+
+/// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: the table of docs/src/results/analyze.md.
+#[test]
+#[ignore = "prints a table; 14 runs of two seconds"]
+fn regress_bpfo_of_healthy_bearings() {
+    for (preset, loads) in [
+        (
+            "NN3007",
+            [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0],
+        ),
+        ("NU206", [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0]),
+    ] {
+        for load in loads {
+            let text = format!(
+                "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = 1800.0, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
+            );
+            let mut s = document::read(&text, &[]).unwrap().scenario;
+            let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+            let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 1.0 / 30.0);
+            let analysis = analyze(&x, 25_600.0, &Options::new(30.0, orders)).unwrap();
+            let found: Vec<String> = (analysis.causes())
+                .map(|f| {
+                    let depth = 100.0 * f.modulation;
+                    format!("{} {depth:.0} %, {}", f.name, f.clarity())
+                })
+                .collect();
+            println!("{preset}, {load} N: {}", found.join("; "));
+            // Whatever else stands where nothing is damaged has to be called weak.
+            assert!(
+                analysis
+                    .causes()
+                    .all(|f| f.component == Component::OuterRace || f.clarity() == "weak")
+            );
+        }
+    }
 }
 
 /// One band alone, without the set-aside of shaft lines: enough for damage at rest. Sidebands of damage that turns fill a spectrum without

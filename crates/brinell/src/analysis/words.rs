@@ -72,6 +72,11 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 
 /// Why evidence is weak that noise does not explain.
 fn reserve(analysis: &Analysis, finding: &Finding) -> String {
+    if finding.may_be_passing() {
+        return ", but rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much \
+                where little else is heard: compare with a signal of the healthy machine"
+            .into();
+    }
     let shown = finding.evidence.shown();
     if shown >= FEWEST_TO_BE_CLEAR || finding.false_alarm >= CLEAR {
         return String::new();

@@ -108,6 +108,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
     notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
     let unit = unit(&name, &channel, wanted, run, &mut notes, &mut warnings)?;
+    notes.extend(run.map(truth));
     asked.extend(rate.as_ref().err().cloned());
     asked.extend(unit.as_ref().err().cloned());
     if wanted.ask_speed && !states_speed(&file, wanted, run, &name) {
@@ -217,6 +218,17 @@ fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
                 path.display()
             ))
         })
+}
+
+/// What damage a run had.
+fn truth(run: &Loaded) -> String {
+    let defects = &run.scenario.defects;
+    if defects.is_empty() {
+        return "damage in that run: none; the passing of its rollers may stand at BPFO, as nothing drowns it".into();
+    }
+    let mut on: Vec<&str> = defects.iter().map(|d| d.on.word()).collect();
+    on.dedup();
+    format!("damage in that run: {}", on.join(", "))
 }
 
 /// The scenario that the file carries, or that lies beside it where the file is a run's.
