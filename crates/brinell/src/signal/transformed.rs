@@ -38,8 +38,16 @@ pub struct Transformed {
     fs: f64,
     bins: Vec<Complex<f64>>,
     length: usize,
-    /// What transforms of one length share, and rooms that nobody is in.
-    kept: Mutex<(FftPlanner<f64>, Vec<Room>)>,
+    /// What transforms of one length share, and workshops that nobody is in.
+    kept: Mutex<(FftPlanner<f64>, Vec<Workshop>)>,
+}
+
+/// What one thread needs to take an envelope.
+#[derive(Default)]
+struct Workshop {
+    room: Room,
+    /// Sums over each stretch, and with weights that rise over it.
+    sums: Vec<[f64; 2]>,
 }
 
 impl Transformed {
@@ -55,13 +63,13 @@ impl Transformed {
     pub(super) fn unchecked(x: &[f64], fs: f64) -> Self {
         let mut planner = FftPlanner::new();
         let plan = Interleaved::planned(x.len(), &mut planner);
-        let mut room = Room::default();
-        let bins = plan.forward(x, &mut room);
+        let mut workshop = Workshop::default();
+        let bins = plan.forward(x, &mut workshop.room);
         Transformed {
             fs,
             bins,
             length: x.len(),
-            kept: Mutex::new((planner, vec![room])),
+            kept: Mutex::new((planner, vec![workshop])),
         }
     }
 
@@ -122,7 +130,7 @@ impl Transformed {
         })
     }
 
-    fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Room>)> {
+    fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -136,22 +144,24 @@ impl Transformed {
     ) -> Thinned {
         let band = bins(self.fs, self.samples(), band);
         let every = fast_from((AMPLE * band.len() as f64 / count as f64).ceil() as usize);
-        let (plan, mut room) = {
-            let (planner, rooms) = &mut *self.kept();
+        let (plan, mut workshop) = {
+            let (planner, workshops) = &mut *self.kept();
             let plan = Interleaved::planned(count * every, planner);
-            (plan, rooms.pop().unwrap_or_default())
+            (plan, workshops.pop().unwrap_or_default())
         };
-        // Sums over each stretch, and with weights that rise over it.
-        let mut groups = vec![[0.0; 2]; count];
+        let Workshop { room, sums } = &mut workshop;
+        // Not a new list: its pages would be mapped as they are first added to, which takes longer than the sums.
+        sums.clear();
+        sums.resize(count, [0.0; 2]);
         let rises = 1.0 / every as f64;
         let mut here = Vec::new();
-        plan.backward(&self.bins, band, &mut room, shape, |place, values| {
+        plan.backward(&self.bins, band, room, shape, |place, values| {
             here.resize(values.len(), 0.0);
             moduli(values, &mut here);
             let (mut group, mut at) = (place.first / every, place.first % every);
             let (groups_on, at_on) = (place.step / every, place.step % every);
             for modulus in &here {
-                let [all, rising] = &mut groups[group];
+                let [all, rising] = &mut sums[group];
                 *all += *modulus;
                 *rising += (at as f64 + 0.5) * rises * *modulus;
                 (group, at) = (group + groups_on, at + at_on);
@@ -160,17 +170,17 @@ impl Transformed {
                 }
             }
         });
-        self.kept().1.push(room);
         let each = scale * rises;
-        let whole: f64 = groups.iter().map(|[all, _]| all).sum();
-        let mut values: Vec<f64> = (groups.windows(2))
+        let whole: f64 = sums.iter().map(|[all, _]| all).sum();
+        let mut values: Vec<f64> = (sums.windows(2))
             .map(|two| match every {
                 1 => two[0][0],
                 _ => two[0][1] + two[1][0] - two[1][1],
             })
-            .chain(groups.last().map(|[all, _]| *all))
+            .chain(sums.last().map(|[all, _]| *all))
             .collect();
         values.iter_mut().for_each(|v| *v *= each);
+        self.kept().1.push(workshop);
         Thinned {
             mean: each * whole / count as f64,
             values,
