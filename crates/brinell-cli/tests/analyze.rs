@@ -305,6 +305,23 @@ fn regress_which_of_two_channels_is_asked_with_all_the_rest() {
         ]);
 }
 
+/// A unit in brackets or at the end of the name.
+#[test]
+fn regress_the_rate_follows_from_times_whose_name_has_a_unit() {
+    let folder = tempdir().unwrap();
+    for (name, scale) in [("Time [ms]", 1e3), ("time_ms", 1e3), ("t_s", 1.0)] {
+        let mut text = format!("{name},acc [g]\n");
+        for (i, v) in signal(1.0, 0.0, 0.0).iter().enumerate() {
+            let _ = writeln!(text, "{:.7},{v:.4}", scale * i as f64 / FS);
+        }
+        fs::write(folder.path().join("times.csv"), text).unwrap();
+        let given = ["analyze", "times.csv", "--speed", "1800", "--bearing"];
+        brinell(folder.path(), &[&given[..], &["6205"]].concat())
+            .exits(0)
+            .says(&[&format!("sample rate 12000 Hz, from the times in `{name}`")]);
+    }
+}
+
 #[test]
 fn regress_uneven_times_are_told_by_their_worst_step() {
     let folder = tempdir().unwrap();

@@ -25,7 +25,7 @@ pub(crate) struct AnalyzeArgs {
     /// Sample rate
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub(crate) rate: Option<f64>,
-    /// Column of times to take the rate from [default: one called t or time]
+    /// Column of times to take the rate from [default: one called t, time or the like]
     #[arg(long, value_name = "NAME|N", conflicts_with = "rate")]
     pub(crate) time_channel: Option<String>,
     /// Unit of the times where the file does not say

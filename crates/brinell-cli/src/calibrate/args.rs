@@ -58,7 +58,7 @@ pub(crate) struct CalibrateArgs {
         allow_negative_numbers = true
     )]
     pub(crate) rate: Option<f64>,
-    /// Column of times to take the rate from [default: one called t or time]
+    /// Column of times to take the rate from [default: one called t, time or the like]
     #[arg(
         long,
         value_name = "NAME|N",

@@ -12,25 +12,39 @@ const UNEVEN: f64 = 0.02;
 /// A rate given and one stated may differ by so much, relative, before it is worth a word.
 const DIFFERS: f64 = 1e-4;
 
+/// What a column of times is called: `t`, `Time [s]`, `time_ms`.
+const TIMES: [&str; 5] = ["t", "time", "times", "timestamp", "zeit"];
+
 /// Whether a channel is called like a column of times.
 pub(super) fn is_time(channel: &Channel) -> bool {
+    let name = bare(channel);
+    TIMES.contains(&name.as_str()) || named_unit(&name).is_some()
+}
+
+/// A channel's name, in small letters, without a unit in brackets.
+fn bare(channel: &Channel) -> String {
     let name = channel.name.to_lowercase();
-    let bare = name
-        .split(['[', '('])
+    name.split(['[', '('])
         .next()
         .unwrap_or("")
         .trim()
-        .to_owned();
-    ["t", "time", "times", "timestamp", "zeit"].contains(&bare.as_str())
+        .to_owned()
 }
 
-/// Seconds in the unit of a column of times, where its unit is one.
+/// Seconds in the unit that the name of a column of times ends in.
+fn named_unit(bare: &str) -> Option<f64> {
+    let (name, unit) = bare.rsplit_once('_')?;
+    TIMES.contains(&name).then(|| seconds(unit))?
+}
+
+/// Seconds in the unit of a column of times, where it states one.
+fn unit_of(channel: &Channel) -> Option<f64> {
+    (channel.unit.as_deref().and_then(seconds)).or_else(|| named_unit(&bare(channel)))
+}
+
+/// The same of what is called like one.
 pub(super) fn time_unit(channel: &Channel) -> Option<f64> {
-    channel
-        .unit
-        .as_deref()
-        .filter(|_| is_time(channel))
-        .and_then(seconds)
+    is_time(channel).then(|| unit_of(channel))?
 }
 
 fn seconds(unit: &str) -> Option<f64> {
@@ -117,7 +131,7 @@ pub(super) fn rate(
             "the file states no sample rate; give {option} HZ"
         )));
     };
-    let unit = match (wanted.time_unit, time.unit.as_deref().and_then(seconds)) {
+    let unit = match (wanted.time_unit, unit_of(&time)) {
         (Some(text), _) => seconds(text)
             .ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?,
         (None, Some(unit)) => unit,
