@@ -115,6 +115,7 @@ impl Inner for u64 {
 impl Lanes for Counting {
     const COUNT: usize = Portable::COUNT;
     type Group = <Portable as Lanes>::Group;
+    type Pair = Self;
 
     fn groups(list: &[f64]) -> &[Self::Group] {
         Portable::groups(list)
