@@ -6,7 +6,7 @@ use brinell::analysis::{Component, DefectOrders, Options, analyze};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
 use brinell::document;
 use brinell::random::Random;
-use brinell::scenario::{Scenario, Shape, Surface};
+use brinell::scenario::{Scenario, Shape, Speed, Surface};
 use brinell::signal::double_impulse::{Events, consensus, defect_length, separations};
 use brinell::signal::{
     Band, Candidate, Diagnosis, DiagnosisOptions, Segments, SeparationSearch, diagnose,
@@ -162,7 +162,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                 }
                 _ => {}
             }
-            s.operation.speed_rpm = brinell::scenario::Speed::Constant(rpm);
+            s.operation.speed_rpm = Speed::Constant(rpm);
             let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
             // As the command does: after the load's ramp and a turn of the shaft.
             let x = recorded(&mut s, rate, 2.12, 0.02 + 60.0 / rpm);
@@ -176,6 +176,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                     // that differ in their last digits; that may be said, but weakly.
                     let passing = first.is_some()
                         && component.is_none()
+                        && noise <= 0.1
                         && analysis.causes().all(|f| f.may_be_passing());
                     passings += usize::from(passing);
                     if first != component && !passing {
@@ -187,9 +188,10 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
         }
     }
     println!(
-        "{} of {count} wrong; {passings} of 24 healthy ones weakly show how rollers pass",
+        "{} of {count} wrong; {passings} of 16 healthy ones with little noise weakly show how rollers pass",
         wrong.len()
     );
+    assert!(passings <= 8, "{passings}");
     // Damage of the outer race in half a second, fifteen turns: which of these runs shows a second rate weakly beside it depends on the
     // last digits of the run. Two new sets of runs had one and two wrong, the set that the verdict was made on none.
     assert!(wrong.len() <= 3, "{}", wrong.join("\n"));
@@ -202,38 +204,71 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
     );
 }
 
-/// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: the table of docs/src/results/analyze.md.
+/// The examples that a newcomer runs first: half a second each, without noise. What is damaged comes first, or it is said that the record is too short
+/// to tell it from what does.
 #[test]
-#[ignore = "prints a table; 14 runs of two seconds"]
-fn regress_bpfo_of_healthy_bearings() {
-    for (preset, loads) in [
-        (
-            "NN3007",
-            [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0],
-        ),
-        ("NU206", [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0]),
+fn regress_verdicts_on_the_examples() {
+    for (name, component) in [
+        ("healthy", None),
+        ("rectangle", Some(Component::OuterRace)),
+        ("circle", Some(Component::OuterRace)),
+        ("irregular", Some(Component::OuterRace)),
+        ("single-row", Some(Component::OuterRace)),
+        ("inner-race", Some(Component::InnerRace)),
+        ("roller", Some(Component::Element)),
     ] {
+        let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut s = document::read(&text, &[]).unwrap().scenario;
+        let Speed::Constant(rpm) = s.operation.speed_rpm else {
+            panic!("a speed that varies")
+        };
+        let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+        let (rate, seconds) = (s.simulation.sample_rate_hz, s.simulation.duration_s);
+        let start = s.operation.load_ramp_s + 60.0 / rpm;
+        let x = recorded(&mut s, rate, seconds, start);
+        let analysis = analyze(&x, rate, &Options::new(rpm / 60.0, orders)).unwrap();
+        println!("{name}: {}", analysis.verdict());
+        let first = analysis.causes().next().map(|f| f.component);
+        let untold = (analysis.findings.iter())
+            .filter(|f| Some(f.component) == component)
+            .any(|f| f.untold_from.first() == analysis.causes().next().map(|f| &f.name));
+        assert!(
+            first == component || untold && name == "circle",
+            "{name}: {}",
+            analysis.verdict()
+        );
+    }
+}
+
+/// How deep the passing rollers of healthy bearings modulate the envelope at BPFO in two seconds: what docs/src/results/analyze.md says of it.
+#[test]
+#[ignore = "prints a table; 28 runs of two seconds"]
+fn regress_bpfo_of_healthy_bearings() {
+    let loads = [150.0, 250.0, 300.0, 350.0, 600.0, 1000.0, 3000.0];
+    let speeds = [1800.0, 3600.0];
+    for (preset, rpm) in ["NN3007", "NU206"]
+        .into_iter()
+        .flat_map(|preset| speeds.map(|rpm| (preset, rpm)))
+    {
         for load in loads {
             let text = format!(
-                "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = 1800.0, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
+                "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
             );
             let mut s = document::read(&text, &[]).unwrap().scenario;
             let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
-            let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 1.0 / 30.0);
-            let analysis = analyze(&x, 25_600.0, &Options::new(30.0, orders)).unwrap();
+            let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
+            let analysis = analyze(&x, 25_600.0, &Options::new(rpm / 60.0, orders)).unwrap();
             let found: Vec<String> = (analysis.causes())
                 .map(|f| {
                     let depth = 100.0 * f.modulation;
                     format!("{} {depth:.0} %, {}", f.name, f.clarity())
                 })
                 .collect();
-            println!("{preset}, {load} N: {}", found.join("; "));
-            // Whatever else stands where nothing is damaged has to be called weak.
-            assert!(
-                analysis
-                    .causes()
-                    .all(|f| f.component == Component::OuterRace || f.clarity() == "weak")
-            );
+            println!("{preset}, {rpm} r/min, {load} N: {}", found.join("; "));
+            // A single row's passing may be clear; all else that stands where nothing is damaged has to be called weak.
+            assert!(analysis.causes().all(|f| f.clarity() == "weak"
+                || preset == "NU206" && f.component == Component::OuterRace));
         }
     }
 }

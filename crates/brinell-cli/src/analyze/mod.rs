@@ -17,7 +17,7 @@ use brinell::analysis::{
 };
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::atomic_write;
-use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
+use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::json;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -74,6 +74,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             ask_bearing: !args.names_a_bearing(),
         },
     )?;
+    (measured.notes).extend(measured.scenario.as_deref().map(truth));
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
@@ -251,6 +252,7 @@ fn lay_over(
             measured.unit.name
         )));
     }
+    (other.notes).extend(other.scenario.as_deref().map(truth));
     let factor = other.unit.to_si / measured.unit.to_si;
     other.x.iter_mut().for_each(|v| *v *= factor);
     other.unit = measured.unit.clone();

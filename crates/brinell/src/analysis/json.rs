@@ -121,6 +121,7 @@ fn finding(analysis: &Analysis, f: &Finding) -> Value {
         "of_searches": analysis.views.len(),
         "explained_by": f.explained_by,
         "alternatives": f.alternatives,
+        "too_short_to_tell_from": f.untold_from,
         "harmonics": f.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
         "shown_by_sidebands": f.evidence.carried,
         "sidebands": f.evidence.sidebands.as_ref().map(|s| json!({

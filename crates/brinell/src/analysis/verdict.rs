@@ -1,9 +1,11 @@
 //! From what stands in the envelope spectra to findings.
 
 use super::frequencies::Component;
-use super::view::{View, candidates, looking, side_by_side};
+use super::view::{USUAL_FTF, View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
-use crate::signal::{Candidate, Evidence, Line, Spectrum, diagnose_beside, without};
+use crate::signal::{
+    Candidate, Evidence, Line, SidebandEvidence, Spectrum, diagnose_beside, without,
+};
 
 /// A line stands where noise would show as much less often than this.
 pub(super) const LINE_LEVEL: f64 = 1e-3;
@@ -27,6 +29,10 @@ const PASSING: f64 = 0.4;
 /// Harmonics, and the chance of noise, from which evidence is called clear.
 pub(super) const FEWEST_TO_BE_CLEAR: usize = 3;
 pub(super) const CLEAR: f64 = 1e-3;
+
+/// Bins from one sideband to the next from which sidebands tell for one source and against another: a line fills five, so that in a shorter
+/// record they hold most of the spectrum, and whatever else stands in it.
+const APART: f64 = 10.0;
 
 /// How much a finding says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,6 +68,8 @@ pub struct Finding {
     pub explained_by: Vec<&'static str>,
     /// Others that claim some of its lines.
     pub alternatives: Vec<&'static str>,
+    /// Others that stand too, and that so short a record does not tell from it: a rolling element's sidebands fill it.
+    pub untold_from: Vec<&'static str>,
 }
 
 impl Finding {
@@ -80,9 +88,9 @@ impl Finding {
         self.component == Component::OuterRace && self.modulation < PASSING
     }
 
-    /// `very clear`, `clear` or `weak`, by the number of its lines, the chance of noise, and whether a healthy bearing may show as much.
+    /// `very clear`, `clear` or `weak`, by the number of its lines, the chance of noise, and whether something else may show as much.
     pub fn clarity(&self) -> &'static str {
-        if self.may_be_passing() {
+        if self.may_be_passing() || !self.untold_from.is_empty() {
             return "weak";
         }
         match (self.evidence.shown(), self.false_alarm) {
@@ -190,10 +198,28 @@ pub(super) fn find(
         finding.explained_by = findings.iter().map(|f| f.name).collect();
         findings.push(finding);
     }
+    // Bins are half as wide as what they resolve.
+    if tells_elements(shaft, options) > 2.0 / resolution {
+        let all: Vec<_> = findings.iter().map(|f| (f.component, f.name)).collect();
+        for finding in &mut findings {
+            let untold = |other: &&(Component, _)| {
+                let pair = [finding.component, other.0];
+                pair[0] != pair[1]
+                    && pair.contains(&Component::Element)
+                    && !pair.contains(&Component::Cage)
+            };
+            finding.untold_from = all.iter().filter(untold).map(|o| o.1).collect();
+        }
+    }
     let best = findings
         .first()
         .map_or_else(|| quiet_view(views), |f| f.view);
     Ok((findings, best))
+}
+
+/// How long a record has to be, s, to tell a rolling element's lines from others'.
+pub(super) fn tells_elements(shaft: f64, options: &Options) -> f64 {
+    APART / (options.orders.ftf.unwrap_or(USUAL_FTF) * shaft)
 }
 
 /// Which of those that stand comes first: the one without whose lines most others no longer stand, and that does not fall with
@@ -226,7 +252,8 @@ fn leading(
         let left = side_by_side(&seen, |((spectrum, evidence), view)| {
             let mine = &evidence[all[i].candidate];
             let mine = if mine.stands { mine } else { &all[i].evidence };
-            let rest = without(spectrum, mine.frequency, spacing.as_slice())?;
+            let apart = spacing.filter(|s| *s >= APART * spectrum.frequency_step);
+            let rest = without(spectrum, mine.frequency, apart.as_slice())?;
             Ok(diagnose_beside(&rest, &sought, &options, &view.removed)?.evidence)
         })?;
         for j in (0..rivals).filter(|j| *j != i) {
@@ -287,7 +314,7 @@ fn standing(
                 views: standing().count(),
                 evidence: e[index].clone(),
                 share: standing()
-                    .map(|(v, e)| e[index].power() / totals[v].max(f64::MIN_POSITIVE))
+                    .map(|(v, e)| power(&e[index], &spectra[v]) / totals[v].max(f64::MIN_POSITIVE))
                     .sum(),
             });
         }
@@ -305,6 +332,15 @@ fn standing(
         new
     });
     all
+}
+
+/// Power of the lines that are its own as far as the spectrum tells.
+fn power(e: &Evidence, spectrum: &Spectrum) -> f64 {
+    let apart = |s: &SidebandEvidence| s.spacing >= APART * spectrum.frequency_step;
+    match e.sidebands.as_ref().is_some_and(apart) {
+        true => e.power(),
+        false => 0.5 * e.modulation().powi(2),
+    }
 }
 
 /// Whether the sidebands of something that turns stand together by more than chance, where they can be told from their carriers: in a
@@ -342,6 +378,7 @@ fn finding(
         strength: Strength::Faint,
         explained_by: Vec::new(),
         alternatives: (evidence.alternatives.iter()).map(|a| names[a.0]).collect(),
+        untold_from: Vec::new(),
         evidence,
     }
 }

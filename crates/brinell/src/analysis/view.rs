@@ -20,7 +20,7 @@ const CLEAR: f64 = 0.4;
 /// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// FTF over the shaft's frequency where nobody said.
-const USUAL_FTF: f64 = 0.4;
+pub(super) const USUAL_FTF: f64 = 0.4;
 
 /// An envelope spectrum and its diagnosis.
 #[derive(Debug, Clone)]
@@ -151,7 +151,8 @@ fn spectra(
     shaft: f64,
     options: &Options,
 ) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
-    // Triangles over two stretches are filter enough: what folds back onto the highest line sought has been brought down by 34 dB.
+    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
+    // brought down by 34 dB.
     let Thinned { mean, values } = match band.choice {
         BandChoice::Whitened => transformed.whitened_envelope(band.band, count),
         _ => transformed.envelope(band.band, count),

@@ -1,9 +1,13 @@
 //! Findings in words.
 
 use super::frequencies::Component;
-use super::verdict::{CLEAR, FAINT, FEWEST_TO_BE_CLEAR};
+use super::verdict::{CLEAR, FAINT, FEWEST_TO_BE_CLEAR, tells_elements};
 use super::view::candidates;
 use super::{Analysis, Beyond, Finding};
+
+/// What else may strike the resting race.
+const PASSING: &str = "rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much where \
+                       little else is heard: compare with a signal of the healthy machine";
 
 /// The verdict, one paragraph.
 pub(super) fn verdict(analysis: &Analysis) -> String {
@@ -33,14 +37,33 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
             ));
             for other in rest {
                 text.push(format!(
-                    "Also the {}: {}; a second damage, or the same one seen otherwise.",
+                    "Also the {}: {}; a second damage, or the same one seen otherwise{}.",
                     other.component.words(),
-                    told(analysis, other)
+                    told(analysis, other),
+                    if other.may_be_passing() {
+                        format!("; or {PASSING}")
+                    } else {
+                        String::new()
+                    }
                 ));
             }
         }
     }
+    let untold = |f: &&Finding| {
+        causes
+            .first()
+            .is_some_and(|c| c.untold_from.contains(&f.name))
+    };
     for other in others {
+        if untold(&other) && !other.explained_by.is_empty() {
+            text.push(format!(
+                "{} ({}) stands at {:.2} Hz and may be the cause instead.",
+                other.name,
+                other.component.words(),
+                other.evidence.frequency
+            ));
+            continue;
+        }
         let why = if other.explained_by.is_empty() {
             format!(
                 "modulates the envelope by {:.1} %{}; not called damage",
@@ -72,20 +95,33 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 
 /// Why evidence is weak that noise does not explain.
 fn reserve(analysis: &Analysis, finding: &Finding) -> String {
-    if finding.may_be_passing() {
-        return ", but rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much \
-                where little else is heard: compare with a signal of the healthy machine"
-            .into();
-    }
+    let mut text = String::new();
     let shown = finding.evidence.shown();
-    if shown >= FEWEST_TO_BE_CLEAR || finding.false_alarm >= CLEAR {
-        return String::new();
+    if shown < FEWEST_TO_BE_CLEAR && finding.false_alarm < CLEAR {
+        text += &format!(
+            ", but only {shown} of {} harmonics {}, and so few may be another source's",
+            analysis.options.harmonics,
+            if shown == 1 { "stands" } else { "stand" }
+        );
     }
-    format!(
-        ", but only {shown} of {} harmonics {}, and so few may be another source's",
-        analysis.options.harmonics,
-        if shown == 1 { "stands" } else { "stand" }
-    )
+    if !finding.untold_from.is_empty() {
+        text += if text.is_empty() { ", but " } else { "; and " };
+        text += &format!(
+            "the record is too short to tell it from {}, which {} as well: that takes {:.1} s",
+            finding.untold_from.join(" and "),
+            if finding.untold_from.len() == 1 {
+                "stands"
+            } else {
+                "stand"
+            },
+            tells_elements(analysis.shaft, &analysis.options)
+        );
+    }
+    if finding.may_be_passing() {
+        text += if text.is_empty() { ", but " } else { "; and " };
+        text += PASSING;
+    }
+    text
 }
 
 /// What stands beyond the tolerance, and what would make sense of it.

@@ -212,19 +212,22 @@ mod tests {
 
     #[test]
     fn analytic_blend_and_weighted_square() {
-        let list = |f: fn(f64) -> f64| -> Vec<f64> { (0..21).map(|k| f(f64::from(k))).collect() };
-        let (a, b, c) = (list(f64::sin), list(f64::cos), list(|k| 1.0 + k));
         let factors = [2.0, -0.25, 1e-3];
-        let mut out = vec![f64::NAN; 21];
-        blend(&mut out, factors, [&a, &b, &c]);
-        let plain: Vec<f64> = (0..21)
-            .map(|k| factors[0] * a[k] + factors[1] * b[k] + factors[2] * c[k])
-            .collect();
-        for (x, y) in out.iter().zip(&plain) {
-            assert!((x - y).abs() < 1e-15);
+        // Shorter than a group of any lanes, one of the widest, and with a last group that overlaps.
+        for n in [1, 3, 8, 16, 21] {
+            let list = |f: fn(f64) -> f64| (0..n).map(|k| f(k as f64)).collect::<Vec<f64>>();
+            let (a, b, c) = (list(f64::sin), list(f64::cos), list(|k| 1.0 + k));
+            let mut out = vec![f64::NAN; n];
+            blend(&mut out, factors, [&a, &b, &c]);
+            let plain: Vec<f64> = (0..n)
+                .map(|k| factors[0] * a[k] + factors[1] * b[k] + factors[2] * c[k])
+                .collect();
+            for (x, y) in out.iter().zip(&plain) {
+                assert!((x - y).abs() < 1e-15);
+            }
+            let sum: f64 = plain.iter().zip(&c).map(|(x, w)| w * x * x).sum();
+            let square = weighted_square(&c, factors, [&a, &b, &c]);
+            assert!((square / sum - 1.0).abs() < 1e-14);
         }
-        let sum: f64 = plain.iter().zip(&c).map(|(x, w)| w * x * x).sum();
-        let square = weighted_square(&c, factors, [&a, &b, &c]);
-        assert!((square / sum - 1.0).abs() < 1e-14);
     }
 }

@@ -1,6 +1,6 @@
 //! Several numbers at a time, and the elementary functions that the right-hand side spends its time in.
 //!
-//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register. `portable` holds it as an array,
+//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `portable` holds it as an array,
 //! `x86` in a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
 //! in round-off alone: the portable one rounds every product, the others fuse products with sums.
 

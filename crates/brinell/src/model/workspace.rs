@@ -109,7 +109,7 @@ pub struct Workspace {
     pub pocket_friction: Column,
     /// (cos, sin) of the middle of each raceway defect that meets the contacts of each side.
     pub(super) directions: [Vec<[f64; 2]>; 2],
-    /// Lanes of each group whose contact may stand on damage, a bit each; as many groups as the kernel's lanes make of the slots.
+    /// Lanes of each group whose contact may stand on damage, a bit each; as many groups as the kernel's pairs make of the slots.
     pub(super) exposed: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
     pub(super) near: [Vec<bool>; 2],

@@ -231,7 +231,7 @@ impl Branches {
         })
     }
 
-    /// Of every output: what passes the prototype below, where it is (`MIDDLE`, or else zero), and above, moved to zero frequency but for the
+    /// Of every output: what passes the prototype below, where it is (with `MIDDLE`; else nothing of use), and above, moved to zero frequency but for the
     /// phase at the middle tap.
     fn outputs<const MIDDLE: bool>(
         &self,

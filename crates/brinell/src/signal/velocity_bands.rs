@@ -80,7 +80,7 @@ pub fn velocity_bands(
         .collect();
     let wanted: Vec<Band> = inside.iter().map(|i| bands[*i]).collect();
     let mut found = [None; 3];
-    // Squares reach up to twice a band's highest frequency: with more steps than that none folds back to where a block's mean would see it.
+    // Squares reach up to twice a band's highest frequency: with more steps than that little folds back to where a block's mean would see it.
     let count = |periods: usize| fast_from(5 * periods / 2).min(a.len()).max(FEWEST_SAMPLES);
     velocities(a, fs, &wanted, count, |place, velocity| {
         let band = wanted[place];

@@ -15,6 +15,7 @@ use channel::{Chosen, channel};
 use rate::rate;
 pub(crate) use speed::StatedSpeed;
 use speed::{speed, states_speed};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use stretch::stretch;
 pub(crate) use stretch::{Beyond, Reading, Rest};
@@ -108,7 +109,6 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
     notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
     let unit = unit(&name, &channel, wanted, run, &mut notes, &mut warnings)?;
-    notes.extend(run.map(truth));
     asked.extend(rate.as_ref().err().cloned());
     asked.extend(unit.as_ref().err().cloned());
     if wanted.ask_speed && !states_speed(&file, wanted, run, &name) {
@@ -220,15 +220,14 @@ fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
         })
 }
 
-/// What damage a run had.
-fn truth(run: &Loaded) -> String {
-    let defects = &run.scenario.defects;
-    if defects.is_empty() {
-        return "damage in that run: none; the passing of its rollers may stand at BPFO, as nothing drowns it".into();
+/// What damage the run had that made a signal.
+pub(crate) fn truth(run: &Loaded) -> String {
+    let on: BTreeSet<&str> = run.scenario.defects.iter().map(|d| d.on.word()).collect();
+    let on: Vec<&str> = on.into_iter().collect();
+    match on[..] {
+        [] => "the run that made it had no damage".into(),
+        _ => format!("the run that made it had damage on: {}", on.join(", ")),
     }
-    let mut on: Vec<&str> = defects.iter().map(|d| d.on.word()).collect();
-    on.dedup();
-    format!("damage in that run: {}", on.join(", "))
 }
 
 /// The scenario that the file carries, or that lies beside it where the file is a run's.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::envelope::{Band, envelope_spectrum};
-use super::super::psd::Segments;
+use super::super::psd::{Segments, psd};
 use super::super::test_signals::{ImpactTrain, Noise, cosine};
 use super::*;
 
@@ -73,6 +73,28 @@ fn prop_outer_race_damage_is_found() {
         assert!((e.frequency - 106.8).abs() < 0.1, "{}", e.frequency);
         assert!(e.false_alarm < 1e-6 && e.standing >= 3);
         assert!(e.alternatives.is_empty() && e.sidebands.is_none());
+    }
+}
+
+/// A comb's skirts reach two bins; what counts is where its peaks are.
+#[test]
+fn prop_a_comb_stands_within_the_tolerance_and_its_skirts_do_not() {
+    let segments = Segments::of(32_768);
+    let (expected, tolerance, step) = (107.3, 0.01 * 107.3, FS / 32_768.0);
+    for seed in 0..10 {
+        for (beyond, stands) in [(-0.5, true), (1.5, false)] {
+            let mut noise = Noise::new(seed);
+            let comb = expected + tolerance + beyond * step;
+            let lines: Vec<Vec<f64>> = (1..=3)
+                .map(|h| cosine(N, FS, f64::from(h) * comb, 1.0, f64::from(h)))
+                .collect();
+            let x: Vec<f64> = (0..N)
+                .map(|i| lines.iter().map(|l| l[i]).sum::<f64>() + 3.0 * noise.normal())
+                .collect();
+            let s = psd(&x, FS, &segments).unwrap();
+            let d = diagnose(&s, &candidates(), &DiagnosisOptions::default()).unwrap();
+            assert_eq!(d.evidence[0].stands, stands, "{seed}: {:?}", d.evidence[0]);
+        }
     }
 }
 
