@@ -281,7 +281,7 @@ mod tests {
         let mut highest = [0.0_f64; 2];
         for apart in (1..=60).map(|k| 50.0 * f64::from(k) - 7.0) {
             for (weaker, highest) in [1.0, 0.6].into_iter().zip(&mut highest) {
-                let x: Vec<f64> = (0..n as i32)
+                let x: Vec<f64> = (0..n)
                     .map(|i| turn(2003.0, i) + weaker * turn(2003.0 + apart, i))
                     .collect();
                 let thinned = Transformed::of(&x, FS).unwrap().envelope(band, count);
