@@ -237,7 +237,7 @@ fn done<T>(thread: ScopedJoinHandle<T>) -> T {
 /// enough. No verdict rests on it.
 ///
 /// # Errors
-/// As [`psd`].
+/// As [`crate::signal::psd()`].
 pub fn shown_spectrum(x: &[f64], fs: f64) -> Result<Spectrum, AnalysisError> {
     let wanted = (fs as usize).clamp(256, 1 << 16);
     let length = fast_up_to(wanted.min((x.len() / 4).max(256)));

@@ -5,7 +5,7 @@
 //! The analytic signal a(t) of a band of b bins is a sum of b turning values, so a transform of any length M of b or more gives it exactly at
 //! M times: no more are taken than the band's width asks for. |a|^2 holds nothing above the width B, and of |a| itself what lies beyond falls off fast:
 //! of Gaussian noise with correlation r, that of |a| goes as 1 + r^2 / 4 + r^4 / 64 + ..., and r^2 ends at B, r^4 at 2 B. Tones need more than noise: two
-//! of them, f apart, make a modulus with lines at k f, and f reaches B. Taken at [`AMPLE`] B, the fourth line is the first that folds back onto the lowest
+//! of them, f apart, make a modulus with lines at k f, and f reaches B. Taken at 4 B (`AMPLE`), the fourth line is the first that folds back onto the lowest
 //! frequencies: 3.2 % of the mean where both are equally strong, less where they are not (2 / (4 k^2 - 1), the series of |cos|). The envelope of a
 //! band as wide as the spectrum is taken at every sample, as everybody takes it.
 
