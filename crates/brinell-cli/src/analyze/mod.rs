@@ -86,6 +86,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         )));
     }
     options.tolerance = 0.01 * args.tolerance;
+    options.silent = measured.silent();
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
     if args.speed.is_none() {
         options.rotation = rotation(&measured)?;
@@ -261,6 +262,7 @@ fn lay_over(
         options.shaft = stated.rpm.abs() / 60.0;
     }
     options.rotation = rotation(&other)?;
+    options.silent = other.silent();
     if let Some(run) = &other.scenario {
         let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
         options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);

@@ -122,6 +122,7 @@ fn finding(analysis: &Analysis, f: &Finding) -> Value {
         "explained_by": f.explained_by,
         "alternatives": f.alternatives,
         "too_short_to_tell_from": f.untold_from,
+        "may_be_passing": f.may_be_passing,
         "harmonics": f.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
         "shown_by_sidebands": f.evidence.carried,
         "sidebands": f.evidence.sidebands.as_ref().map(|s| json!({

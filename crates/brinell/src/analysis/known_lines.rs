@@ -170,6 +170,7 @@ fn family(
         harmonics: FAMILY,
         sidebands: 0,
         level: FAMILY_LEVEL,
+        rival: 0.0,
     };
     let found = diagnose(spectrum, &[candidate], &options)?;
     let evidence = &found.evidence[0];

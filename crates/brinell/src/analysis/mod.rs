@@ -76,10 +76,12 @@ pub struct Options {
     /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency in Hz is
     /// its order times `shaft`, the mean speed. Time counts from the first sample.
     pub rotation: Option<Rotation>,
+    /// Whether the signal is a simulation's without a sensor's noise: healthy rollers that enter the load are then heard too.
+    pub silent: bool,
 }
 
 impl Options {
-    /// With the usual tolerance, level and harmonics.
+    /// With the usual tolerance, level and harmonics, for a measured signal.
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
         Options {
             shaft,
@@ -89,6 +91,7 @@ impl Options {
             level: 0.01,
             harmonics: 5,
             rotation: None,
+            silent: false,
         }
     }
 }

@@ -70,6 +70,8 @@ pub struct Finding {
     pub alternatives: Vec<&'static str>,
     /// Others that stand too, and that so short a record does not tell from it: a rolling element's sidebands fill it.
     pub untold_from: Vec<&'static str>,
+    /// Whether the rollers of a healthy bearing may show as much, where nothing drowns them ([`Options::silent`]).
+    pub may_be_passing: bool,
 }
 
 impl Finding {
@@ -83,14 +85,9 @@ impl Finding {
         self.evidence.harmonics.standing(LINE_LEVEL)
     }
 
-    /// Whether the rollers of a healthy bearing may show as much.
-    pub fn may_be_passing(&self) -> bool {
-        self.component == Component::OuterRace && self.modulation < PASSING
-    }
-
     /// `very clear`, `clear` or `weak`, by the number of its lines, the chance of noise, and whether something else may show as much.
     pub fn clarity(&self) -> &'static str {
-        if self.may_be_passing() || !self.untold_from.is_empty() {
+        if self.may_be_passing || !self.untold_from.is_empty() {
             return "weak";
         }
         match (self.evidence.shown(), self.false_alarm) {
@@ -379,6 +376,7 @@ fn finding(
         explained_by: Vec::new(),
         alternatives: (evidence.alternatives.iter()).map(|a| names[a.0]).collect(),
         untold_from: Vec::new(),
+        may_be_passing: options.silent && component == Component::OuterRace && modulation < PASSING,
         evidence,
     }
 }

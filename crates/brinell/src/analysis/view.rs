@@ -19,6 +19,8 @@ const ENVELOPE_RATE: f64 = 8.0;
 const CLEAR: f64 = 0.4;
 /// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
+/// Lines this far below a defect frequency's strongest, in power, do not put it in doubt: a simulation without noise is full of them.
+const RIVAL: f64 = 1e-2;
 /// FTF over the shaft's frequency where nobody said.
 pub(super) const USUAL_FTF: f64 = 0.4;
 
@@ -89,6 +91,7 @@ pub(super) fn looking(options: &Options, tests: f64) -> DiagnosisOptions {
         harmonics: options.harmonics,
         sidebands: 2,
         level: options.level / tests,
+        rival: RIVAL,
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Analysis, Beyond, Finding};
 
 /// What else may strike the resting race.
 const PASSING: &str = "rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much where \
-                       little else is heard: compare with a signal of the healthy machine";
+                       nothing else is heard: compare with a run of the healthy bearing";
 
 /// The verdict, one paragraph.
 pub(super) fn verdict(analysis: &Analysis) -> String {
@@ -40,7 +40,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                     "Also the {}: {}; a second damage, or the same one seen otherwise{}.",
                     other.component.words(),
                     told(analysis, other),
-                    if other.may_be_passing() {
+                    if other.may_be_passing {
                         format!("; or {PASSING}")
                     } else {
                         String::new()
@@ -117,7 +117,7 @@ fn reserve(analysis: &Analysis, finding: &Finding) -> String {
             tells_elements(analysis.shaft, &analysis.options)
         );
     }
-    if finding.may_be_passing() {
+    if finding.may_be_passing {
         text += if text.is_empty() { ", but " } else { "; and " };
         text += PASSING;
     }

@@ -86,15 +86,19 @@ pub struct DiagnosisOptions {
     pub sidebands: usize,
     /// Largest false-alarm probability, over all candidates, at which one is said to stand; above 0 to below 1.
     pub level: f64,
+    /// Noise as weak as this share of a candidate's strongest line, in power, hides what would crowd it: other lines hardly above that do not put
+    /// it in doubt. 0: any may.
+    pub rival: f64,
 }
 
 impl Default for DiagnosisOptions {
-    /// Five harmonics, two sidebands to either side, 1 %.
+    /// Five harmonics, two sidebands to either side, 1 %, any lines in doubt.
     fn default() -> Self {
         DiagnosisOptions {
             harmonics: 5,
             sidebands: 2,
             level: 0.01,
+            rival: 0.0,
         }
     }
 }
@@ -309,10 +313,19 @@ fn examine(
         true if !comb::dwarfs(floor, &sought, candidates, best.power) => {
             let left = without(floor.spectrum(), frequency, spacing.as_slice())?;
             let left = comb::beside(left, frequency);
-            let floor = Floor::within(&left, RANGE)?;
+            let strongest = (found.standing(LINE_LEVEL).chain(
+                sidebands
+                    .iter()
+                    .flat_map(|s| s.standing_lines().map(|l| l.1)),
+            ))
+            .fold(0.0, |m: f64, l| m.max(l.amplitude));
+            let left = || -> Result<Floor, SignalError> {
+                Ok(Floor::within(&left, RANGE)?.at_least(options.rival * strongest.powi(2)))
+            };
+            let floor = left()?;
             let shown = |floor: &Floor| comb::crowding(floor, &sought, candidates);
             let family = comb::family(&floor, frequency, &found, sidebands.as_ref());
-            let apart = shown(&Floor::within(&left, RANGE)?.hiding(&family));
+            let apart = shown(&left()?.hiding(&family));
             // Where its family leaves too little to compare with, all of the rest, its own remains included.
             apart.or_else(|| shown(&floor)).unwrap_or(1.0)
         }

@@ -184,6 +184,14 @@ impl<'a> Floor<'a> {
         })
     }
 
+    /// With a floor of at least `power`.
+    pub(super) fn at_least(self, power: f64) -> Self {
+        Floor {
+            lowest: self.lowest.max(power),
+            ..self
+        }
+    }
+
     /// The same noise, measured without the bins marked in `hidden`, one mark a bin.
     pub(super) fn hiding(self, hidden: &'a [bool]) -> Self {
         Floor {

@@ -64,6 +64,16 @@ pub(crate) struct Measured {
     pub(crate) scenario: Option<Box<Loaded>>,
 }
 
+impl Measured {
+    /// Whether a run made it whose sensor had no noise.
+    pub(super) fn silent(&self) -> bool {
+        (self.scenario.as_ref()).is_some_and(|run| {
+            let sensor = &run.scenario.sensor;
+            sensor.noise_rms_m_per_s2.is_none() && sensor.noise_snr_db.is_none()
+        })
+    }
+}
+
 /// What is asked where nobody says how fast the shaft turns.
 pub(super) const ASK_SPEED: &str = "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
 /// What is asked where nobody says which bearing it is.
