@@ -166,4 +166,5 @@ def analyze(
     tolerance: float,
     level: float,
     band_hz: _Band,
+    simulated: bool,
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...

@@ -173,7 +173,7 @@ class Result:
                 raise ValueError("speed_rpm: needed, for the scenario's varies")
             options["speed_rpm"] = speed
         first = round(self.summary["simulated"]["analysed_from_s"] * self.rate_hz)
-        settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario}
+        settings: dict[str, Any] = {"rate_hz": self.rate_hz, "unit": self.units[channel], "bearing": self.scenario, "simulated": True}
         return analyze(self[channel][first:], **(settings | options))
 
     def to_pandas(self) -> pandas.DataFrame:

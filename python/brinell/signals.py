@@ -389,6 +389,7 @@ def analyze(
     tolerance: float = 0.02,
     level: float = 0.01,
     band_hz: tuple[float, float] | None = None,
+    simulated: bool = False,
 ) -> Analysis:
     """Which component's defect frequencies stand out of a vibration signal, or that nothing does.
 
@@ -408,6 +409,9 @@ def analyze(
         Chance at most that noise alone is called damage.
     band_hz : (float, float), optional
         Band to demodulate; it is searched for unless told.
+    simulated : bool
+        Whether a simulation made the signal: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
+        that enter the load are heard too, and weak lines of the outer race say less.
 
     Raises
     ------
@@ -427,7 +431,7 @@ def analyze(
     samples = np.asarray(x, dtype=float)
     orders = [bpfo, bpfi, bsf, ftf]
     report, found = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, level, band_hz
+        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, level, band_hz, simulated
     )
     verdict = report["verdict"]
     return Analysis(verdict["text"], verdict["damage"], report["findings"], Spectrum._of(found, unit), report)

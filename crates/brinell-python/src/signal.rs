@@ -262,6 +262,7 @@ pub(crate) fn analyze<'py>(
     tolerance: f64,
     level: f64,
     band_hz: Option<(f64, f64)>,
+    simulated: bool,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
     let mut copy = Vec::new();
     let x = slice(&x, &mut copy);
@@ -280,6 +281,8 @@ pub(crate) fn analyze<'py>(
     let mut options = Options::new(shaft, orders(bearing, geometry, orders_given)?);
     options.tolerance = tolerance;
     options.level = level;
+    let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
+    options.silent = simulated && !scenario.is_some_and(noisy);
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let unit = Unit::of(unit);
     let (analysis, bands) = py.detach(|| {

@@ -67,10 +67,7 @@ pub(crate) struct Measured {
 impl Measured {
     /// Whether a run made it whose sensor had no noise.
     pub(super) fn silent(&self) -> bool {
-        (self.scenario.as_ref()).is_some_and(|run| {
-            let sensor = &run.scenario.sensor;
-            sensor.noise_rms_m_per_s2.is_none() && sensor.noise_snr_db.is_none()
-        })
+        (self.scenario.as_ref()).is_some_and(|run| run.scenario.sensor.noise_rms().is_none())
     }
 }
 
