@@ -22,7 +22,7 @@ words! { Guidance:
 
 words! { Law:
     Ecl = "ecl", "effective contact length";
-    Sliced = "sliced", "independent slices, each at its own depth";
+    Sliced = "sliced", "independent slices, each with what damage covers of it";
 }
 
 words! { RollerPath:
