@@ -121,6 +121,7 @@ fn on(surface: Surface, shape: Shape) -> Defect {
         row: 1,
         center_deg: 0.0,
         depth_um: 12.0,
+        axial_offset_mm: 0.0,
         shape,
     }
 }
