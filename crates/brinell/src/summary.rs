@@ -2,6 +2,7 @@
 
 use crate::accuracy::METHOD;
 use crate::document::{Loaded, Provenance};
+use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
 use crate::observe::{Findings, passes};
@@ -254,6 +255,7 @@ fn solver(outcome: &Outcome) -> Value {
     let w = &outcome.work;
     json!({
         "method": METHOD,
+        "kernel": Kernel::in_use().name(),
         "steps": w.solver.steps,
         "rejections": w.solver.rejections,
         "right_hand_sides": w.solver.evaluations,
