@@ -36,7 +36,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let earlier = earlier(args, &loaded, &folder)?;
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
-    let task = (&loaded, &folder, &earlier);
+    let task = (&loaded, folder.as_path(), &earlier);
     let done = execute(args, task, simulation, progress, &stop)?;
     if !args.quiet {
         for line in &done.told {
