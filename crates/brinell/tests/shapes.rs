@@ -243,8 +243,8 @@ proptest! {
             prop_assert!((0.0..=6e-3).contains(&a.damaged_length) && a.damaged_length == b.damaged_length);
             prop_assert!(b.depth <= a.depth + 1e-15 && b.depth >= 0.0);
             let force = |d: &Defect| acting([d].into_iter(), &LAW, &at(u), Side::Outer, 30e-6).map_or(0.0, |a| a.elastic);
-            // Along the envelope the mean over a slice is a sum over lines.
-            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 3e-3));
+            // Along the envelope the mean over a slice of a fine map is a sum over 12 lines, at a point it is exact.
+            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 3e-2));
         }
     }
 
