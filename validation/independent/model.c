@@ -30,10 +30,11 @@ typedef struct {
     Piece *piece;
 } Floor;
 
-/* Of every slice at equal steps of s: the mean of h_env over what is covered, and the fraction that a raised edge lifts beside it. */
+/* Of every slice at equal steps of s: the integral of h_env over what is covered over the slice's width, and the fraction that a raised edge
+ * lifts beside it. */
 typedef struct {
     int nodes;
-    double from, step, *depth, *lifted; /* [node * slices + slice] */
+    double from, step, *section, *lifted; /* [node * slices + slice] */
 } Table;
 
 typedef struct {
@@ -637,13 +638,13 @@ static void build_table(Defect *d, int side)
     t->nodes = NODES;
     t->from = d->first - d->reach;
     t->step = (d->last + d->reach - t->from) / (NODES - 1);
-    t->depth = need((size_t)(NODES * M.slices), sizeof(double));
+    t->section = need((size_t)(NODES * M.slices), sizeof(double));
     t->lifted = need((size_t)(NODES * M.slices), sizeof(double));
     for (int node = 0; node < NODES; node++)
         for (int k = 0; k < M.slices; k++) {
             const double s = t->from + node * t->step;
             double sum = 0.0;
-            int count = 0, lifted = 0;
+            int lifted = 0;
             for (int i = 0; i < LINES; i++) {
                 const Floor *f = &d->floor[k * LINES + i];
                 double slope;
@@ -652,10 +653,9 @@ static void build_table(Defect *d, int side)
                 const int covered = on_a_piece(f, s);
                 if (!covered && h >= 0.0) continue;
                 lifted += !covered;
-                count++;
                 sum += h;
             }
-            t->depth[node * M.slices + k] = count ? sum / count : 0.0;
+            t->section[node * M.slices + k] = sum / LINES;
             t->lifted[node * M.slices + k] = (double)lifted / LINES;
         }
 }
@@ -815,18 +815,19 @@ static Elastic sliced_law(int side, int row, int j, double theta, double phi, do
     if (M.path == PATH_ENVELOPE && count > 1) die("defects that meet one contact along an envelope", "are not covered");
     const double whole = power(delta), whole_rise = delta > 0.0 ? M.n * pow(delta, M.n - 1.0) : 0.0;
     for (int k = 0; k < M.slices && count; k++) {
-        double depth, rise = 0.0, part = fraction(met, count, k, &depth), none;
+        double depth, section = 0.0, rise = 0.0, part = fraction(met, count, k, &depth), none;
         if (M.path == PATH_ENVELOPE) {
             const Table *t = &met->d->table[side];
-            depth = looked_up(t, t->depth, k, met->s, &rise);
             part += looked_up(t, t->lifted, k, met->s, &none);
+            section = looked_up(t, t->section, k, met->s, &rise);
+            depth = part > 0.0 ? section / part : 0.0;
         }
         const double share = settled(fmin(part, 1.0));
         const double x = delta - depth, q = share > 0.0 ? power(x) : 0.0;
         e.elastic += K / M.slices * ((1.0 - share) * whole + share * q);
         if (slope) e.stiffness += K / M.slices * ((1.0 - share) * whole_rise + (share > 0.0 && x > 0.0 ? share * M.n * pow(x, M.n - 1.0) : 0.0));
         if (M.edge == EDGE_CONSERVATIVE && share > 0.0) {
-            /* -dE/ds with E = (1 - phi) E(delta) + phi E(delta - h); the fraction's slope by a difference. */
+            /* -dE/ds with E = (1 - phi) E(delta) + phi E(delta - h) and h = section / phi; the fraction's slope by a difference. */
             const double hair = 1e-9;
             double widens = 0.0;
             if (share < 1.0) {
@@ -840,7 +841,7 @@ static Elastic sliced_law(int side, int row, int j, double theta, double phi, do
                 if (fabs(far[1] - far[0]) > 1e-3) widens = 0.0;
             }
             const double energy = (q * fmax(x, 0.0) - whole * fmax(delta, 0.0)) / (M.n + 1.0);
-            const double push = K / M.slices * (share * q * rise - widens * energy) * met->d->radius;
+            const double push = K / M.slices * (q * (rise - depth * widens) - widens * energy) * met->d->radius;
             e.push += push;
             if (met->d->on == ROLLER) e.push_own += push;
         }

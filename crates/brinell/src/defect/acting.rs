@@ -7,6 +7,7 @@
 use super::bands::Band;
 use super::ground::{Cover, Ground, slice_borders};
 use super::joint::{Depths, Strip, rest};
+use super::map_slices::GAUSS;
 use super::track::settled;
 use super::{Angles, Defect, Shape, Side};
 use crate::contact::{Floor, Hertz};
@@ -54,10 +55,13 @@ impl<'a> Cut<'a> {
         covered.then(|| self.defect.depth_at(self.s))
     }
 
-    /// The next z above z at which that, or the form of the borders along s, may change.
+    /// The next z above z at which that, or the form of the borders along s, may change; of a depth map along an envelope only where damage ends.
     fn next(&self, z: f64) -> f64 {
         if let Shape::DepthMap(grid) = &self.defect.shape {
-            return grid.next_row(z);
+            return match &self.ground.surface {
+                None => grid.next_row(z),
+                Some(_) => grid.next_end(self.s, z),
+            };
         }
         let bands = &self.ground.bands;
         match bands.get(bands.partition_point(|b| b.z[1] <= z)) {
@@ -116,12 +120,6 @@ fn joint<'a>(
     (slices, length): (usize, f64),
     mut add: impl FnMut(f64, f64),
 ) {
-    /// Gauss's rule on 0..1.
-    const GAUSS: [[f64; 2]; 3] = [
-        [0.112_701_665_379_258_3, 5.0 / 18.0],
-        [0.5, 8.0 / 18.0],
-        [0.887_298_334_620_741_7, 5.0 / 18.0],
-    ];
     let rolling = rolling(cuts.clone());
     let deepest = |z: f64| cuts.clone().filter_map(|cut| cut.under(z)).reduce(f64::max);
     for k in 0..slices {
@@ -138,7 +136,15 @@ fn joint<'a>(
             if !is_covered && lowest >= 0.0 {
                 continue;
             }
-            for [x, weight] in GAUSS {
+            // Along an envelope each point costs a search.
+            let points = if rolling.is_none() || wide > 0.6 * (high - low) {
+                3
+            } else if wide > 0.25 * (high - low) {
+                2
+            } else {
+                1
+            };
+            for [x, weight] in GAUSS[points - 1] {
                 let at = from + x * wide;
                 let h = match rolling {
                     None => deepest(at),
@@ -407,7 +413,7 @@ impl EdgeGradient {
     }
 }
 
-/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 20 nm of the arc.
+/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of the arc.
 pub fn edge_gradient<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
@@ -415,8 +421,8 @@ pub fn edge_gradient<'a>(
     side: Side,
     delta: f64,
 ) -> EdgeGradient {
-    /// m. A thousandth of what h changes over, and a million times what round-off of the energy asks for.
-    const STEP: f64 = 1e-8;
+    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
+    const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     let cuts = cuts(defects, angles, side);
     let Some(first) = cuts.clone().next() else {

@@ -165,6 +165,24 @@ impl Grid {
         }
     }
 
+    /// z of the next row above z at which damage begins or ends at s, m; infinite beyond the last.
+    pub(super) fn next_end(&self, s: f64, z: f64) -> f64 {
+        let Some(column) = Self::place((s - self.start[0]) / self.step[0], self.columns) else {
+            return f64::INFINITY;
+        };
+        let damaged = |z: f64| {
+            self.row_at(z)
+                .is_some_and(|row| self.is_damaged(column, row))
+        };
+        let inside = |row: f64| row + 0.5 * self.step[1];
+        let mut next = self.next_row(z);
+        let here = damaged(next - 0.5 * self.step[1]);
+        while next.is_finite() && damaged(inside(next)) == here {
+            next = self.next_row(next);
+        }
+        next
+    }
+
     /// First column at s or before it, below 0 before the first.
     pub(super) fn column_at(&self, s: f64) -> i64 {
         ((s - self.start[0]) / self.step[0]).floor() as i64

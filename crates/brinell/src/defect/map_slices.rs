@@ -15,7 +15,7 @@ const MOST_LINES: usize = 12;
 const MOST_PIECES: usize = 1_000_000;
 
 /// Gauss's rules on 0..1: points and weights.
-const GAUSS: [&[[f64; 2]]; 3] = [
+pub(super) const GAUSS: [&[[f64; 2]]; 3] = [
     &[[0.5, 1.0]],
     &[
         [0.211_324_865_405_187_1, 0.5],
