@@ -200,7 +200,10 @@ class Problem:
 
     def __init__(self, programs):
         self.build = programs.build
-        text = capture([*programs.commands["brinell"], "resolve", SCENARIO])
+        # The peers know the paper's film only; the example says nothing of its cage.
+        self.example = self.build / SCENARIO.name
+        self.example.write_text(SCENARIO.read_text() + '\n[cage]\nguidance_film = "quasi-static"\n')
+        text = capture([*programs.commands["brinell"], "resolve", self.example])
         scenario = tomllib.loads(text)
         scenario["simulation"] |= {"duration_s": FROM_S + WINDOWS * WINDOW_S, "sample_rate_hz": RATE}
         self.scenario = scenario
@@ -215,11 +218,12 @@ class Problem:
 
     def numbers(self):
         """One number to a name: what the peers read."""
-        words = ("guidance", "law", "roller_path", "edge_reaction", "slices", "load_on", "model", "start", "speed", "defect", "record", "step", "perturb")
+        words = ("guidance", "guidance_film", "law", "roller_path", "edge_reaction", "slices", "load_on", "model", "start", "speed", "defect", "record", "step", "perturb")
         sc = self.scenario
         (defect,), o = sc["defects"], sc["operation"]
         expected = {
             "guidance": (sc["cage"]["guidance"], "outer-ring"),
+            "guidance_film": (sc["cage"]["guidance_film"], "quasi-static"),
             "load_on": (o["load_on"], "outer-ring"),
             "on": (defect["on"], "outer-raceway"),
             "model": (sc["simulation"]["model"], "full"),
@@ -365,7 +369,7 @@ def read_samples(path):
 
 def launch(peer, programs, problem, tolerances, duration, budget, out):
     """Lines of JSON, one for each tolerance; fewer where time ran out or the solver gave up."""
-    scenario = SCENARIO if peer.program in ("brinell", "diffsol") else problem.file
+    scenario = problem.example if peer.program in ("brinell", "diffsol") else problem.file
     settings = [duration, RATE, LENGTH, SPEED, RTOL, peer.max_step, budget, *tolerances]
     command = [*programs.commands[peer.program], peer.method, str(scenario), str(out), *map(repr, settings)]
     before = os.times()
@@ -579,7 +583,7 @@ def main():
     problem = Problem(programs)
     say(f"the reference moves by {problem.trust['outer_ax']:.1e} when its step is doubled")
     checks = {
-        "brinell": ("brinell", ["check", str(SCENARIO)]),
+        "brinell": ("brinell", ["check", str(problem.example)]),
         "c": ("c", ["check", str(problem.file)]),
         "numpy": ("python", ["check-numpy", str(problem.file)]),
         "numba": ("python", ["check-numba", str(problem.file)]),

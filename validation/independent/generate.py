@@ -63,6 +63,7 @@ def parameters(sc, step, perturb, record):
     put("cage_outer_radius", c["outer_diameter_mm"] * 0.5e-3)
     put("pocket_clearance", c["pocket_clearance_mm"] * 1e-3)
     put("guidance", c["guidance"])
+    put("guidance_film", c.get("guidance_film", "dynamic"))
     put("guide_clearance", c["guide_clearance_mm"] * 1e-3)
     put("guide_width", c["guide_width_mm"] * 1e-3)
     put("cage_stiffness", c["contact_stiffness_n_per_m"])

@@ -20,6 +20,7 @@ enum { EDGE_NONE, EDGE_CONSERVATIVE };
 enum { OUTER, INNER, ROLLER };
 enum { START_ROLLING, START_REST, START_EQUILIBRIUM };
 enum { GUIDE_NONE, GUIDE_OUTER, GUIDE_INNER };
+enum { FILM_QUASI_STATIC, FILM_DYNAMIC };
 
 typedef struct { double a, b, ha, hb; } Piece; /* depth ha at s = a to hb at s = b, linear between */
 
@@ -48,7 +49,7 @@ typedef struct {
     int rows, Z, total;
     double Di, Do, Rm, r, Ri, Ro, L, stagger, Cr, outer_gap, mi, mo, m, Ir;
     double mc, cage_a, cage_b, Ic, Cp, Cg, L1, kc, cc;
-    int guide;
+    int guide, film;
     double n, Kin, Kout, c;
     double mu, vs, eta, Cd, rho;
     double ki, ci, ko, co;
@@ -180,6 +181,7 @@ static void read_model(const char *path)
         {"gravity_x", &M.g[0]}, {"gravity_y", &M.g[1]}, {"duration", &M.duration}, {"sample_rate", &M.fs},
         {"step", &M.step}, {"perturb", &M.perturb}};
     static const char *guides[] = {"rollers", "outer-ring", "inner-ring"};
+    static const char *films[] = {"quasi-static", "dynamic"};
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
     static const char *models[] = {"full", "reference"};
@@ -197,6 +199,7 @@ static void read_model(const char *path)
         else if (!strcmp(w, "rows")) M.rows = integer();
         else if (!strcmp(w, "rollers")) M.Z = integer();
         else if (!strcmp(w, "guidance")) { word(w); M.guide = pick(w, guides, 3); }
+        else if (!strcmp(w, "guidance_film")) { word(w); M.film = pick(w, films, 2); }
         else if (!strcmp(w, "start")) { word(w); M.start = pick(w, starts, 3); }
         else if (!strcmp(w, "load_on")) { word(w); M.load_outer = pick(w, rings, 2); }
         else if (!strcmp(w, "model")) { word(w); M.reference = pick(w, models, 2); }
@@ -726,6 +729,36 @@ static void ring_forces(double t, const double *q, const double *v, double *Fi, 
 }
 
 /* Section 8: accelerations of every coordinate. */
+/* Section 6, the dynamic film's integral by Gauss-Legendre, five points on each panel of the half circle about v*. */
+static void pushing_film(double ex, double ey, double vx, double vy, double scale, double *fx, double *fy)
+{
+    enum { PANELS = 16, POINTS = 5 };
+    static const double x[POINTS] = {-0.906179845938663993, -0.538469310105683091, 0.0, 0.538469310105683091, 0.906179845938663993};
+    static const double weight[POINTS] = {0.236926885056189088, 0.478628670499366468, 0.568888888888888889, 0.478628670499366468,
+                                          0.236926885056189088};
+    static double node_cos[PANELS * POINTS], node_sin[PANELS * POINTS], node_weight[PANELS * POINTS];
+    if (node_weight[0] == 0.0)
+        for (int k = 0; k < PANELS * POINTS; k++) {
+            const double angle = PI * ((k / POINTS + 0.5 + 0.5 * x[k % POINTS]) / PANELS - 0.5);
+            node_cos[k] = cos(angle);
+            node_sin[k] = sin(angle);
+            node_weight[k] = 0.5 * PI / PANELS * weight[k % POINTS];
+        }
+    const double speed = sqrt(vx * vx + vy * vy);
+    *fx = *fy = 0.0;
+    if (speed == 0.0) return;
+    const double ax = vx / speed, ay = vy / speed;
+    double sx = 0.0, sy = 0.0;
+    for (int k = 0; k < PANELS * POINTS; k++) {
+        const double nx = ax * node_cos[k] - ay * node_sin[k], ny = ay * node_cos[k] + ax * node_sin[k];
+        const double h = M.Cg - ex * nx - ey * ny, share = node_weight[k] * node_cos[k] / (h * h * h);
+        sx += share * nx;
+        sy += share * ny;
+    }
+    *fx = -scale * speed * sx;
+    *fy = -scale * speed * sy;
+}
+
 static void accelerations(double t, const double *q, const double *v, double *acc, int want)
 {
     double wi, W, Fi[2], Fo[2];
@@ -826,7 +859,7 @@ static void accelerations(double t, const double *q, const double *v, double *ac
 
         /* section 6 */
         {
-            /* Rollers as guides: no film, the outer ring's land alone (docs/src/theory/cage.md). */
+            /* Rollers as guides: no film, the outer ring's land alone, damped (docs/src/theory/cage.md). */
             const double eta = M.guide == GUIDE_NONE ? 0.0 : M.eta;
             const int outer = M.guide != GUIDE_INNER;
             const double gx = xc - (outer ? xo : xi), gy = yc - (outer ? yo : yi);
@@ -836,8 +869,19 @@ static void accelerations(double t, const double *q, const double *v, double *ac
             const double ue = R1 * (wc + wg), ud = R1 * (wc - wg), one = 1.0 - eps * eps;
             double Fn = -eta * fabs(ue) * M.L1 * M.L1 * M.L1 * eps * eps / (M.Cg * M.Cg * one * one);
             const double Ft = PI * eta * ue * M.L1 * M.L1 * M.L1 * eps / (4.0 * M.Cg * M.Cg * one * sqrt(one));
-            if (e > M.Cg) Fn -= M.kc * (e - M.Cg);
-            const double fx = Fn * nx - Ft * ny, fy = Fn * ny + Ft * nx;
+            const int paper = M.guide != GUIDE_NONE && M.film == FILM_QUASI_STATIC;
+            if (paper && e > M.Cg) Fn -= M.kc * (e - M.Cg);
+            double fx = Fn * nx - Ft * ny, fy = Fn * ny + Ft * nx;
+            if (!paper) {
+                const double gvx = vxc - v[outer ? 2 : 0], gvy = vyc - v[outer ? 3 : 1];
+                const double half = 0.5 * (wc + wg), held = e > 0.0 ? eps * M.Cg / e : 1.0;
+                pushing_film(held * gx, held * gy, gvx + half * gy, gvy - half * gx, eta * R1 * M.L1 * M.L1 * M.L1, &fx, &fy);
+                if (e > M.Cg) {
+                    const double land = fmax(M.kc * (e - M.Cg) + M.cc * (gvx * nx + gvy * ny), 0.0);
+                    fx -= land * nx;
+                    fy -= land * ny;
+                }
+            }
             Fcx += fx;
             Fcy += fy;
             Tc += -2.0 * PI * eta * ud * R1 * R1 * M.L1 / (M.Cg * sqrt(one));

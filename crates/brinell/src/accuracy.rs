@@ -36,9 +36,9 @@ fn heaviest_contact(model: &Model, force: f64) -> f64 {
     4.08 * force / model.layout.rollers() as f64
 }
 
-/// Longest step in which the fastest motions of a roller still decay, whose contacts carry the elastic forces `heaviest` (inner and outer,
-/// N), s.
-pub fn longest_step(model: &Model, heaviest: [f64; 2]) -> f64 {
+/// Longest step in which the fastest motions still decay, s: of a roller whose contacts carry the elastic forces `heaviest` (inner and outer,
+/// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
+pub fn longest_step(model: &Model, heaviest: [f64; 2], film_damping: f64) -> f64 {
     if model.kind == ModelKind::Reference {
         // The reference model's rollers have no inertia.
         return f64::INFINITY;
@@ -51,9 +51,16 @@ pub fn longest_step(model: &Model, heaviest: [f64; 2]) -> f64 {
     // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2.
     let slope = model.friction.coefficient / model.friction.slip_velocity;
     let rolling = 2.0 * slope * (heaviest[0] + heaviest[1]) / mass;
-    between
-        .into_iter()
-        .fold(PAIR.longest_step(rolling, f64::INFINITY), f64::min)
+    // All cages against the ring that guides them.
+    let ring = match model.land_on() {
+        Side::Inner => model.inertia.inner_ring,
+        Side::Outer => model.inertia.outer_ring,
+    };
+    let film = film_damping * (1.0 / model.inertia.cage + model.layout.rows as f64 / ring);
+    between.into_iter().fold(
+        PAIR.longest_step(rolling.max(film), f64::INFINITY),
+        f64::min,
+    )
 }
 
 /// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; none where it is open.

@@ -3,6 +3,11 @@
 //! Sections 5 and 6 of the model. SI; e_r and e_t are the roller's radial and tangential directions, s > 0 where the
 //! pocket runs ahead of its roller.
 
+mod film;
+
+pub use film::HalfFilm;
+
+use crate::scenario::GuidanceFilm;
 use std::f64::consts::PI;
 
 /// Largest eccentricity ratio for which the short-bearing film is evaluated.
@@ -72,7 +77,9 @@ impl Pocket {
 /// Film and land between the cage and its guiding ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {
-    /// eta, Pa s; 0 for a land without a film.
+    /// Law of the film; none where rollers guide and a land alone is there.
+    pub film: Option<GuidanceFilm>,
+    /// eta, Pa s.
     pub viscosity: f64,
     /// C_g, radial, m.
     pub clearance: f64,
@@ -82,6 +89,8 @@ pub struct Guide {
     pub radius: f64,
     /// k_c of the land, N/m.
     pub land_stiffness: f64,
+    /// c_c of the land, N s/m; 0 for the paper's, which has no damping.
+    pub land_damping: f64,
 }
 
 /// What the guide does to the cage; the guiding ring gets the opposite force.
@@ -93,38 +102,83 @@ pub struct GuideForce {
     pub land: [f64; 2],
     /// Moment on the cage, N m.
     pub moment: f64,
+    /// What the land's damping dissipates, W.
+    pub land_loss: f64,
+    /// Bound of the film's damping in any direction, -dF/dv, N s/m: what limits an explicit step.
+    pub damping: f64,
 }
 
 impl Guide {
-    /// Force and moment for the cage's offset (m) from its guiding ring, its speed and the ring's (rad/s): Ocvirk's
-    /// short bearing. Valid to an eccentricity ratio of 0.95, held there beyond.
-    pub fn force(&self, offset: [f64; 2], cage_speed: f64, ring_speed: f64) -> GuideForce {
+    /// Force and moment for the cage's `offset` (m) and `velocity` (m/s) from its guiding ring, its speed and the ring's (rad/s): Ocvirk's
+    /// short bearing with the half film that pushes (Guembel). Valid to an eccentricity ratio of 0.95, held there beyond.
+    ///
+    /// `Dynamic` holds for any motion of the centres. Seen in a frame that turns at half the sum of both speeds the film is squeezed alone, so
+    /// that its force never does work there. `QuasiStatic`, Eq. (42), is the same force for resting centres, whatever they do.
+    #[inline]
+    pub fn force(
+        &self,
+        offset: [f64; 2],
+        velocity: [f64; 2],
+        cage_speed: f64,
+        ring_speed: f64,
+    ) -> GuideForce {
         // Offsets are far from where squares overflow.
         let e = (offset[0] * offset[0] + offset[1] * offset[1]).sqrt();
-        let eps = (e / self.clearance).min(MAX_ECCENTRICITY);
         let n = if e > 0.0 {
             let per_e = 1.0 / e;
             [offset[0] * per_e, offset[1] * per_e]
         } else {
             [1.0, 0.0]
         };
-        let entrainment = self.radius * (cage_speed + ring_speed);
-        let shear = self.radius * (cage_speed - ring_speed);
+        let mut f = GuideForce::default();
+        if e > self.clearance {
+            let rate = velocity[0] * n[0] + velocity[1] * n[1];
+            let elastic = self.land_stiffness * (e - self.clearance);
+            let push = (elastic + self.land_damping * rate).max(0.0);
+            f.land = [-push * n[0], -push * n[1]];
+            f.land_loss = (push - elastic) * rate;
+        }
+        let Some(film) = self.film else {
+            return f;
+        };
+        let eps = (e / self.clearance).min(MAX_ECCENTRICITY);
         let gap = 1.0 - eps * eps;
         let root = gap.sqrt();
-        let scale = self.viscosity * self.width.powi(3) / self.clearance.powi(2);
-        let normal = -scale * entrainment.abs() * eps * eps / (gap * gap);
-        let tangential = 0.25 * PI * scale * entrainment * eps / (gap * root);
-        let land = -self.land_stiffness * (e - self.clearance).max(0.0);
-        GuideForce {
-            film: [
-                normal * n[0] - tangential * n[1],
-                normal * n[1] + tangential * n[0],
-            ],
-            land: [land * n[0], land * n[1]],
-            moment: -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width
-                / (self.clearance * root),
-        }
+        let shear = self.radius * (cage_speed - ring_speed);
+        f.moment = -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width
+            / (self.clearance * root);
+        let (normal, tangential) = match film {
+            GuidanceFilm::QuasiStatic => {
+                let entrainment = self.radius * (cage_speed + ring_speed);
+                let scale = self.viscosity * self.width.powi(3) / self.clearance.powi(2);
+                (
+                    -scale * entrainment.abs() * eps * eps / (gap * gap),
+                    0.25 * PI * scale * entrainment * eps / (gap * root),
+                )
+            }
+            GuidanceFilm::Dynamic => {
+                let along = velocity[0] * n[0] + velocity[1] * n[1];
+                let across =
+                    velocity[1] * n[0] - velocity[0] * n[1] - 0.5 * (cage_speed + ring_speed) * e;
+                let speed = (along * along + across * across).sqrt();
+                if speed == 0.0 {
+                    return f;
+                }
+                let per_speed = 1.0 / speed;
+                let half = HalfFilm::about(eps, [along * per_speed, across * per_speed]);
+                let scale = self.viscosity * self.radius * (self.width / self.clearance).powi(3);
+                f.damping = scale * (half.along.max(half.across) + half.mixed.abs());
+                (
+                    -scale * (along * half.along + across * half.mixed),
+                    -scale * (along * half.mixed + across * half.across),
+                )
+            }
+        };
+        f.film = [
+            normal * n[0] - tangential * n[1],
+            normal * n[1] + tangential * n[0],
+        ];
+        f
     }
 
     /// How far the cage has run into the land, m.
@@ -138,16 +192,19 @@ mod tests {
     use super::*;
 
     const GUIDE: Guide = Guide {
+        film: Some(GuidanceFilm::QuasiStatic),
         viscosity: 0.01,
         clearance: 1e-3,
         width: 6e-3,
         radius: 26.5e-3,
         land_stiffness: 1e7,
+        land_damping: 0.0,
     };
+    const AT_REST: [f64; 2] = [0.0; 2];
 
     #[test]
     fn analytic_ocvirk_centred_cage_feels_petroff_alone() {
-        let g = GUIDE.force([0.0, 0.0], 80.0, 0.0);
+        let g = GUIDE.force([0.0, 0.0], AT_REST, 80.0, 0.0);
         assert_eq!(g.film, [0.0, 0.0]);
         // Petroff: tau = eta U / C over the area 2 pi R L at the lever R.
         let u = GUIDE.radius * 80.0;
@@ -164,7 +221,7 @@ mod tests {
     fn analytic_ocvirk_attitude_angle() {
         // tan(attitude) = pi sqrt(1 - eps^2) / (4 eps) for the short bearing (Ocvirk 1952).
         for eps in [0.01, 0.3, 0.6, 0.9] {
-            let g = GUIDE.force([eps * GUIDE.clearance, 0.0], 80.0, 0.0);
+            let g = GUIDE.force([eps * GUIDE.clearance, 0.0], AT_REST, 80.0, 0.0);
             let expected = PI * (1.0_f64 - eps * eps).sqrt() / (4.0 * eps);
             assert!((g.film[1] / -g.film[0] / expected - 1.0).abs() < 1e-12);
         }
@@ -173,7 +230,7 @@ mod tests {
     #[test]
     fn analytic_film_centres_whichever_way_the_cage_turns() {
         for speed in [80.0, -80.0] {
-            let g = GUIDE.force([2e-4, 0.0], speed, 0.0);
+            let g = GUIDE.force([2e-4, 0.0], AT_REST, speed, 0.0);
             assert!(g.film[0] < 0.0);
             assert_eq!(g.moment.signum(), -speed.signum());
         }
@@ -181,9 +238,29 @@ mod tests {
 
     #[test]
     fn analytic_land_pushes_only_past_the_clearance() {
-        assert_eq!(GUIDE.force([0.99e-3, 0.0], 80.0, 0.0).land[0], 0.0);
-        let g = GUIDE.force([0.0, -1.01e-3], 80.0, 0.0);
+        assert_eq!(GUIDE.force([0.99e-3, 0.0], AT_REST, 80.0, 0.0).land[0], 0.0);
+        let g = GUIDE.force([0.0, -1.01e-3], AT_REST, 80.0, 0.0);
         assert!((g.land[1] - 1e7 * 1e-5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn analytic_damped_land_never_pulls_and_only_dissipates() {
+        let guide = Guide {
+            film: None,
+            land_damping: 20.0,
+            ..GUIDE
+        };
+        let at = |rate: f64| guide.force([1.01e-3, 0.0], [rate, 3.0], 80.0, 0.0);
+        assert!((at(0.5).land[0] + 110.0).abs() < 1e-6);
+        assert!((at(0.5).land_loss - 5.0).abs() < 1e-6);
+        assert!((at(-0.5).land[0] + 90.0).abs() < 1e-6);
+        // Faster apart than the spring follows: no force, and what the spring held is lost.
+        assert_eq!(at(-10.0).land[0], 0.0);
+        assert!((at(-10.0).land_loss - 1000.0).abs() < 1e-6);
+        for rate in [0.5, -0.5, -10.0] {
+            assert!(at(rate).land_loss > 0.0);
+            assert_eq!((at(rate).film, at(rate).moment), ([0.0; 2], 0.0));
+        }
     }
 
     #[test]

@@ -321,7 +321,7 @@ fn energy(outcome: &Outcome) -> Value {
         "input": { "drive": f.drive, "load": f.load, "guidance_film": f.film },
         "dissipated": {
             "contact_damping": f.contact, "raceway_friction": f.friction, "pocket_damping": f.pocket,
-            "pocket_friction": f.pocket_friction, "supports": f.support, "drag": f.drag,
+            "pocket_friction": f.pocket_friction, "land_damping": f.land, "supports": f.support, "drag": f.drag,
         },
         "parametric_work_of_defects": e.parametric,
         "centred_levers": f.lever,

@@ -322,7 +322,7 @@ fn analytic_equilibrium_start_is_in_balance_but_for_damping_and_film() {
     }
     let film = model
         .guide
-        .force([-b.outer[0], -b.outer[1]], orbit, 0.0)
+        .force([-b.outer[0], -b.outer[1]], [0.0; 2], orbit, 0.0)
         .film;
     let rows = l.rows as f64;
     let expected_outer = [

@@ -180,6 +180,11 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
         f.pocket + f.pocket_friction,
         "damping and friction",
     ));
+    facts.push(mj(
+        "Dissipated at the cages' lands",
+        f.land,
+        "damping where a cage touches its guiding ring",
+    ));
     facts.push(mj("Dissipated in supports", f.support, ""));
     facts.push(mj("Dissipated in drag", f.drag, ""));
     facts.push(mj(

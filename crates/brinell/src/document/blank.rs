@@ -30,6 +30,7 @@ pub(crate) fn scenario() -> Scenario {
             outer_diameter_mm: NONE,
             pocket_clearance_mm: NONE,
             guidance: Leaf::blank(),
+            guidance_film: Leaf::blank(),
             guide_clearance_mm: NONE,
             guide_width_mm: NONE,
             contact_stiffness_n_per_m: NONE,

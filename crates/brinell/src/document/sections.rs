@@ -190,6 +190,21 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         assumed(Guidance::OuterRing, PAPER),
         &mut c.guidance,
     );
+    let film = match c.guidance {
+        Guidance::Rollers => stated(GuidanceFilm::Dynamic, "rollers guide: there is no film"),
+        Guidance::OuterRing | Guidance::InnerRing => assumed(
+            GuidanceFilm::Dynamic,
+            "with whirl and squeeze, which the paper's quasi-static film leaves out",
+        ),
+    };
+    k.key(
+        key(
+            "guidance_film",
+            "film between the cage and its guiding ring",
+        ),
+        film,
+        &mut c.guidance_film,
+    );
     let (gap, how) = match c.guidance {
         Guidance::InnerRing => (
             0.5 * (c.inner_diameter_mm - b.inner_raceway_diameter_mm),
@@ -216,7 +231,7 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         &mut c.contact_stiffness_n_per_m,
     );
     k.key(
-        key("contact_damping_ns_per_m", "c_c, of pockets").from(0.0),
+        key("contact_damping_ns_per_m", "c_c, of pockets and land").from(0.0),
         assumed(20.0, "the paper does not state it"),
         &mut c.contact_damping_ns_per_m,
     );

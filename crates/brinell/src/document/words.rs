@@ -20,6 +20,11 @@ words! { Guidance:
     Rollers = "rollers", "no film; a cage that strays lands on the outer ring";
 }
 
+words! { GuidanceFilm:
+    Dynamic = "dynamic", "a short bearing in any motion of the centres";
+    QuasiStatic = "quasi-static", "the paper's: as if the centres stood still";
+}
+
 words! { Law:
     Ecl = "ecl", "effective contact length";
     Sliced = "sliced", "independent slices, each at its own depth";

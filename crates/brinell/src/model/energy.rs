@@ -1,6 +1,6 @@
 //! Energy that the bodies and springs hold, and the flows that change it.
 //!
-//! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - support - drag, plus the
+//! d(energy)/dt = load + drive + film + lever - contact - friction - pocket - pocket_friction - land - support - drag, plus the
 //! parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures over a step.
 
 use super::{Layout, Model, Workspace};
@@ -28,6 +28,8 @@ pub struct Power {
     pub pocket: f64,
     /// Dissipated by pocket friction.
     pub pocket_friction: f64,
+    /// Dissipated by the damping of the cages' lands.
+    pub land: f64,
     /// Dissipated by supports.
     pub support: f64,
     /// Dissipated by drag.
@@ -42,7 +44,13 @@ impl Power {
 
     /// Everything dissipated, the film's share apart.
     pub fn dissipated(&self) -> f64 {
-        self.contact + self.friction + self.pocket + self.pocket_friction + self.support + self.drag
+        self.contact
+            + self.friction
+            + self.pocket
+            + self.pocket_friction
+            + self.land
+            + self.support
+            + self.drag
     }
 
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
@@ -55,6 +63,7 @@ impl Power {
             friction: f(self.friction, other.friction),
             pocket: f(self.pocket, other.pocket),
             pocket_friction: f(self.pocket_friction, other.pocket_friction),
+            land: f(self.land, other.land),
             support: f(self.support, other.support),
             drag: f(self.drag, other.drag),
         }

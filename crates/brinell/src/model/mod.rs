@@ -27,7 +27,7 @@ use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
-use crate::scenario::{Guidance, LoadOn, ModelKind, Scenario, Start};
+use crate::scenario::{Guidance, GuidanceFilm, LoadOn, ModelKind, Scenario, Start};
 use std::f64::consts::TAU;
 
 /// A scenario built in code that no model can be made of.
@@ -254,10 +254,8 @@ impl Model {
             guidance: c.guidance,
             guide: Guide {
                 // Where the rollers guide there is no film, and the land stops what strays.
-                viscosity: match c.guidance {
-                    Guidance::Rollers => 0.0,
-                    Guidance::OuterRing | Guidance::InnerRing => s.lubricant.viscosity_pa_s,
-                },
+                film: (c.guidance != Guidance::Rollers).then_some(c.guidance_film),
+                viscosity: s.lubricant.viscosity_pa_s,
                 clearance: 1e-3 * c.guide_clearance_mm,
                 width: 1e-3 * c.guide_width_mm,
                 radius: if c.guidance == Guidance::InnerRing {
@@ -266,6 +264,10 @@ impl Model {
                     cage_outer
                 },
                 land_stiffness: c.contact_stiffness_n_per_m,
+                land_damping: match (c.guidance, c.guidance_film) {
+                    (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
+                    _ => c.contact_damping_ns_per_m,
+                },
             },
             inner_support: Support {
                 stiffness: s.support.inner_stiffness_n_per_m,

@@ -120,6 +120,8 @@ pub struct Workspace {
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) heaviest: [[f64; WIDTH]; 2],
+    /// Largest damping of a cage's guidance film in any direction, N s/m.
+    pub(crate) film_damping: f64,
     /// Flows of energy at this instant, W.
     pub power: Power,
 }
@@ -152,6 +154,7 @@ impl Workspace {
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
             heaviest: [[0.0; WIDTH]; 2],
+            film_damping: 0.0,
             power: Power::default(),
         }
     }

@@ -84,6 +84,15 @@ pub enum Guidance {
     Rollers,
 }
 
+/// Law of the film between the cage and the ring that guides it; none where rollers do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuidanceFilm {
+    /// A short bearing for any motion of the centres, with a damped land.
+    Dynamic,
+    /// The same for resting centres, with an undamped land (the paper).
+    QuasiStatic,
+}
+
 /// `[cage]`: one cage for each row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cage {
@@ -97,13 +106,15 @@ pub struct Cage {
     pub pocket_clearance_mm: f64,
     /// Guiding ring.
     pub guidance: Guidance,
+    /// Law of the guidance film.
+    pub guidance_film: GuidanceFilm,
     /// C_g, radial, mm.
     pub guide_clearance_mm: f64,
     /// L_1, mm.
     pub guide_width_mm: f64,
     /// k_c, N/m, of pockets and land.
     pub contact_stiffness_n_per_m: f64,
-    /// c_c, N s/m, of pockets.
+    /// c_c, N s/m, of pockets, and of the land but under the quasi-static film.
     pub contact_damping_ns_per_m: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Scenarios and states that several test programs start from.
 
 use brinell::model::Model;
-use brinell::scenario::{Guidance, ModelKind, Scenario};
+use brinell::scenario::{Guidance, GuidanceFilm, ModelKind, Scenario};
 use brinell::{document, start};
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
@@ -35,6 +35,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
     lumped.simulation.model = ModelKind::Reference;
     let mut inner_guided = rectangle();
     inner_guided.cage.guidance = Guidance::InnerRing;
+    inner_guided.cage.guidance_film = GuidanceFilm::Dynamic;
     inner_guided.cage.guide_clearance_mm = 0.2;
     let mut roller_guided = rectangle();
     roller_guided.cage.guidance = Guidance::Rollers;
@@ -47,6 +48,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("inner-profile", case("reference/inner-defect-gravity")),
         ("roller-defect", case("xval/roller-defect")),
         ("overlapping", case("xval/overlapping-defects")),
+        ("film-dynamic", case("reference/film-dynamic")),
         ("inner-guided", inner_guided),
         ("roller-guided", roller_guided),
         ("gravity-drag", case("xval/three-rows-drag-gap")),

@@ -2,7 +2,7 @@
 
 use brinell::bearing::catalogue;
 use brinell::document::{Origin, read, template};
-use brinell::scenario::{Scenario, Shape, Surface};
+use brinell::scenario::{GuidanceFilm, Scenario, Shape, Surface};
 
 use crate::{BARE, INNER, OUTER, good, report, with};
 
@@ -13,6 +13,7 @@ fn xval_reference_scenarios_read_as_they_stand() {
     let mut example = Scenario::example();
     example.bearing.preset = None;
     example.simulation.duration_s = 0.02;
+    example.cage.guidance_film = GuidanceFilm::QuasiStatic;
     assert_eq!(outer.scenario, example);
     let inner = good(INNER);
     assert!(inner.warnings.is_empty(), "{}", report(&inner.warnings));
@@ -83,6 +84,7 @@ fn regress_every_value_has_an_origin_and_guesses_are_assumed() {
         "bearing.pitch_diameter_mm",
         "bearing.radial_clearance_um",
         "cage.mass_kg",
+        "cage.guidance_film",
         "cage.contact_stiffness_n_per_m",
         "cage.contact_damping_ns_per_m",
         "contact.inner_stiffness",

@@ -328,6 +328,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     pocket_clearance_mm: d / 100.0,
                     guidance: [Guidance::OuterRing, Guidance::InnerRing, Guidance::Rollers]
                         [words.0],
+                    guidance_film: [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic][words.0 % 2],
                     guide_clearance_mm: x[7],
                     guide_width_mm: x[8],
                     contact_stiffness_n_per_m: x[9],

@@ -42,9 +42,17 @@ pub(super) fn edge_reaction(
     }
 }
 
-/// Guidance (section 6) and the cages' own motion (Eq. 41).
+/// Guidance (section 6) and the cages' own motion (Eq. 41). Returns the films' largest damping, N s/m.
 #[inline(always)]
-pub(super) fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, sums: &mut Sums) {
+pub(super) fn cages(
+    model: &Model,
+    q: &[f64],
+    v: &[f64],
+    a: &mut [f64],
+    w: f64,
+    sums: &mut Sums,
+) -> f64 {
+    let mut damping = 0.0;
     let l = &model.layout;
     let m = &model.inertia;
     for row in 0..l.rows {
@@ -54,18 +62,22 @@ pub(super) fn cages(model: &Model, q: &[f64], v: &[f64], a: &mut [f64], w: f64, 
             Side::Outer => (l.outer(), 0.0, &mut sums.on_outer),
         };
         let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-        let f = model.guide.force(offset, v[at + 2], ring_speed);
+        let velocity = [v[at] - v[ring], v[at + 1] - v[ring + 1]];
+        let f = model.guide.force(offset, velocity, v[at + 2], ring_speed);
         for k in 0..2 {
             a[at + k] += f.film[k] + f.land[k];
             reaction[k] -= f.film[k] + f.land[k];
-            sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
+            sums.power.film += f.film[k] * velocity[k];
         }
         a[at + 2] += f.moment;
         sums.power.film += f.moment * v[at + 2];
+        sums.power.land += f.land_loss;
+        damping = f.damping.max(damping);
         a[at] = a[at] / m.cage + model.gravity[0];
         a[at + 1] = a[at + 1] / m.cage + model.gravity[1];
         a[at + 2] /= m.cage_spin;
     }
+    damping
 }
 
 /// Rings: Eqs. (28) and (35).

@@ -76,7 +76,7 @@ pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     if model.rules.is_conservative() && !model.defects.is_empty() {
         bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
     }
-    bodies::cages(model, q, v, a, speed, &mut sums);
+    ws.film_damping = bodies::cages(model, q, v, a, speed, &mut sums);
     bodies::rings(model, t, q, v, a, &mut sums);
     ws.power = sums.power;
 }
