@@ -331,7 +331,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
                 .map_or("-".into(), |e| short(e.value, 3))
         };
         told.push(format!(
-            "  {}: RMS {}{interval} {}, peak to peak {}, kurtosis {}",
+            "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
             channel.name,
             short(rms.value, 3),
             channel.unit,
@@ -339,15 +339,16 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             other(Indicator::Kurtosis),
         ));
     }
-    let clipped = summary::clipped(parts);
-    told.extend(clipped.into_iter().map(|words| format!("  {words}")));
+    let heed = summary::clipped(parts)
+        .into_iter()
+        .chain(summary::unsettled(findings));
+    told.extend(heed.map(|words| format!("  {words}")));
     for line in &findings.lines {
         let found = line.found.map_or("not found in the envelope".into(), |f| {
-            format!(
-                "{:.2} Hz ± {} in the envelope",
-                f.frequency,
-                short(f.uncertainty, 1)
-            )
+            let interval = line.interval.map_or(String::new(), |i| {
+                format!(" (95 %: {:.2} to {:.2})", i.low, i.high)
+            });
+            format!("{:.2} Hz{interval} in the envelope", f.frequency)
         });
         told.push(format!(
             "  defect {}: {} {found}; pure rolling {:.2} Hz",

@@ -9,7 +9,9 @@ use brinell::defect::{Defect, Shape};
 use brinell::design::{Draw, Value, unsaid};
 use brinell::document::{Loaded, on_one_line, one_line};
 use brinell::kernel::Kernel;
+use brinell::observe::slip::RowSlip;
 use brinell::scenario::{self, Scenario, Speed, Surface};
+use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Kind};
 use serde_json::{Map, Value as Json};
@@ -370,24 +372,16 @@ fn gathered(simulation: &Simulation, truth: &Truth, cells: &mut Cells) {
         "load_zone_largest_n",
         Cell::Numbers(zones.iter().flat_map(|z| z.max.clone()).collect()),
     );
-    let rows = &truth.slip.rows;
+    let means = |of: &dyn Fn(&RowSlip) -> Option<Estimate>| {
+        let rows = truth.slip.rows.iter();
+        rows.map(|row| Some(of(row)?.value))
+            .collect::<Option<Vec<f64>>>()
+    };
     for (name, of) in [
-        (
-            "cage_slip",
-            rows.iter().map(|r| r.cage()).collect::<Option<Vec<f64>>>(),
-        ),
-        (
-            "loaded_orbit_slip",
-            rows.iter().map(|r| r.loaded_orbit()).collect(),
-        ),
-        (
-            "unloaded_orbit_slip",
-            rows.iter().map(|r| r.unloaded_orbit()).collect(),
-        ),
-        (
-            "loaded_surface_slip",
-            rows.iter().map(|r| r.loaded_surface()).collect(),
-        ),
+        ("cage_slip", means(&|r| r.cage())),
+        ("loaded_orbit_slip", means(&|r| r.loaded_orbit())),
+        ("unloaded_orbit_slip", means(&|r| r.unloaded_orbit())),
+        ("loaded_surface_slip", means(&|r| r.loaded_surface())),
     ] {
         cells.insert(name, of.map_or(Cell::Empty, Cell::Numbers));
     }

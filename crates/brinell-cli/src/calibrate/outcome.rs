@@ -32,6 +32,15 @@ impl Found {
     pub(super) fn is_determined(&self) -> bool {
         self.interval.is_some()
     }
+
+    /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because data say so.
+    pub(super) fn is_cut(&self) -> [bool; 2] {
+        let within = self.is_determined();
+        [
+            within && self.place - self.half_width < 0.0,
+            within && self.place + self.half_width > 1.0,
+        ]
+    }
 }
 
 /// A target against the best run.

@@ -136,7 +136,6 @@ fn trend(
                 x: *x,
                 value: number.map_or(f64::NAN, |n| n.value),
                 interval: number.and_then(|n| n.interval).map(|i| (i.low, i.high)),
-                whole: f64::NAN,
             }
         };
         IndicatorLine {
@@ -204,7 +203,7 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
         title: "Numbers".into(),
         columns,
         rows: cases.iter().map(row).collect(),
-        note: "Accelerations in m/s². Means over blocks of whole turns with 95 % intervals; peaks: means over entries or exits.".into(),
+        note: "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits.".into(),
     }
 }
 

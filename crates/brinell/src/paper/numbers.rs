@@ -1,14 +1,14 @@
 //! What the cases gave, by name.
 
-use crate::campaign::{Row, Spread};
+use crate::campaign::Row;
 use crate::observe::passes::PassPoint;
-use crate::signal::Interval;
+use crate::signal::{Estimate, Interval};
 use std::collections::BTreeMap;
 
 /// One number with what is known of its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
-    /// The mean over blocks where there is an interval, or else the value.
+    /// The value.
     pub value: f64,
     /// Its 95 % interval.
     pub interval: Option<Interval>,
@@ -36,29 +36,12 @@ impl Numbers {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
-    /// Adds everything of a finished run. Degrees of freedom are those of its blocks, also where there were more instants than blocks.
+    /// Adds everything of a finished run.
     pub fn add(&mut self, case: &str, row: &Row) {
-        let count = |name: &str| row.quantity(name).and_then(|q| q.value).unwrap_or(0.0);
-        let (blocks, turns) = (count("blocks") as usize, count("turns_per_block") as u64);
         for quantity in row.result.as_deref().unwrap_or(&[]) {
-            let number = match (quantity.spread, quantity.value) {
-                (Spread::Interval(low, high), Some(_)) => {
-                    let center = 0.5 * (low + high);
-                    Number {
-                        value: center,
-                        interval: Some(Interval {
-                            center,
-                            low,
-                            high,
-                            blocks,
-                            periods_per_block: turns,
-                        }),
-                    }
-                }
-                (_, Some(value)) => Number::exact(value),
-                (_, None) => continue,
-            };
-            self.insert(case, &quantity.name, number);
+            if let Some(Estimate { value, interval }) = quantity.estimate() {
+                self.insert(case, &quantity.name, Number { value, interval });
+            }
         }
     }
 
@@ -100,7 +83,7 @@ pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Quantity;
+    use crate::campaign::{Quantity, Spread};
 
     fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
         let point = |k: i32| {
@@ -137,30 +120,30 @@ mod tests {
             value,
             spread,
         };
+        let interval = Interval {
+            low: 2.0,
+            high: 4.0,
+            freedom: 8,
+        };
         let row = Row {
             settings: vec![],
             scenario: String::new(),
             version: String::new(),
             result: Ok(vec![
-                quantity("outer_ax.rms", Some(3.3), Spread::Interval(2.0, 4.0)),
-                quantity("measured_ax.rms", Some(2.0), Spread::Interval(1.0, 2.0)),
+                quantity("outer_ax.rms", Some(3.3), Spread::Interval(interval)),
+                quantity("measured_ax.rms", Some(2.0), Spread::Interval(interval)),
                 quantity("none", None, Spread::Unknown),
-                quantity("blocks", Some(12.0), Spread::Without),
-                quantity("turns_per_block", Some(2.0), Spread::Without),
+                quantity("turns", Some(12.0), Spread::Without),
             ]),
         };
         let mut numbers = Numbers::default();
         numbers.add("a", &row);
         let rms = numbers.get("a", "outer_ax.rms").unwrap();
-        let interval = rms.interval.unwrap();
-        assert_eq!(
-            (rms.value, interval.blocks, interval.periods_per_block),
-            (3.0, 12, 2)
-        );
+        assert_eq!((rms.value, rms.interval), (3.3, Some(interval)));
         assert_eq!(numbers.get("a", "none"), None);
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
-        assert_eq!(numbers.get("a", "blocks"), Some(Number::exact(12.0)));
+        assert_eq!(numbers.get("a", "turns"), Some(Number::exact(12.0)));
         let filtered = numbers.behind_filter();
-        assert_eq!(filtered.get("a", "outer_ax.rms").unwrap().value, 1.5);
+        assert_eq!(filtered.get("a", "outer_ax.rms").unwrap().value, 2.0);
     }
 }
