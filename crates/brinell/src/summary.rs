@@ -5,6 +5,7 @@ use crate::document::{Loaded, Provenance};
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
 use crate::observe::{Findings, passes};
+use crate::plausibility;
 use crate::scenario::{Accuracy, ModelKind, Speed};
 use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
@@ -140,6 +141,10 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
     if let Err(error) = parts.statics {
         all.push(error.to_string());
     }
+    let scenario = &parts.loaded.scenario;
+    let before = plausibility::before(scenario, parts.simulation.model(), parts.statics);
+    all.extend(before.iter().map(ToString::to_string));
+    all.extend(plausibility::after(scenario, &parts.outcome.energy));
     all
 }
 
