@@ -1,5 +1,6 @@
 //! What the cases gave, by name.
 
+use super::reading::{Reading, Record};
 use crate::campaign::{Row, Spread};
 use crate::observe::passes::PassPoint;
 use crate::signal::Interval;
@@ -67,14 +68,32 @@ impl Numbers {
         self.all.get(&(case.to_owned(), name.to_owned())).copied()
     }
 
-    /// The same, the outer ring's accelerations being those behind the anti-alias filter.
+    /// The same, RMS and peak to peak being those of a reading. What a run has no such record of is missing.
     #[must_use]
-    pub fn behind_filter(&self) -> Self {
+    pub fn read(&self, reading: Reading) -> Self {
         let mut all = self.all.clone();
-        for ((case, name), number) in &self.all {
-            if let Some(rest) = name.strip_prefix("measured_a") {
-                all.insert((case.clone(), format!("outer_a{rest}")), *number);
+        if let Record::FromStart(ms) = reading.record {
+            let window = format!(".first_{ms}ms");
+            let of = |name: &str| {
+                ["rms", "peak_to_peak"]
+                    .iter()
+                    .any(|i| name.ends_with(&format!(".{i}")))
+            };
+            all.retain(|(_, name), _| !of(name));
+            for ((case, name), number) in &self.all {
+                let mut parts = name.split(window.as_str());
+                if let (Some(channel), Some(indicator)) = (parts.next(), parts.next()) {
+                    all.insert((case.clone(), format!("{channel}{indicator}")), *number);
+                }
             }
+        }
+        if reading.filtered {
+            let measured = all.iter().filter_map(|((case, name), number)| {
+                let rest = name.strip_prefix("measured_a")?;
+                Some(((case.clone(), format!("outer_a{rest}")), *number))
+            });
+            let measured: Vec<_> = measured.collect();
+            all.extend(measured);
         }
         Self { all }
     }
@@ -144,6 +163,9 @@ mod tests {
             result: Ok(vec![
                 quantity("outer_ax.rms", Some(3.3), Spread::Interval(2.0, 4.0)),
                 quantity("measured_ax.rms", Some(2.0), Spread::Interval(1.0, 2.0)),
+                quantity("inner_ax.rms", Some(1.5), Spread::Interval(1.0, 2.0)),
+                quantity("measured_ax.first_285ms.rms", Some(30.0), Spread::Without),
+                quantity("outer_ax.first_285ms.rms", Some(40.0), Spread::Without),
                 quantity("none", None, Spread::Unknown),
                 quantity("blocks", Some(12.0), Spread::Without),
                 quantity("turns_per_block", Some(2.0), Spread::Without),
@@ -160,7 +182,17 @@ mod tests {
         assert_eq!(numbers.get("a", "none"), None);
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
         assert_eq!(numbers.get("a", "blocks"), Some(Number::exact(12.0)));
-        let filtered = numbers.behind_filter();
-        assert_eq!(filtered.get("a", "outer_ax.rms").unwrap().value, 1.5);
+        let usual = Reading::USUAL;
+        let read =
+            |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
+        assert_eq!(read(usual, "outer_ax.rms"), Some(3.0));
+        assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(1.5));
+        assert_eq!(read(usual.from_start(285), "outer_ax.rms"), Some(40.0));
+        assert_eq!(
+            read(usual.from_start(285).behind_filter(), "outer_ax.rms"),
+            Some(30.0)
+        );
+        assert_eq!(read(usual.from_start(285), "inner_ax.rms"), None);
+        assert_eq!(read(usual.from_start(100), "outer_ax.rms"), None);
     }
 }
