@@ -22,6 +22,7 @@ def defect(
     shape: dict[str, Any],
     *,
     depth_um: float | None = None,
+    axial_offset_mm: float | None = None,
     on: _Surface = "outer-raceway",
     row: int | None = None,
     center_deg: float | None = None,
@@ -35,6 +36,8 @@ def defect(
         As in the scenario file: ``{"circle": {"diameter_mm": 2.0}}``.
     depth_um : float, optional
         Depth, um; a depth map has its own.
+    axial_offset_mm : float, optional
+        Moves the shape along +z; 0 unless told.
     on : {"outer-raceway", "inner-raceway", "roller"}
         Damaged surface.
     row : int, optional
@@ -55,7 +58,7 @@ def defect(
     >>> brinell.defect({"li2023_irregular": {"max_width_mm": 4.0}}, depth_um=20.0)
     {'on': 'outer-raceway', 'depth_um': 20.0, 'shape': {'li2023_irregular': {'max_width_mm': 4.0}}}
     """
-    given = {"on": on, "row": row, "roller": roller, "center_deg": center_deg, "depth_um": depth_um}
+    given = {"on": on, "row": row, "roller": roller, "center_deg": center_deg, "depth_um": depth_um, "axial_offset_mm": axial_offset_mm}
     return {key: value for key, value in given.items() if value is not None} | {"shape": shape}
 
 

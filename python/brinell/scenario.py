@@ -183,7 +183,7 @@ class Scenario:
         return value
 
     def to_toml(self) -> str:
-        """The scenario file with every default filled in, assumed values with their reasons.
+        """The scenario file with every default filled in, assumed values with their reasons; it reads back with the same `assumed`.
 
         Examples
         --------

@@ -325,7 +325,7 @@ def kurtogram(x: npt.ArrayLike, *, rate_hz: float, depth: int = 7, narrowest_hz:
 
 
 def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -> dict[str, dict[str, Any]]:
-    """RMS, peak, kurtosis and others, each with a 95 % interval from blocks.
+    """RMS, peak, kurtosis and others, averaged over whole blocks, each with its 95 % interval.
 
     Parameters
     ----------
@@ -337,7 +337,7 @@ def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -
     Returns
     -------
     dict
-        By name: ``value``, ``unit``, ``low``, ``high``, ``blocks``.
+        By name: ``value``, ``unit``, ``low``, ``high``, ``blocks``. Peaks are those of a block; fewer than 6 blocks have no interval.
 
     Examples
     --------

@@ -25,6 +25,16 @@ def test_prop_arguments_mean_what_the_file_means(examples):
     assert read.replace({"defects.0.depth_um": 10.0}) != read
 
 
+def test_prop_a_written_scenario_keeps_what_was_assumed(examples, tmp_path):
+    source = brinell.Scenario.from_file(examples / "rectangle.toml")
+    assert len(source.assumed) >= 10
+    for again in (brinell.Scenario.from_toml(source.to_toml()), brinell.Scenario.from_file(source.write(tmp_path / "s.toml"))):
+        assert again.assumed == source.assumed and again.to_toml() == source.to_toml()
+    key = source.assumed[0]["key"]
+    stated = again.replace({key: again[key]})
+    assert stated == again and key not in [value["key"] for value in stated.assumed]
+
+
 def test_prop_numbers_of_any_kind_keep_their_bits():
     values = [0.1 + 0.2, 1e-300, 5e300, 1.0 / 3.0]
     for value in values:

@@ -119,7 +119,8 @@ def parameters(sc, step, perturb, record):
             values = [columns, rows, *(x * 1e-3 for x in (s0, z0, ds, dz)), *(h * 1e-6 for h in shape["depth_um"])]
         else:
             raise SystemExit(f"shape {kind} is not implemented")
-        put("defect", d["on"], d["row"], d.get("roller", 0), math.radians(d["center_deg"]), depth, kind, *values)
+        put("defect", d["on"], d["row"], d.get("roller", 0), math.radians(d["center_deg"]), depth,
+            d.get("axial_offset_mm", 0.0) * 1e-3, kind, *values)
     put("model", sim.get("model", "full"))
     put("start", sim.get("start", "rolling"))
     put("duration", sim["duration_s"])

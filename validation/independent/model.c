@@ -30,9 +30,17 @@ typedef struct {
     Piece *piece;
 } Floor;
 
+/* Of every slice at equal steps of s: the integral of h_env over what is covered over the slice's width, and the fraction that a raised edge
+ * lifts beside it. */
+typedef struct {
+    int nodes;
+    double from, step, *section, *lifted; /* [node * slices + slice] */
+} Table;
+
 typedef struct {
     int on, row, roller, shape, points; /* row and roller count from 0 */
     double psi, radius, depth;
+    double offset;                      /* along z, of shapes given by width; others are moved as they are read */
     double length, width;               /* rectangle; width also the irregular shape's largest */
     double diameter;
     double *arc, *widths, *depths;      /* profile */
@@ -42,7 +50,8 @@ typedef struct {
     double s0, z0, ds, dz, *grid;
     double first, last;                 /* its arc */
     double reach;                       /* how far before it a raised edge lifts a roller */
-    Floor *floor;                       /* one, or one per slice */
+    Floor *floor;                       /* one (ecl), or one per line z = const (sliced along the envelope) */
+    Table table[2];                     /* by side, sliced along the envelope */
 } Defect;
 
 typedef struct {
@@ -121,6 +130,7 @@ static void read_defect(void)
     d->roller = integer() - 1;
     d->psi = num();
     d->depth = num();
+    d->offset = num();
     word(w);
     d->shape = pick(w, shapes, 6);
     if (d->shape == RECTANGLE) {
@@ -139,13 +149,13 @@ static void read_defect(void)
             d->corners[k] = integer();
             d->s[k] = need((size_t)d->corners[k], sizeof(double));
             d->z[k] = need((size_t)d->corners[k], sizeof(double));
-            for (int i = 0; i < d->corners[k]; i++) { d->s[k][i] = num(); d->z[k][i] = num(); }
+            for (int i = 0; i < d->corners[k]; i++) { d->s[k][i] = num(); d->z[k][i] = num() + d->offset; }
         }
     } else if (d->shape == DEPTH_MAP) {
         d->columns = integer();
         d->rows = integer();
         d->s0 = num();
-        d->z0 = num();
+        d->z0 = num() + d->offset;
         d->ds = num();
         d->dz = num();
         d->grid = need((size_t)(d->columns * d->rows), sizeof(double));
@@ -323,19 +333,23 @@ static int crossings(const Defect *d, double **p, double **q, double at, double 
 
 enum { CROSSINGS = 64 };
 
-/* L_s(s): the measure of the damaged z. */
+static double within(double from, double to, double lo, double hi)
+{
+    return fmax(fmin(to, hi) - fmax(from, lo), 0.0);
+}
+
+/* L_s(s): the measure of the damaged z under the roller. */
 static double outline_width(const Defect *d, double s)
 {
     double z[CROSSINGS], sum = 0.0;
     const int count = crossings(d, d->s, d->z, s, z, CROSSINGS);
-    for (int i = 0; i + 1 < count; i += 2) sum += z[i + 1] - z[i];
+    for (int i = 0; i + 1 < count; i += 2) sum += within(z[i], z[i + 1], -0.5 * M.L, 0.5 * M.L);
     return sum;
 }
 
-/* Damaged length and depth at local angle u; returns 0 outside the arc. */
-static int defect_at(const Defect *d, double u, double *Ls, double *h)
+/* Width, unclipped, and depth at s; returns 0 outside the arc. */
+static int width_at(const Defect *d, double s, double *width, double *h)
 {
-    const double s = u * d->radius;
     double w = 0.0;
     *h = d->depth;
     switch (d->shape) {
@@ -366,14 +380,23 @@ static int defect_at(const Defect *d, double u, double *Ls, double *h)
         const int n = d->points;
         if (s < d->arc[0] || s > d->arc[n - 1]) return 0;
         int i = 0;
-        while (i + 2 < n && s > d->arc[i + 1]) i++;
+        while (i + 2 < n && s >= d->arc[i + 1]) i++;
         const double da = d->arc[i + 1] - d->arc[i];
         const double x = da > 0.0 ? (s - d->arc[i]) / da : 1.0;
         w = d->widths[i] + x * (d->widths[i + 1] - d->widths[i]);
         *h = d->depths[i] + x * (d->depths[i + 1] - d->depths[i]);
     }
     }
-    *Ls = fmin(fmax(w, 0.0), M.L);
+    *width = fmax(w, 0.0);
+    return 1;
+}
+
+/* Damaged length and depth at local angle u; returns 0 outside the arc. */
+static int defect_at(const Defect *d, double u, double *Ls, double *h)
+{
+    double w;
+    if (!width_at(d, u * d->radius, &w, h)) return 0;
+    *Ls = d->shape == OUTLINE ? w : within(d->offset - 0.5 * w, d->offset + 0.5 * w, -0.5 * M.L, 0.5 * M.L);
     return 1;
 }
 
@@ -430,14 +453,11 @@ static void find_arc(Defect *d)
     d->first = -d->last;
 }
 
-/* A slice's middle on a damage's border is damaged; round-off must not decide. */
-#define BORDER 1e-12
-
-/* Is a slice at z damaged at s, by a shape given by width alone? */
+/* Is z damaged at s, by a shape given by width alone? */
 static int wide_enough(const Defect *d, double s, double z)
 {
-    double Ls, h;
-    return defect_at(d, s / d->radius, &Ls, &h) && Ls > 0.0 && fabs(z) <= 0.5 * Ls + BORDER;
+    double w, h;
+    return width_at(d, s, &w, &h) && w > 0.0 && fabs(z - d->offset) <= 0.5 * w;
 }
 
 /* The depth from a to b within one stretch of constant or linear depth. */
@@ -493,7 +513,10 @@ static double equivalent_radius(int side)
     return 1.0 / (side == OUTER ? 1.0 / M.r - 1.0 / M.Ro : 1.0 / M.r + 1.0 / M.Ri);
 }
 
-static double slice_at(int k) { return ((k + 0.5) / M.slices - 0.5) * M.L; }
+static double slice_border(int k) { return ((double)k / M.slices - 0.5) * M.L; }
+
+/* Lines z = const of one slice whose envelopes are averaged. */
+enum { LINES = 200, NODES = 20000 };
 
 /* Stretches of the arc between corners on which an outline has any width. */
 static void outline_floor(const Defect *d, Floor *f)
@@ -514,44 +537,48 @@ static void outline_floor(const Defect *d, Floor *f)
 static void find_reach(Defect *d)
 {
     double raised = 0.0;
-    for (int k = 0; k < (M.law == LAW_SLICED ? M.slices : 1); k++)
-        for (int i = 0; i < d->floor[k].count; i++)
-            raised = fmax(raised, -fmin(d->floor[k].piece[i].ha, d->floor[k].piece[i].hb));
+    for (int i = 0; d->shape == DEPTH_MAP && i < d->columns * d->rows; i++) raised = fmax(raised, -d->grid[i]);
     if (M.path == PATH_ENVELOPE) d->reach = sqrt(2.0 * raised * fmax(equivalent_radius(OUTER), equivalent_radius(INNER)));
+}
+
+/* The floor along z = const. */
+static void line_floor(const Defect *d, Floor *f, double z)
+{
+    if (d->shape == OUTLINE) {
+        double s[CROSSINGS];
+        const int count = crossings(d, d->z, d->s, z, s, CROSSINGS);
+        for (int i = 0; i + 1 < count; i += 2) add_range(d, f, s[i], s[i + 1]);
+    } else if (d->shape == DEPTH_MAP) {
+        const double y = (z - d->z0) / d->dz;
+        if (y < 0.0 || y > d->rows - 1) return;
+        int r = (int)y;
+        if (r > d->rows - 2) r = d->rows - 2;
+        const double *low = d->grid + r * d->columns, *high = low + d->columns, x = y - r;
+        for (int i = 0; i + 1 < d->columns; i++) {
+            const double a = low[i] + x * (high[i] - low[i]), b = low[i + 1] + x * (high[i + 1] - low[i + 1]);
+            if (a != 0.0 || b != 0.0) add_piece(f, d->s0 + i * d->ds, d->s0 + (i + 1) * d->ds, a, b);
+        }
+    } else {
+        width_floor(d, f, z);
+    }
 }
 
 static void build_floors(Defect *d)
 {
     find_arc(d);
+    find_reach(d);
     if (M.law == LAW_ECL) {
         d->floor = need(1, sizeof(Floor));
         if (d->shape == OUTLINE) outline_floor(d, d->floor); /* not where polygons leave a gap: that is outside the defect */
         else add_range(d, d->floor, d->first, d->last);
-        find_reach(d);
         return;
     }
-    d->floor = need((size_t)M.slices, sizeof(Floor));
-    for (int k = 0; k < M.slices; k++) {
-        Floor *f = &d->floor[k];
-        const double z = slice_at(k);
-        if (d->shape == OUTLINE) {
-            double s[CROSSINGS];
-            const int count = crossings(d, d->z, d->s, z, s, CROSSINGS);
-            for (int i = 0; i + 1 < count; i += 2) add_range(d, f, s[i], s[i + 1]);
-        } else if (d->shape == DEPTH_MAP) {
-            const double y = (z - d->z0) / d->dz;
-            if (y < 0.0 || y > d->rows - 1) continue;
-            int r = (int)y;
-            if (r > d->rows - 2) r = d->rows - 2;
-            const double *low = d->grid + r * d->columns, *high = low + d->columns, x = y - r;
-            for (int i = 0; i + 1 < d->columns; i++)
-                add_piece(f, d->s0 + i * d->ds, d->s0 + (i + 1) * d->ds, low[i] + x * (high[i] - low[i]),
-                          low[i + 1] + x * (high[i + 1] - low[i + 1]));
-        } else {
-            width_floor(d, f, z);
-        }
+    if (M.path != PATH_ENVELOPE) return;
+    d->floor = need((size_t)M.slices * LINES, sizeof(Floor));
+    for (int i = 0; i < M.slices * LINES; i++) {
+        const int k = i / LINES;
+        line_floor(d, &d->floor[i], slice_border(k) + (i % LINES + 0.5) / LINES * (slice_border(k + 1) - slice_border(k)));
     }
-    find_reach(d);
 }
 
 /* h(s); `slope` receives dh/ds. */
@@ -591,10 +618,57 @@ static double envelope_depth(const Floor *f, double s, double R, double *slope)
     return best;
 }
 
-/* Depth that acts at arc s under floor f. */
+/* Depth that acts at arc s under floor f (ecl). */
 static double depth_of(const Floor *f, int side, double s, double *slope)
 {
     return M.path == PATH_ENVELOPE ? envelope_depth(f, s, equivalent_radius(side), slope) : point_depth(f, s, slope);
+}
+
+static int on_a_piece(const Floor *f, double s)
+{
+    for (int i = 0; i < f->count; i++)
+        if (s >= f->piece[i].a && s <= f->piece[i].b) return 1;
+    return 0;
+}
+
+static void build_table(Defect *d, int side)
+{
+    Table *t = &d->table[side];
+    const double R = equivalent_radius(side);
+    t->nodes = NODES;
+    t->from = d->first - d->reach;
+    t->step = (d->last + d->reach - t->from) / (NODES - 1);
+    t->section = need((size_t)(NODES * M.slices), sizeof(double));
+    t->lifted = need((size_t)(NODES * M.slices), sizeof(double));
+    for (int node = 0; node < NODES; node++)
+        for (int k = 0; k < M.slices; k++) {
+            const double s = t->from + node * t->step;
+            double sum = 0.0;
+            int lifted = 0;
+            for (int i = 0; i < LINES; i++) {
+                const Floor *f = &d->floor[k * LINES + i];
+                double slope;
+                if (!f->count) continue;
+                const double h = envelope_depth(f, s, R, &slope);
+                const int covered = on_a_piece(f, s);
+                if (!covered && h >= 0.0) continue;
+                lifted += !covered;
+                sum += h;
+            }
+            t->section[node * M.slices + k] = sum / LINES;
+            t->lifted[node * M.slices + k] = (double)lifted / LINES;
+        }
+}
+
+static double looked_up(const Table *t, const double *values, int k, double s, double *slope)
+{
+    const double x = (s - t->from) / t->step;
+    int node = (int)floor(x);
+    if (node < 0) node = 0;
+    if (node > t->nodes - 2) node = t->nodes - 2;
+    const double a = values[node * M.slices + k], b = values[(node + 1) * M.slices + k];
+    *slope = (b - a) / t->step;
+    return a + (b - a) * (x - node);
 }
 
 static double power(double x)
@@ -615,47 +689,166 @@ typedef struct {
     double push_own;  /* the part that damage on the roller has in it */
 } Elastic;
 
-/* Law `sliced`: the deepest defect under each slice; slices that none meets are healthy. */
+enum { INTERVALS = 256 };
+
+/* A defect at its s: which z it covers, ascending. */
+typedef struct {
+    const Defect *d;
+    double s, h, from[INTERVALS], to[INTERVALS];
+    int count;
+} Met;
+
+static void cover(Met *m, double from, double to)
+{
+    if (!(to > from)) return;
+    if (m->count == INTERVALS) die("damage:", "too many intervals along z");
+    m->from[m->count] = from;
+    m->to[m->count++] = to;
+}
+
+static int map_column(const Defect *d, double s)
+{
+    int c = (int)floor((s - d->s0) / d->ds);
+    if (c > d->columns - 2) c = d->columns - 2;
+    return c < 0 ? 0 : c;
+}
+
+static void find_cover(Met *m, const Defect *d, double s)
+{
+    double w;
+    m->d = d;
+    m->s = s;
+    m->count = 0;
+    m->h = 0.0;
+    if (s < d->first || s > d->last) return;
+    if (d->shape == DEPTH_MAP) {
+        /* Between four nodes the surface is damaged unless all are 0. */
+        const int c = map_column(d, s);
+        for (int r = 0; r + 1 < d->rows; r++) {
+            const double *a = d->grid + r * d->columns + c, *b = a + d->columns;
+            if (a[0] != 0.0 || a[1] != 0.0 || b[0] != 0.0 || b[1] != 0.0)
+                cover(m, d->z0 + r * d->dz, d->z0 + (r + 1) * d->dz);
+        }
+    } else if (d->shape == OUTLINE) {
+        double z[CROSSINGS];
+        const int count = crossings(d, d->s, d->z, s, z, CROSSINGS);
+        m->h = d->depth;
+        for (int i = 0; i + 1 < count; i += 2) cover(m, z[i], z[i + 1]);
+    } else if (width_at(d, s, &w, &m->h)) {
+        cover(m, d->offset - 0.5 * w, d->offset + 0.5 * w);
+    }
+}
+
+/* Depth at z where it is covered, at a point. */
+static double depth_under(const Met *m, double z)
+{
+    const Defect *d = m->d;
+    if (d->shape != DEPTH_MAP) return m->h;
+    const int c = map_column(d, m->s);
+    int r = (int)floor((z - d->z0) / d->dz);
+    r = r < 0 ? 0 : r > d->rows - 2 ? d->rows - 2 : r;
+    const double x = (m->s - d->s0) / d->ds - c, y = (z - d->z0) / d->dz - r;
+    const double *a = d->grid + r * d->columns + c, *b = a + d->columns;
+    return (1.0 - y) * (a[0] + x * (a[1] - a[0])) + y * (b[0] + x * (b[1] - b[0]));
+}
+
+static int covers(const Met *m, double z)
+{
+    for (int i = 0; i < m->count; i++)
+        if (z >= m->from[i] && z <= m->to[i]) return 1;
+    return 0;
+}
+
+/* phi of slice k, and the mean depth at a point: the deepest of all that cover it, between all ends of what they cover. */
+static double fraction(const Met *met, int count, int k, double *mean)
+{
+    static const double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const double lo = slice_border(k), hi = slice_border(k + 1);
+    double stop[2 * 16 * INTERVALS + 2], covered = 0.0, section = 0.0;
+    int stops = 0;
+    stop[stops++] = lo;
+    stop[stops++] = hi;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < met[i].count; j++) {
+            if (met[i].from[j] > lo && met[i].from[j] < hi) stop[stops++] = met[i].from[j];
+            if (met[i].to[j] > lo && met[i].to[j] < hi) stop[stops++] = met[i].to[j];
+        }
+    qsort(stop, (size_t)stops, sizeof(double), ascending);
+    for (int i = 0; i + 1 < stops; i++) {
+        const double a = stop[i], b = stop[i + 1];
+        int any = 0;
+        for (int g = 0; g < 3 && b > a; g++) {
+            const double z = a + at[g] * (b - a);
+            double deepest = -INFINITY;
+            for (int j = 0; j < count; j++)
+                if (covers(&met[j], z)) deepest = fmax(deepest, depth_under(&met[j], z));
+            if (deepest == -INFINITY) continue;
+            any = 1;
+            section += weight[g] * (b - a) * deepest;
+        }
+        if (any) covered += b - a;
+    }
+    *mean = covered > 0.0 ? section / covered : 0.0;
+    return covered / (hi - lo);
+}
+
+/* phi within 1e-9 of 0 or 1 counts as that. */
+static double settled(double phi) { return phi < 1e-9 ? 0.0 : phi > 1.0 - 1e-9 ? 1.0 : phi; }
+
+/* Law `sliced`: fractions of slices. */
 static Elastic sliced_law(int side, int row, int j, double theta, double phi, double W, double delta, int slope)
 {
+    static Met met[16], beside[1];
     const double K = side == OUTER ? M.Kout : M.Kin;
     Elastic e = {0.0, 0.0, M.L, 0.0, 0.0};
-    const Defect *met[16];
-    double arc[16];
     int count = 0;
     for (int i = 0; i < M.defects; i++) {
-        const Defect *d = &M.defect[i];
+        Defect *d = &M.defect[i];
         double u;
         if (!local_angle(d, side, row, j, theta, phi, W, &u)) continue;
         const double s = u * d->radius;
         if (s < d->first - d->reach || s > d->last + d->reach) continue;
         if (count == 16) die("too many defects at one contact", "");
-        met[count] = d;
-        arc[count++] = s;
+        if (M.path == PATH_ENVELOPE && !d->table[side].nodes) build_table(d, side);
+        find_cover(&met[count++], d, s);
     }
-    const double whole = power(delta);
+    if (M.path == PATH_ENVELOPE && count > 1) die("defects that meet one contact along an envelope", "are not covered");
+    const double whole = power(delta), whole_rise = delta > 0.0 ? M.n * pow(delta, M.n - 1.0) : 0.0;
     for (int k = 0; k < M.slices && count; k++) {
-        const Defect *acting = 0;
-        double depth = 0.0, rise = 0.0;
-        for (int i = 0; i < count; i++) {
-            double m, h;
-            /* A raised edge holds a roller up before the arc begins; a floor has no say there. */
-            h = depth_of(&met[i]->floor[k], side, arc[i], &m);
-            if (h == 0.0 && (arc[i] < met[i]->first || arc[i] > met[i]->last)) continue;
-            if (!acting || h > depth) { acting = met[i]; depth = h; rise = m; }
+        double depth, section = 0.0, rise = 0.0, part = fraction(met, count, k, &depth), none;
+        if (M.path == PATH_ENVELOPE) {
+            const Table *t = &met->d->table[side];
+            part += looked_up(t, t->lifted, k, met->s, &none);
+            section = looked_up(t, t->section, k, met->s, &rise);
+            depth = part > 0.0 ? section / part : 0.0;
         }
-        const double x = delta - depth, q = depth == 0.0 ? whole : power(x);
-        e.elastic += K / M.slices * q;
-        if (slope && x > 0.0) e.stiffness += K / M.slices * M.n * pow(x, M.n - 1.0);
-        if (M.edge == EDGE_CONSERVATIVE && acting && q > 0.0) {
-            const double push = K / M.slices * q * rise * acting->radius;
+        const double share = settled(fmin(part, 1.0));
+        const double x = delta - depth, q = share > 0.0 ? power(x) : 0.0;
+        e.elastic += K / M.slices * ((1.0 - share) * whole + share * q);
+        if (slope) e.stiffness += K / M.slices * ((1.0 - share) * whole_rise + (share > 0.0 && x > 0.0 ? share * M.n * pow(x, M.n - 1.0) : 0.0));
+        if (M.edge == EDGE_CONSERVATIVE && share > 0.0) {
+            /* -dE/ds with E = (1 - phi) E(delta) + phi E(delta - h) and h = section / phi; the fraction's slope by a difference. */
+            const double hair = 1e-9;
+            double widens = 0.0;
+            if (share < 1.0) {
+                double far[2];
+                for (int i = 0; i < 2; i++) {
+                    find_cover(beside, met->d, met->s + (i ? hair : -hair));
+                    far[i] = fraction(beside, 1, k, &none);
+                }
+                widens = (far[1] - far[0]) / (2.0 * hair);
+                /* A fraction that jumps where damage begins does no work: its depth is 0 there. */
+                if (fabs(far[1] - far[0]) > 1e-3) widens = 0.0;
+            }
+            const double energy = (q * fmax(x, 0.0) - whole * fmax(delta, 0.0)) / (M.n + 1.0);
+            const double push = K / M.slices * (q * (rise - depth * widens) - widens * energy) * met->d->radius;
             e.push += push;
-            if (acting->on == ROLLER) e.push_own += push;
+            if (met->d->on == ROLLER) e.push_own += push;
         }
     }
     if (!count) {
         e.elastic = K * whole;
-        e.stiffness = slope && delta > 0.0 ? K * M.n * pow(delta, M.n - 1.0) : 0.0;
+        e.stiffness = slope ? K * whole_rise : 0.0;
     }
     return e;
 }

@@ -77,9 +77,13 @@ pub(crate) struct ScenarioArgs {
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
+    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with another scenario's unless \
+    --overwrite is given. It removes only files that summary.json lists as results.\n\n\
     Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
     before any runs; one that fails stops no other.\n\n\
-    Ctrl-C ends runs cleanly: what was computed is kept and marked partial.")]
+    Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\
+    BRINELL_KERNEL=plain|portable|avx2|avx512 in the environment chooses the instructions of the simulation's arithmetic [default: the \
+    fastest that the processor has]. They differ in round-off alone, which impacts amplify.")]
 pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
@@ -107,6 +111,9 @@ pub(crate) struct RunArgs {
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
+    /// Replace the results of another scenario in the folder, all of them
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -131,12 +131,7 @@ pub(crate) trait Work: Sync {
     }
 
     /// Where the task's signals go, if anywhere.
-    fn signals(
-        &self,
-        _: &Task,
-        _: &Scenario,
-        _: &Simulation,
-    ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
+    fn signals(&self, _: &Task, _: &Simulation) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
         Ok(None)
     }
 
@@ -248,7 +243,7 @@ fn one(
         Ok(simulation) => simulation,
         Err(error) => return Ok(Some(row(Err(error.to_string())))),
     };
-    let writers = work.signals(task, &scenario, &simulation)?;
+    let writers = work.signals(task, &simulation)?;
     let mut recorder = Recorder::new(&simulation, writers.into_iter().collect(), progress, stop)
         .hearing(work.hears());
     let mut beside = work.beside(task, &simulation);

@@ -468,6 +468,7 @@ fn random(args: &RandomArgs) -> Result<(), Failure> {
         row: 1,
         center_deg: 0.0,
         depth_um: args.depth_um,
+        axial_offset_mm: 0.0,
         shape: scenario::Shape::Random {
             seed: args.seed,
             length_mm: args.length_mm,

@@ -24,12 +24,28 @@ mod say;
 mod sweep;
 
 use args::{Cli, Command};
+use brinell::kernel::Kernel;
 use clap::Parser;
+use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let result = match cli.command {
+    let result = match Kernel::chosen() {
+        Ok(_) => run_command(cli.command),
+        Err(error) => Err(Failure::Usage(error.to_string())),
+    };
+    match result {
+        Ok(code) => code,
+        Err(failure) => {
+            failure.print();
+            failure.code()
+        }
+    }
+}
+
+fn run_command(command: Command) -> Result<ExitCode, Failure> {
+    match command {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Init(args) => look_up::init(&args),
@@ -43,12 +59,5 @@ fn main() -> ExitCode {
         Command::Reproduce(args) => reproduce::reproduce(&args),
         Command::Dataset(args) => dataset::dataset(&args),
         Command::Schema => look_up::schema(),
-    };
-    match result {
-        Ok(code) => code,
-        Err(failure) => {
-            failure.print();
-            failure.code()
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! `brinell run`.
 
+mod folder;
 mod many;
 
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
@@ -16,6 +17,7 @@ use brinell::simulate::{End, Simulation};
 use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
 use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_write, keys};
+use folder::{Earlier, PLOTS, REPORT, SCENARIO, SUMMARY};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -31,9 +33,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
     let folder = args.output.clone().unwrap_or_else(named);
+    let earlier = earlier(args, &loaded, &folder)?;
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
-    let done = execute(args, &loaded, simulation, &folder, progress, &stop)?;
+    let task = (&loaded, folder.as_path(), &earlier);
+    let done = execute(args, task, simulation, progress, &stop)?;
     if !args.quiet {
         for line in &done.told {
             say!("{line}");
@@ -66,21 +70,32 @@ struct Done {
     told: Vec<String>,
 }
 
-/// Runs, and writes everything that was asked for into `folder`.
+/// Earlier results in `folder` that a run of the scenario may replace.
+fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path) -> Result<Earlier, Failure> {
+    let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
+    writes.push(SUMMARY);
+    if !args.no_report {
+        writes.push(REPORT);
+    }
+    Earlier::find(folder, &loaded.scenario, args.overwrite, &writes)
+}
+
+/// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
 fn execute(
     args: &RunArgs,
-    loaded: &Loaded,
+    (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
     simulation: Simulation,
-    folder: &Path,
     progress: Progress,
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
     make_folder(folder)?;
+    // These lock their files: another run into the same folder ends here, before anything is removed.
+    let writers = writers(args, loaded, &simulation, folder)?;
+    earlier.remove()?;
     // What a reader needs to make sense of a partial run comes first.
-    let path = folder.join("scenario.toml");
+    let path = folder.join(SCENARIO);
     atomic_write(&path, loaded.to_toml().as_bytes())?;
     let mut written = vec![path];
-    let writers = writers(args, loaded, &simulation, folder)?;
 
     let mut recorder = Recorder::new(&simulation, writers, progress, stop);
     let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
@@ -101,18 +116,40 @@ fn execute(
         findings: &findings,
         statics: &statics,
     };
-    let path = folder.join("summary.json");
-    let text = serde_json::to_string_pretty(&summary::to_json(&parts)).unwrap_or_default() + "\n";
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| page::report(&parts));
+    let pictures = match &report {
+        Some(report) if !args.plots.is_empty() => pictures(report),
+        _ => Vec::new(),
+    };
+    let mut files: Vec<String> = written
+        .iter()
+        .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
+        .collect();
+    files.push(SUMMARY.into());
+    if !args.no_report {
+        files.push(REPORT.into());
+    }
+    for picture in &pictures {
+        let names = args
+            .plots
+            .iter()
+            .map(|format| picture_file(picture, *format));
+        files.extend(names.map(|name| format!("{PLOTS}/{name}")));
+    }
+    // Before the report and the pictures: a run that replaces this one knows of them even where this one is cut short.
+    let mut summary = summary::to_json(&parts);
+    summary["files"] = files.into();
+    let path = folder.join(SUMMARY);
+    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
     atomic_write(&path, text.as_bytes())?;
     written.push(path);
-    if !args.no_report || !args.plots.is_empty() {
-        let report = page::report(&parts);
-        if !args.no_report {
-            let path = folder.join("report.html");
-            atomic_write(&path, brinell_report::html(&report).as_bytes())?;
-            written.push(path);
-        }
-        plots(args, &report, folder, &mut written)?;
+    if let Some(report) = report.filter(|_| !args.no_report) {
+        let path = folder.join(REPORT);
+        atomic_write(&path, brinell_report::html(&report).as_bytes())?;
+        written.push(path);
+    }
+    if !pictures.is_empty() {
+        write_pictures(&pictures, &args.plots, folder, &mut written)?;
     }
     Ok(Done {
         told: tell(&parts, heard.elapsed, &written),
@@ -145,6 +182,16 @@ fn writers(
 ) -> Result<Vec<Box<dyn SignalWriter>>, Failure> {
     let columns = signal_columns(simulation);
     let metadata = signal_metadata(loaded.to_toml(), simulation);
+    let make = |format: Format| {
+        format
+            .create(folder, &columns, &metadata)
+            .map_err(Failure::from)
+    };
+    formats(args).into_iter().map(make).collect()
+}
+
+/// Formats of signals that are asked for, each once.
+fn formats(args: &RunArgs) -> Vec<Format> {
     let mut formats: Vec<Format> = Vec::new();
     for format in &args.signals {
         let format = match format {
@@ -160,12 +207,7 @@ fn writers(
             formats.push(format);
         }
     }
-    let make = |format: Format| {
-        format
-            .create(folder, &columns, &metadata)
-            .map_err(Failure::from)
-    };
-    formats.into_iter().map(make).collect()
+    formats
 }
 
 /// Time and the recorded channels.
@@ -184,19 +226,20 @@ pub(crate) fn signal_metadata(scenario_toml: String, simulation: &Simulation) ->
         .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string())
 }
 
-/// Each picture as a file, and the one that says most on its own.
-fn plots(
-    args: &RunArgs,
-    report: &brinell_report::Report,
-    folder: &Path,
-    written: &mut Vec<PathBuf>,
-) -> Result<(), Failure> {
-    if args.plots.is_empty() {
-        return Ok(());
-    }
+/// Each picture of the report, and the one that says most on its own.
+fn pictures(report: &brinell_report::Report) -> Vec<brinell_report::Picture> {
     let mut pictures = brinell_report::pictures(report);
     pictures.push(brinell_report::headline(report));
-    write_pictures(&pictures, &args.plots, folder, written)
+    pictures
+}
+
+/// Name of a picture's file.
+fn picture_file(picture: &brinell_report::Picture, format: PlotFormat) -> String {
+    let ending = match format {
+        PlotFormat::Svg => "svg",
+        PlotFormat::Png => "png",
+    };
+    format!("{}.{ending}", picture.name)
 }
 
 /// Pictures as files of `folder`/plots.
@@ -206,15 +249,15 @@ pub(crate) fn write_pictures(
     folder: &Path,
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
-    let folder = folder.join("plots");
+    let folder = folder.join(PLOTS);
     make_folder(&folder)?;
     for picture in pictures {
         for format in formats {
-            let (ending, bytes) = match format {
-                PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
-                PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
+            let bytes = match format {
+                PlotFormat::Svg => picture.svg().into_bytes(),
+                PlotFormat::Png => picture.png(2.0).map_err(Failure::Picture)?,
             };
-            let path = folder.join(format!("{}.{ending}", picture.name));
+            let path = folder.join(picture_file(picture, *format));
             atomic_write(&path, &bytes)?;
             written.push(path);
         }
@@ -288,7 +331,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
                 .map_or("-".into(), |e| short(e.value, 3))
         };
         told.push(format!(
-            "  {}: RMS {}{interval} {}, peak to peak {}, kurtosis {}",
+            "  {}: RMS {}{interval} {}, peak to peak {} a revolution, kurtosis {}",
             channel.name,
             short(rms.value, 3),
             channel.unit,
@@ -296,15 +339,16 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             other(Indicator::Kurtosis),
         ));
     }
-    let clipped = summary::clipped(parts);
-    told.extend(clipped.into_iter().map(|words| format!("  {words}")));
+    let heed = summary::clipped(parts)
+        .into_iter()
+        .chain(summary::unsettled(findings));
+    told.extend(heed.map(|words| format!("  {words}")));
     for line in &findings.lines {
         let found = line.found.map_or("not found in the envelope".into(), |f| {
-            format!(
-                "{:.2} Hz ± {} in the envelope",
-                f.frequency,
-                short(f.uncertainty, 1)
-            )
+            let interval = line.interval.map_or(String::new(), |i| {
+                format!(" (95 %: {:.2} to {:.2})", i.low, i.high)
+            });
+            format!("{:.2} Hz{interval} in the envelope", f.frequency)
         });
         told.push(format!(
             "  defect {}: {} {found}; pure rolling {:.2} Hz",

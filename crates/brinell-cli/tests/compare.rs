@@ -35,8 +35,8 @@ fn regress_files_and_variants_come_side_by_side() {
     )
     .exits(0)
     .says(&[
-        "simple over actual:",
-        "lumped over actual:",
+        "simple over actual, ratios:",
+        "lumped over actual, ratios:",
         "measured_ax.rms: ",
         "(95 %: ",
     ])

@@ -88,7 +88,7 @@ pub(crate) const KNOWN: [Fixed; 11] = [
 ];
 
 /// Last: labels, and what no test rig tells.
-pub(crate) const TRUTH: [Fixed; 52] = [
+pub(crate) const TRUTH: [Fixed; 53] = [
     ("class", "1", Kind::Words, "label of the run"),
     (
         "label",
@@ -328,6 +328,13 @@ pub(crate) const TRUTH: [Fixed; 52] = [
         "tolerance of the integrator: standard or reference",
     ),
     (
+        "kernel",
+        "1",
+        Kind::Words,
+        "instructions of the simulation's arithmetic: plain, portable, avx2 or avx512; runs of different kernels differ in round-off, which impacts \
+         amplify",
+    ),
+    (
         "energy_residual_j",
         "J",
         Kind::Number,
@@ -375,7 +382,12 @@ pub(crate) const TRUTH: [Fixed; 52] = [
         Kind::Words,
         "the whole scenario of the run, TOML: `brinell run` repeats the run with it",
     ),
-    ("scenario_sha256", "1", Kind::Words, "SHA-256 of that text"),
+    (
+        "scenario_sha256",
+        "1",
+        Kind::Words,
+        "fingerprint of the scenario: SHA-256 over every key and value, without what was assumed and why",
+    ),
 ];
 
 fn fixed((name, unit, kind, description): &Fixed, tells: bool) -> DataColumn {

@@ -4,11 +4,14 @@ use crate::campaign::Campaign;
 use crate::columns::{HEAD, KNOWN, TRUTH};
 use crate::run::Listener;
 use crate::truth::{Instant, Truth};
-use brinell::campaign::digest;
+use brinell::campaign::fingerprint;
 use brinell::defect::{Defect, Shape};
 use brinell::design::{Draw, Value, unsaid};
-use brinell::document::{on_one_line, one_line};
+use brinell::document::{Loaded, on_one_line, one_line};
+use brinell::kernel::Kernel;
+use brinell::observe::slip::RowSlip;
 use brinell::scenario::{self, Scenario, Speed, Surface};
+use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Kind};
 use serde_json::{Map, Value as Json};
@@ -64,7 +67,7 @@ impl Draft {
         })?;
         self.draw = Some(draw);
         let (scenario, cells) = (&loaded.scenario, &mut self.cells);
-        about(scenario, cells);
+        about(&loaded, cells);
         let simulation = Simulation::new(scenario)
             .map_err(|error| Short::Failed(one_line(&error.to_string())))?;
         let signals = campaign.signals();
@@ -153,7 +156,8 @@ fn words(text: &str) -> Cell {
 }
 
 /// What the scenario itself says.
-fn about(scenario: &Scenario, cells: &mut Cells) {
+fn about(loaded: &Loaded, cells: &mut Cells) {
+    let scenario = &loaded.scenario;
     let s = &scenario.simulation;
     cells.insert("sample_rate_hz", Cell::Number(s.sample_rate_hz));
     cells.insert("duration_s", Cell::Number(s.duration_s));
@@ -170,10 +174,11 @@ fn about(scenario: &Scenario, cells: &mut Cells) {
     }
     cells.insert("load_n", Cell::Numbers(scenario.operation.load_n.to_vec()));
     cells.insert("accuracy", words(s.accuracy.word()));
-    let text = scenario.to_toml();
-    // `fingerprint`, of the text that is here already.
-    cells.insert("scenario_sha256", Cell::Words(digest(&text)));
-    cells.insert("scenario", Cell::Words(text));
+    if let Ok(kernel) = Kernel::chosen() {
+        cells.insert("kernel", words(kernel.name()));
+    }
+    cells.insert("scenario_sha256", Cell::Words(fingerprint(scenario)));
+    cells.insert("scenario", Cell::Words(loaded.to_toml()));
 }
 
 /// What follows from it before anything moves.
@@ -367,24 +372,16 @@ fn gathered(simulation: &Simulation, truth: &Truth, cells: &mut Cells) {
         "load_zone_largest_n",
         Cell::Numbers(zones.iter().flat_map(|z| z.max.clone()).collect()),
     );
-    let rows = &truth.slip.rows;
+    let means = |of: &dyn Fn(&RowSlip) -> Option<Estimate>| {
+        let rows = truth.slip.rows.iter();
+        rows.map(|row| Some(of(row)?.value))
+            .collect::<Option<Vec<f64>>>()
+    };
     for (name, of) in [
-        (
-            "cage_slip",
-            rows.iter().map(|r| r.cage()).collect::<Option<Vec<f64>>>(),
-        ),
-        (
-            "loaded_orbit_slip",
-            rows.iter().map(|r| r.loaded_orbit()).collect(),
-        ),
-        (
-            "unloaded_orbit_slip",
-            rows.iter().map(|r| r.unloaded_orbit()).collect(),
-        ),
-        (
-            "loaded_surface_slip",
-            rows.iter().map(|r| r.loaded_surface()).collect(),
-        ),
+        ("cage_slip", means(&|r| r.cage())),
+        ("loaded_orbit_slip", means(&|r| r.loaded_orbit())),
+        ("unloaded_orbit_slip", means(&|r| r.unloaded_orbit())),
+        ("loaded_surface_slip", means(&|r| r.loaded_surface())),
     ] {
         cells.insert(name, of.map_or(Cell::Empty, Cell::Numbers));
     }

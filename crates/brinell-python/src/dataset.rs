@@ -131,10 +131,7 @@ impl Campaign {
         }
         let (loaded, _) = self.0.scenario(index).map_err(|error| failed(py, error))?;
         let class = self.0.draws().class(index);
-        Ok((
-            loaded.scenario.to_toml(),
-            self.0.plan().classes[class].name.clone(),
-        ))
+        Ok((loaded.to_toml(), self.0.plan().classes[class].name.clone()))
     }
 
     /// Every file that the runs are made from: plan, base scenario, files of damage.

@@ -179,7 +179,7 @@ pub(crate) fn kurtogram<'py>(
     Ok(dict)
 }
 
-/// Indicators with 95 % intervals from blocks of `block_s` seconds.
+/// Indicators with 95 % intervals, averages over blocks of `block_s` seconds.
 #[pyfunction]
 pub(crate) fn indicators<'py>(
     py: Python<'py>,
@@ -208,7 +208,7 @@ pub(crate) fn indicators<'py>(
                 "unit": if i.has_unit() { unit } else { "" },
                 "low": e.interval.map(|i| i.low),
                 "high": e.interval.map(|i| i.high),
-                "blocks": e.interval.map(|i| i.blocks),
+                "blocks": blocks.revolutions(),
             });
             Some((i.name().to_owned(), value))
         })

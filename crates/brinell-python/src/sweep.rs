@@ -24,6 +24,8 @@ pub(crate) fn sweep<'py>(
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>)> {
+    // Said once, and not of every point.
+    brinell::kernel::Kernel::chosen().map_err(bad_value)?;
     let axes = axes.into_iter().map(|(keys, settings)| {
         let texts = settings
             .iter()

@@ -170,7 +170,7 @@ fn indicators() -> IndicatorTable {
     let row = |channel: &str, kind: &str, scale: f64| {
         let cell = |value: f64, half: f64, unit: &str| Estimate {
             value,
-            half_width: Some(half),
+            interval: Some((value - half, value + half)),
             unit: unit.into(),
         };
         IndicatorRow {

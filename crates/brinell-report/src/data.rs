@@ -274,14 +274,14 @@ pub struct RowLoad {
     pub static_points: Vec<(f64, f64)>,
 }
 
-/// A value and the half width of its interval.
+/// A value and its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The value.
     pub value: f64,
-    /// Half width of its interval, where there is one.
-    pub half_width: Option<f64>,
+    /// Low and high end of its interval, where there is one.
+    pub interval: Option<(f64, f64)>,
     /// Its unit; empty where it has none.
     pub unit: String,
 }
@@ -306,7 +306,7 @@ pub struct IndicatorTable {
     pub columns: Vec<String>,
     /// The signals.
     pub rows: Vec<IndicatorRow>,
-    /// What the intervals are: "95 % intervals from 12 blocks of whole revolutions".
+    /// What the intervals are: "in brackets 95 % intervals".
     pub note: String,
 }
 

@@ -24,18 +24,15 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     format!("{}×10{}", trim_zeros(mantissa), superscript(exponent)).replace('-', "−")
 }
 
-/// `value` with as many decimals as `half_width` deserves (two significant digits), and the half width itself.
-pub(crate) fn with_interval(value: f64, half_width: f64) -> (String, String) {
-    if !value.is_finite() || !half_width.is_finite() || half_width <= 0.0 {
-        return (significant(value, 4), significant(half_width, 2));
+/// A value and the ends of its interval, with as many decimals as half the interval's width deserves (two significant digits).
+pub(crate) fn with_interval(value: f64, low: f64, high: f64) -> [String; 3] {
+    let all = [value, low, high];
+    let half_width = 0.5 * (high - low);
+    if all.iter().any(|x| !x.is_finite() || x.abs() >= 1e7) || half_width < 1e-8 {
+        return all.map(|x| significant(x, 4));
     }
-    let order = half_width.log10().floor() as i32;
-    let decimals = (1 - order).clamp(0, 12) as usize;
-    if value.abs() >= 1e7 || order < -8 {
-        return (significant(value, 4), significant(half_width, 2));
-    }
-    let show = |x: f64| group_thousands(&format!("{x:.decimals$}")).replace('-', "−");
-    (show(value), show(half_width))
+    let decimals = (1 - half_width.log10().floor() as i32).clamp(0, 12) as usize;
+    all.map(|x| group_thousands(&format!("{x:.decimals$}")).replace('-', "−"))
 }
 
 fn trim_zeros(text: &str) -> String {
@@ -273,10 +270,13 @@ mod tests {
             assert_eq!(significant(value, 4), text);
         }
         assert_eq!(
-            with_interval(22.913, 0.4213),
-            ("22.91".into(), "0.42".into())
+            with_interval(22.913, 22.5, 23.3426),
+            ["22.91", "22.50", "23.34"]
         );
-        assert_eq!(with_interval(1234.5, 37.0), ("1234".into(), "37".into()));
+        assert_eq!(
+            with_interval(1234.5, 1200.0, 1274.0),
+            ["1234", "1200", "1274"]
+        );
     }
 
     #[test]

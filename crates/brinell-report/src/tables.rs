@@ -136,17 +136,17 @@ pub(crate) fn indicators(page: &mut String, report: &Report) {
 }
 
 fn estimate(cell: &Estimate) -> String {
-    let mut text = match cell.half_width {
-        Some(half) if half.is_finite() && cell.value.is_finite() => {
-            let (value, half) = with_interval(cell.value, half);
-            format!("{value} <span class=\"half\">± {half}</span>")
-        }
-        _ => significant(cell.value, 4),
+    let unit = match &cell.unit[..] {
+        unit if !unit.is_empty() && cell.value.is_finite() => format!(" {}", unit_html(unit)),
+        _ => String::new(),
     };
-    if !cell.unit.is_empty() && cell.value.is_finite() {
-        let _ = write!(text, " {}", unit_html(&cell.unit));
+    match cell.interval {
+        Some((low, high)) if cell.value.is_finite() => {
+            let [value, low, high] = with_interval(cell.value, low, high);
+            format!("{value}{unit} <span class=\"half\">({low} to {high})</span>")
+        }
+        _ => significant(cell.value, 4) + &unit,
     }
-    text
 }
 
 pub(crate) fn assumptions(page: &mut String, report: &Report) {

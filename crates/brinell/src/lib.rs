@@ -14,6 +14,7 @@ pub mod design;
 pub mod document;
 pub mod elementary;
 pub mod friction;
+pub mod kernel;
 pub mod lanes;
 pub mod many;
 pub mod model;

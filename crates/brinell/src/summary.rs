@@ -2,11 +2,12 @@
 
 use crate::accuracy::METHOD;
 use crate::document::{Loaded, Provenance};
+use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
-use crate::observe::{Findings, passes};
+use crate::observe::{Drift, Findings, passes};
 use crate::scenario::{Accuracy, ModelKind, Speed};
-use crate::signal::{Estimate, Indicator};
+use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 use crate::simulate::{End, Outcome, Simulation};
 use crate::statics::{NoBalance, StaticLoadZone};
 use serde_json::{Map, Value, json};
@@ -137,10 +138,37 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
         ));
     }
     all.extend(clipped(parts));
+    all.extend(unsettled(parts.findings));
     if let Err(error) = parts.statics {
         all.push(error.to_string());
     }
     all
+}
+
+/// What had not settled when statistics began, in words.
+pub fn unsettled(findings: &Findings) -> Vec<String> {
+    let change = |x: f64| {
+        format!(
+            "{:.1} % {}",
+            100.0 * x.abs(),
+            if x > 0.0 { "higher" } else { "lower" }
+        )
+    };
+    let words = findings.drifts.iter().map(|drift| match drift {
+        Drift::CageSlip(row, by) => format!(
+            "not settled: the cage of row {} was {:.2} % of its pure-rolling speed {} in the first fifth of the analysed time than in its last half; \
+             averages and their intervals hold part of the start: simulate longer",
+            row + 1,
+            100.0 * by.abs(),
+            if *by > 0.0 { "slower" } else { "faster" },
+        ),
+        Drift::Level(channel, by) => format!(
+            "not settled: the RMS of {channel} was {} in the first fifth of the analysed time than in its last half; averages and their intervals \
+             hold part of the start: simulate longer",
+            change(*by),
+        ),
+    });
+    words.collect()
 }
 
 fn assumption(p: &Provenance) -> Value {
@@ -181,7 +209,9 @@ fn defects(parts: &Parts) -> Value {
                 "name": l.name,
                 "pure_rolling_hz": l.nominal,
                 "found_hz": l.found.map(|f| f.frequency),
-                "uncertainty_hz": l.found.map(|f| f.uncertainty),
+                "low_hz": l.interval.map(|i| i.low),
+                "high_hz": l.interval.map(|i| i.high),
+                "uncertainty_hz": l.interval.map(|i| i.standard_uncertainty()),
                 "resolution_hz": l.found.map(|f| f.resolution),
             })),
         })
@@ -191,7 +221,7 @@ fn defects(parts: &Parts) -> Value {
 
 fn estimate(e: &Estimate) -> Value {
     match &e.interval {
-        Some(i) => json!({ "value": e.value, "low": i.low, "high": i.high, "blocks": i.blocks }),
+        Some(i) => json!({ "value": e.value, "low": i.low, "high": i.high }),
         None => json!({ "value": e.value }),
     }
 }
@@ -199,29 +229,45 @@ fn estimate(e: &Estimate) -> Value {
 fn indicators(findings: &Findings) -> Value {
     let mut channels = Map::new();
     for channel in &findings.channels {
-        let values: Map<String, Value> = Indicator::ALL
+        let mut values: Map<String, Value> = Indicator::ALL
             .into_iter()
             .filter_map(|i| Some((i.name().to_owned(), estimate(&channel.blocks.estimate(i)?))))
             .collect();
+        let record = channel.blocks.record();
+        for (name, indicator) in [
+            (RECORD_PEAK, Indicator::Peak),
+            (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak),
+        ] {
+            values.extend(record.get(indicator).map(|x| (name.to_owned(), x.into())));
+        }
         let entry = channels
             .entry(channel.name.clone())
             .or_insert_with(|| json!({ "unit": channel.unit }));
         entry[channel.kind.name()] = values.into();
     }
     json!({
-        "interval": "95 % of the mean over blocks of whole revolutions of the inner ring (Student's t)",
+        "meaning": "value, and low to high, its 95 % interval, of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
+        "revolutions": findings.channels.first().map_or(0, |c| c.blocks.revolutions()),
         "channels": channels,
     })
 }
 
 fn slip(findings: &Findings) -> Value {
     let rows = findings.slip.rows.iter().map(|row| {
-        json!({
-            "cage": row.cage(),
-            "loaded_rollers_orbit": row.loaded_orbit(),
-            "loaded_rollers_surface": row.loaded_surface(),
-            "unloaded_rollers_orbit": row.unloaded_orbit(),
-        })
+        let mut values = Map::new();
+        let mut intervals = Map::new();
+        for (name, estimate) in [
+            ("cage", row.cage()),
+            ("loaded_rollers_orbit", row.loaded_orbit()),
+            ("loaded_rollers_surface", row.loaded_surface()),
+            ("unloaded_rollers_orbit", row.unloaded_orbit()),
+        ] {
+            let interval = estimate.and_then(|e| e.interval);
+            values.insert(name.into(), json!(estimate.map(|e| e.value)));
+            intervals.insert(name.into(), json!(interval.map(|i| [i.low, i.high])));
+        }
+        values.insert("intervals_95".into(), intervals.into());
+        Value::from(values)
     });
     json!({
         "meaning": "fractions of the pure-rolling speed, means over the analysed time; a roller is loaded where the inner raceway presses it",
@@ -254,6 +300,7 @@ fn solver(outcome: &Outcome) -> Value {
     let w = &outcome.work;
     json!({
         "method": METHOD,
+        "kernel": Kernel::in_use().name(),
         "steps": w.solver.steps,
         "rejections": w.solver.rejections,
         "right_hand_sides": w.solver.evaluations,

@@ -2,10 +2,12 @@
 
 mod common;
 
-use brinell::defect::spall;
+use brinell::defect::{Side, spall};
+use brinell::model::{Model, Motion};
 use brinell::scenario::{
     self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface,
 };
+use brinell::solver::Stepper;
 use common::{Rows, simulate};
 
 fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
@@ -25,21 +27,6 @@ fn rectangle(width_mm: f64) -> Shape {
     }
 }
 
-/// Largest difference of any channel over the channel's largest value.
-fn difference(a: &Rows, b: &Rows) -> f64 {
-    let pairs = a.data.iter().zip(&b.data).skip(1);
-    pairs
-        .map(|(x, y)| {
-            let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-            let off = x
-                .iter()
-                .zip(y)
-                .fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
-            off / size.max(f64::MIN_POSITIVE)
-        })
-        .fold(0.0, f64::max)
-}
-
 #[test]
 fn prop_no_width_is_the_healthy_bearing_to_the_bit() {
     let mut healthy = run_of(rectangle(4.0), Law::Ecl, RollerPath::Point, 6e-3);
@@ -55,6 +42,51 @@ fn prop_no_width_is_the_healthy_bearing_to_the_bit() {
     }
 }
 
+/// Forces of models that are the same but for round-off differ by less than this share of the largest: some hundred additions (30 slices).
+const SAME: f64 = 1e-12;
+
+/// Largest difference of a contact force or an acceleration between two models at the same states, over the largest of its kind; the states are
+/// those of a run of the first. Two runs would not do: impacts amplify the round-off of either until it hides what is compared.
+fn force_difference(models: &[Model; 2], until: f64) -> f64 {
+    let mut motions = models.each_ref().map(Motion::new);
+    let y = brinell::start::state(&models[0]).unwrap();
+    let settings = brinell::accuracy::settings(&models[0], Accuracy::Standard);
+    let mut stepper = Stepper::new(&mut motions[0], settings, 0.0, &y);
+    let mut rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
+    let (mut worst, mut on_damage): (f64, usize) = (0.0, 0);
+    while stepper.t() < until {
+        stepper.step(&mut motions[0]).unwrap();
+        for (motion, rate) in motions.iter_mut().zip(&mut rates) {
+            motion.derivative(stepper.t(), stepper.y(), rate);
+        }
+        let contacts = motions
+            .each_ref()
+            .map(|m| &m.ws.contacts[Side::Outer as usize]);
+        assert_eq!(contacts[0].on_damage, contacts[1].on_damage);
+        on_damage += contacts[0].on_damage.iter().filter(|on| **on).count();
+        let largest = contacts[0]
+            .force
+            .iter()
+            .fold(0.0, |m: f64, q| m.max(q.abs()));
+        for (a, b) in contacts[0].force.iter().zip(contacts[1].force.iter()) {
+            worst = worst.max((a - b).abs() / largest);
+        }
+        let size = rates[0].iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        for (a, b) in rates[0].iter().zip(&rates[1]) {
+            worst = worst.max((a - b).abs() / size);
+        }
+    }
+    assert!(on_damage > 100, "{on_damage} contacts on damage");
+    worst
+}
+
+/// The bearing with this damage.
+fn model_of(shape: &Shape, law: Law, path: RollerPath) -> Model {
+    let mut s = run_of(shape.clone(), law, path, 0.012);
+    s.operation.load_ramp_s = 0.002;
+    Model::new(&s).unwrap()
+}
+
 #[test]
 fn prop_a_rectangle_drawn_as_an_outline_runs_the_same() {
     let corners = vec![[-1.5, -2.0], [1.5, -2.0], [1.5, 2.0], [-1.5, 2.0]];
@@ -63,14 +95,16 @@ fn prop_a_rectangle_drawn_as_an_outline_runs_the_same() {
     };
     for law in [Law::Ecl, Law::Sliced] {
         for path in [RollerPath::Point, RollerPath::Envelope] {
-            let [mut a, mut b] =
-                [drawn.clone(), rectangle(4.0)].map(|x| run_of(x, law, path, 0.012));
-            for s in [&mut a, &mut b] {
-                s.simulation.accuracy = Accuracy::Reference;
-                s.operation.load_ramp_s = 0.002;
-            }
-            let off = difference(&simulate(&a).0, &simulate(&b).0);
-            assert!(off < 1e-6, "{law:?} {path:?}: {off:e}");
+            let models = [&drawn, &rectangle(4.0)].map(|shape| model_of(shape, law, path));
+            let off = force_difference(&models, 0.012);
+            println!("{law:?} {path:?}: {off:.1e}");
+            // Slices along the envelope are fitted to 1e-9 of the depth in the outline, and closed forms in the rectangle.
+            let most = if (law, path) == (Law::Sliced, RollerPath::Envelope) {
+                1e-6
+            } else {
+                SAME
+            };
+            assert!(off < most, "{law:?} {path:?}: {off:e}");
         }
     }
 }
@@ -78,15 +112,10 @@ fn prop_a_rectangle_drawn_as_an_outline_runs_the_same() {
 #[test]
 fn prop_full_width_damage_runs_the_same_in_both_laws() {
     for path in [RollerPath::Point, RollerPath::Envelope] {
-        let [a, b] = [Law::Ecl, Law::Sliced].map(|law| {
-            let mut s = run_of(rectangle(6.0), law, path, 0.012);
-            s.simulation.accuracy = Accuracy::Reference;
-            s.operation.load_ramp_s = 0.002;
-            simulate(&s).0
-        });
-        let off = difference(&a, &b);
-        // Impacts amplify the round-off of the slices' sum.
-        assert!(off < 1e-4, "{path:?}: {off:e}");
+        let models = [Law::Ecl, Law::Sliced].map(|law| model_of(&rectangle(6.0), law, path));
+        let off = force_difference(&models, 0.012);
+        println!("{path:?}: {off:.1e}");
+        assert!(off < SAME, "{path:?}: {off:e}");
     }
 }
 
@@ -121,6 +150,7 @@ fn on(surface: Surface, shape: Shape) -> Defect {
         row: 1,
         center_deg: 0.0,
         depth_um: 12.0,
+        axial_offset_mm: 0.0,
         shape,
     }
 }
@@ -129,6 +159,8 @@ fn on(surface: Surface, shape: Shape) -> Defect {
 fn audit(defects: Vec<Defect>, edge_reaction: EdgeReaction) -> [f64; 4] {
     let mut s = run_of(rectangle(4.0), Law::Sliced, RollerPath::Envelope, 0.06);
     s.contact.edge_reaction = edge_reaction;
+    // Several defects along an envelope are searched slice by slice: fewer slices, less to wait for.
+    s.contact.slices = 3;
     s.operation.load_ramp_s = 0.005;
     s.simulation.accuracy = Accuracy::Reference;
     s.defects = defects;
@@ -198,7 +230,7 @@ fn map(columns: usize, rows: usize, depth: impl Fn(usize, usize) -> f64) -> Shap
 /// Right-hand sides counted, which noise cannot touch; times are printed beside them.
 ///
 /// The same damage as the rectangle's, scanned with relief at every node, costs what the rectangle costs. A spall of another outline is another
-/// excitation: along the envelope it stays within the same bound, at a point its ragged border makes the force jump more often.
+/// excitation: along the envelope it stays within the same bound, at a point every node of its ragged border makes the force fall within a few micrometres.
 #[test]
 fn prop_a_detailed_depth_map_costs_little_more_than_a_rectangle() {
     let relief = |c: usize, r: usize| 1.0 + 0.1 * (0.9 * c as f64).sin() * (0.7 * r as f64).cos();
@@ -209,7 +241,7 @@ fn prop_a_detailed_depth_map_costs_little_more_than_a_rectangle() {
     for (law, path, spall_bound) in [
         (Law::Ecl, RollerPath::Point, 1.25),
         (Law::Ecl, RollerPath::Envelope, 1.25),
-        (Law::Sliced, RollerPath::Point, 1.5),
+        (Law::Sliced, RollerPath::Point, 1.75),
         (Law::Sliced, RollerPath::Envelope, 1.25),
     ] {
         let work = |shape: &Shape| {

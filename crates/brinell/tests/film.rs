@@ -327,24 +327,45 @@ fn healthy(preset: &str, guidance: Guidance, film: GuidanceFilm) -> Scenario {
     s
 }
 
-/// A plain film's centre whirls at half the speed of its surfaces at most: there v* vanishes, and with it the force.
+/// The cages from 0.1 to 0.5 s, printed.
+fn told(name: &str, s: &Scenario) -> Vec<Whirl> {
+    let cages = whirl(s, 0.1, 0.5);
+    for w in &cages {
+        println!(
+            "{name}, guided by {:?}, {:?}: whirl {:.3} of the cage's speed, eccentricity {:.3} of the gap",
+            s.cage.guidance, s.cage.guidance_film, w.ratio, w.eccentricity
+        );
+    }
+    cages
+}
+
+/// A plain film's centre whirls at half the sum of its surfaces' speeds at most: there v* vanishes, and with it the force.
 #[test]
 fn lit_cages_whirl_at_most_half_as_fast_as_they_turn() {
     use Guidance::{InnerRing, OuterRing};
     for (preset, guidance) in [
         ("NN3007", OuterRing),
-        ("NU206", InnerRing),
-        ("NU206", OuterRing),
         ("N205", OuterRing),
         ("N205", InnerRing),
+        ("NU206", OuterRing),
+        ("NU206", InnerRing),
     ] {
-        for film in [GuidanceFilm::Dynamic, GuidanceFilm::QuasiStatic] {
-            for w in whirl(&healthy(preset, guidance, film), 0.1, 0.5) {
-                println!(
-                    "{preset}, {guidance:?}, {film:?}: whirl {:.3} of the cage's speed, eccentricity {:.3} of the gap",
-                    w.ratio, w.eccentricity
-                );
-            }
+        let mut s = healthy(preset, guidance, GuidanceFilm::Dynamic);
+        if preset == "NU206" {
+            // Its 0.75 mm are those of a cage that rollers guide: no film carries there, and the pockets set the whirl.
+            s.cage.guide_clearance_mm = 0.2;
         }
+        for w in told(preset, &s) {
+            assert!(w.ratio.abs() <= 0.5, "{preset}, {guidance:?}: {}", w.ratio);
+        }
+    }
+}
+
+/// What the paper's film does instead, and why it is not the default.
+#[test]
+fn regress_quasi_static_film_makes_a_cage_whirl_faster_than_it_turns() {
+    let s = healthy("NN3007", Guidance::OuterRing, GuidanceFilm::QuasiStatic);
+    for w in told("NN3007", &s) {
+        assert!(w.ratio > 1.0, "{}", w.ratio);
     }
 }

@@ -7,7 +7,7 @@ mod common;
 
 use brinell::channel::Frame;
 use brinell::observe::Watch;
-use brinell::scenario::{Scenario, Shape};
+use brinell::scenario::{GuidanceFilm, Scenario, Shape};
 use brinell::simulate::{End, Observer, Simulation};
 use std::ops::ControlFlow;
 
@@ -33,6 +33,8 @@ fn found(name: &str, shape: Shape, printed: f64) {
     let mut s = Scenario::example();
     s.defects[0].shape = shape;
     s.defects[0].depth_um = 20.0;
+    // The paper's film. In the dynamic one the cages run 0.7 mm off centre, slip by 1.2 %, and the line lies 1.3 % below the print.
+    s.cage.guidance_film = GuidanceFilm::QuasiStatic;
     // The cages slip by 1 % for the first 0.2 s and would pull the mean over half a second 0.6 % below pure rolling.
     s.simulation.duration_s = 1.0;
     s.simulation.sample_rate_hz = 25_600.0;

@@ -223,11 +223,6 @@ proptest! {
         let s = first + share * (last - first);
         let theirs = length(vec![[s, -10.0], [s, 10.0]]);
         prop_assert!((ours.width().value(s) - theirs).abs() < 1e-6, "L_s({s}): {} {theirs}", ours.width().value(s));
-        let (low, high) = ours.heights();
-        let z = low + share * (high - low);
-        let theirs = length(vec![[-10.0, z], [10.0, z]]);
-        let chords: f64 = ours.chords(z, 1e-9).iter().map(|c| c[1] - c[0]).sum();
-        prop_assert!((chords - theirs).abs() < 1e-5, "chords at {z}: {chords} {theirs}");
     }
 
     #[test]
@@ -248,7 +243,8 @@ proptest! {
             prop_assert!((0.0..=6e-3).contains(&a.damaged_length) && a.damaged_length == b.damaged_length);
             prop_assert!(b.depth <= a.depth + 1e-15 && b.depth >= 0.0);
             let force = |d: &Defect| acting([d].into_iter(), &LAW, &at(u), Side::Outer, 30e-6).map_or(0.0, |a| a.elastic);
-            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 1e-12));
+            // Along the envelope the mean over a slice of a fine map is a sum over 12 lines, at a point it is exact.
+            prop_assert!(force(&cut_along) >= force(&cut) * (1.0 - 3e-2));
         }
     }
 
@@ -269,34 +265,29 @@ proptest! {
     }
 }
 
-/// Errors of the elastic sum with 2, 4, ... times as many slices, against very many, averaged over a passage.
-fn slice_errors(of: &scenario::Shape, delta: f64) -> Vec<f64> {
-    let force = |slices: usize| -> Vec<f64> {
-        let d = defect(
-            of.clone(),
-            Surface::OuterRaceway,
-            Law::Sliced,
-            RollerPath::Point,
-            slices,
-        );
-        (0..40)
-            .map(|k| {
-                let u = 1.4e-3 * (f64::from(k) / 20.0 - 0.975) / d.radius;
-                acting([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
-                    .map_or(LAW.healthy(delta), |a| a.elastic)
-            })
-            .collect()
-    };
-    let exact = force(9999);
-    [8, 16, 32, 64, 128]
-        .map(|n| {
-            let squares = force(n)
-                .iter()
-                .zip(&exact)
-                .map(|(a, b)| (a / b - 1.0).powi(2))
-                .sum::<f64>();
-            (squares / 40.0).sqrt()
+/// Elastic sums over a passage of 2.8 mm, over the healthy contact's.
+fn passage(of: &scenario::Shape, path: RollerPath, slices: usize, delta: f64) -> Vec<f64> {
+    let d = defect(of.clone(), Surface::OuterRaceway, Law::Sliced, path, slices);
+    (0..40)
+        .map(|k| {
+            let u = 1.4e-3 * (f64::from(k) / 20.0 - 0.975) / d.radius;
+            let healthy = LAW.healthy(delta);
+            acting([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
+                .map_or(1.0, |a| a.elastic / healthy)
         })
+        .collect()
+}
+
+fn rms_of_difference(a: &[f64], b: &[f64]) -> f64 {
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    (squares / a.len() as f64).sqrt()
+}
+
+/// Differences of the elastic sum with 8, 16, ... slices from very many.
+fn slice_errors(of: &scenario::Shape, path: RollerPath, delta: f64) -> Vec<f64> {
+    let exact = passage(of, path, 2000, delta);
+    [8, 16, 32, 64, 128]
+        .map(|n| rms_of_difference(&passage(of, path, n, delta), &exact))
         .to_vec()
 }
 
@@ -305,21 +296,302 @@ fn order(errors: &[f64]) -> f64 {
     (errors[0] / errors[n]).log2() / n as f64
 }
 
+/// The outline of `tests/reference/slices-oblique.toml`, moved as there.
+fn oblique() -> scenario::Shape {
+    let corners = [
+        [-1.7, 0.15],
+        [0.4, -0.65],
+        [1.6, 0.9],
+        [1.1, 2.75],
+        [-0.3, 1.35],
+        [-1.2, 2.4],
+    ];
+    scenario::Shape::Outline {
+        polygons_mm: vec![corners.map(|[s, z]| [s, z - 0.3]).to_vec()],
+    }
+}
+
 #[test]
-fn analytic_sliced_converges_at_first_order_at_a_wall_and_second_on_a_slope() {
-    // A wall lies somewhere within a slice: first order. A smooth dent over the whole width: the midpoint rule's second.
-    let wall = slice_errors(&scenario::Shape::Circle { diameter_mm: 4.5 }, 12e-6);
+fn analytic_damage_of_one_depth_at_a_point_knows_no_slices_and_below_its_floor_is_linear_in_its_width()
+ {
+    for of in [
+        scenario::Shape::Circle { diameter_mm: 2.6 },
+        scenario::Shape::Li2023Irregular { max_width_mm: 4.0 },
+        oblique(),
+    ] {
+        // Above the floor of 20 um, and below it.
+        for delta in [12e-6, 35e-6] {
+            let one = passage(&of, RollerPath::Point, 1, delta);
+            for n in [7, 30, 300] {
+                let many = passage(&of, RollerPath::Point, n, delta);
+                assert!(rms_of_difference(&one, &many) < 1e-14, "{of:?} {n}");
+            }
+            let d = defect(
+                of.clone(),
+                Surface::OuterRaceway,
+                Law::Sliced,
+                RollerPath::Point,
+                30,
+            );
+            for (k, share) in one.iter().enumerate() {
+                let v = d.damaged_length(1.4e-3 * (k as f64 / 20.0 - 0.975)) / 6e-3;
+                let floor = LAW.healthy(delta - 20e-6) / LAW.healthy(delta);
+                assert!((share - (1.0 - v + v * floor)).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn analytic_slices_converge_at_second_order_on_slopes_and_at_first_or_better_along_the_envelope() {
+    // Within a slice depths are averaged before the law is applied. Along an envelope they rise from 0 at a slanted edge within a slice or two.
     let dent = scenario::Shape::DepthMap {
         grid: grid_mm([2.0, 3.0], 0.02, |s, z| {
             8.0 * (0.3 + (0.4 * z).cos()) * (1.0 - 0.2 * s * s)
         }),
     };
-    let dent = slice_errors(&dent, 30e-6);
-    println!("wall {wall:?}, order {:.2}", order(&wall));
-    println!("dent {dent:?}, order {:.2}", order(&dent));
-    assert!((0.8..1.6).contains(&order(&wall)), "{wall:?}");
-    assert!((1.8..2.2).contains(&order(&dent)), "{dent:?}");
-    assert!(wall[2] < 0.06 && dent[2] < 1e-4);
+    let circle = scenario::Shape::Circle { diameter_mm: 4.5 };
+    for (name, of, path, delta, orders, most) in [
+        ("dent", &dent, RollerPath::Point, 30e-6, 1.9..2.1, 1e-5),
+        (
+            "circle",
+            &circle,
+            RollerPath::Envelope,
+            35e-6,
+            1.0..2.3,
+            2e-3,
+        ),
+        (
+            "outline",
+            &oblique(),
+            RollerPath::Envelope,
+            35e-6,
+            1.0..2.3,
+            2e-3,
+        ),
+        // Where a slice holds both what carries and what does not, the mean depth decides for all of it.
+        (
+            "circle not reached",
+            &circle,
+            RollerPath::Envelope,
+            12e-6,
+            1.0..2.0,
+            1e-2,
+        ),
+    ] {
+        let errors = slice_errors(of, path, delta);
+        println!("{name} {errors:?}, order {:.2}", order(&errors));
+        assert!(orders.contains(&order(&errors)), "{name} {errors:?}");
+        assert!(errors[2] < most, "{name} {errors:?}");
+    }
+}
+
+#[test]
+fn prop_ten_slices_make_no_step_and_hardly_differ_from_three_hundred() {
+    // A slice that switched as a whole would be a step of a fifth: outlines have two borders.
+    let ragged = scenario::Shape::Random {
+        seed: 5,
+        length_mm: 2.4,
+        width_mm: 4.1,
+        roughness: 1.0,
+    };
+    for (of, most) in [
+        (scenario::Shape::Circle { diameter_mm: 2.6 }, 0.01),
+        (scenario::Shape::Li2023Irregular { max_width_mm: 4.0 }, 0.01),
+        (oblique(), 0.01),
+        // A map covers cell by cell, so the mean depth of a wide slice jumps at a column.
+        (ragged, 0.1),
+    ] {
+        for path in [RollerPath::Point, RollerPath::Envelope] {
+            for delta in [3e-6, 12e-6] {
+                let forces = |slices: usize| -> Vec<f64> {
+                    let d = defect(of.clone(), Surface::OuterRaceway, Law::Sliced, path, slices);
+                    let (first, last) = d.shape.arc();
+                    let healthy = LAW.healthy(delta);
+                    (-100..=20_100)
+                        .map(|k| {
+                            let u = (first + (last - first) * f64::from(k) / 2e4) / d.radius;
+                            acting([&d].into_iter(), &LAW, &at(u), Side::Outer, delta)
+                                .map_or(1.0, |a| a.elastic / healthy)
+                        })
+                        .collect()
+                };
+                let (few, many) = (forces(10), forces(300));
+                let step = |x: &[f64]| {
+                    x.windows(2)
+                        .map(|w| (w[1] - w[0]).abs())
+                        .fold(0.0, f64::max)
+                };
+                let (step, fine, off) = (step(&few), step(&many), rms_of_difference(&few, &many));
+                println!("{of:?} {path:?} {delta}: steps {step:.1e} {fine:.1e}, apart {off:.1e}");
+                assert!(step < most && off < 0.05, "{of:?} {path:?}: {step} {off}");
+            }
+        }
+    }
+}
+
+/// min over s' of h(s') + (s - s')^2 / (2 R) along z = const where h is `depth` between two s and 0 elsewhere.
+fn reached(s: f64, [from, to]: [f64; 2], depth: f64, radius: f64) -> f64 {
+    let d = (s - from).min(to - s).max(0.0);
+    depth.min(d * d / (2.0 * radius))
+}
+
+#[test]
+fn analytic_slices_agree_with_a_fine_sum_over_z() {
+    // Half the lines z = const of each slice, by the definition.
+    const LINES: usize = 4000;
+    let radius = 1.0 / (1.0 / 3e-3 - 1.0 / 27.5e-3);
+    let chord = |of: &scenario::Shape, z: f64| -> Option<[f64; 2]> {
+        match of {
+            scenario::Shape::Circle { diameter_mm } => {
+                let a = 0.5e-3 * diameter_mm;
+                (z.abs() < a).then(|| {
+                    let half = (a * a - z * z).sqrt();
+                    [-half, half]
+                })
+            }
+            scenario::Shape::Outline { polygons_mm } => {
+                let p = &polygons_mm[0];
+                let mut hits: Vec<f64> = (0..p.len())
+                    .filter_map(|k| {
+                        let (a, b) = (p[k], p[(k + 1) % p.len()]);
+                        let at = (1e3 * z - a[1]) / (b[1] - a[1]);
+                        (0.0..1.0)
+                            .contains(&at)
+                            .then(|| 1e-3 * (a[0] + at * (b[0] - a[0])))
+                    })
+                    .collect();
+                hits.sort_by(f64::total_cmp);
+                (hits.len() >= 2).then(|| [hits[0], hits[1]])
+            }
+            _ => None,
+        }
+    };
+    // Convex, so that a line has one chord: slanted edges, off the middle of the row.
+    let slanted = scenario::Shape::Outline {
+        polygons_mm: vec![vec![[-1.4, -0.3], [0.9, -1.1], [1.5, 0.6], [-0.2, 2.2]]],
+    };
+    for of in [scenario::Shape::Circle { diameter_mm: 2.6 }, slanted] {
+        let n = 9;
+        let d = defect(
+            of.clone(),
+            Surface::OuterRaceway,
+            Law::Sliced,
+            RollerPath::Envelope,
+            n,
+        );
+        for k in 0..25 {
+            let s = 1.4e-3 * (f64::from(k) / 12.0 - 1.0);
+            for delta in [9e-6, 28e-6] {
+                let mut sum = 0.0;
+                let mut covered = 0.0;
+                for slice in 0..n {
+                    let (mut count, mut depth) = (0.0, 0.0);
+                    for line in 0..LINES {
+                        let place = (slice * LINES + line) as f64 + 0.5;
+                        let z = 6e-3 * (place / (n * LINES) as f64 - 0.5);
+                        if let Some(c) = chord(&of, z).filter(|c| c[0] <= s && s <= c[1]) {
+                            count += 1.0;
+                            depth += reached(s, c, 20e-6, radius);
+                        }
+                    }
+                    let phi = count / LINES as f64;
+                    covered += phi / n as f64;
+                    sum += (1.0 - phi) * LAW.healthy(delta);
+                    if count > 0.0 {
+                        sum += phi * LAW.healthy(delta - depth / count);
+                    }
+                }
+                let ours = acting(
+                    [&d].into_iter(),
+                    &LAW,
+                    &at(s / d.radius),
+                    Side::Outer,
+                    delta,
+                );
+                let (elastic, length) = ours.map_or((LAW.healthy(delta), 0.0), |a| {
+                    (a.elastic, a.floor.damaged_length)
+                });
+                let off = (elastic * n as f64 - sum).abs() / (n as f64 * LAW.healthy(delta));
+                assert!(off < 2e-4, "{of:?} at {s}: {off}");
+                assert!((length - 6e-3 * covered).abs() < 4e-6, "{of:?} at {s}");
+                // L_s is the covered z, exactly, at any number of slices.
+                assert!(
+                    (length - d.damaged_length(s)).abs() < 1e-10,
+                    "{of:?} at {s}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_count() {
+    let make = |of: scenario::Shape, axial_offset_mm: f64, law, path| {
+        let mut s = Scenario::example();
+        (s.contact.law, s.contact.roller_path, s.contact.slices) = (law, path, 11);
+        let d = scenario::Defect {
+            shape: of,
+            axial_offset_mm,
+            ..s.defects[0].clone()
+        };
+        Defect::new(&d, &s.bearing, &s.contact).unwrap()
+    };
+    let rectangle = scenario::Shape::Rectangle {
+        length_mm: 2.0,
+        width_mm: 3.0,
+    };
+    let drawn = |z: f64| scenario::Shape::Outline {
+        polygons_mm: vec![vec![
+            [-1.0, z - 1.5],
+            [1.0, z - 1.5],
+            [1.0, z + 1.5],
+            [-1.0, z + 1.5],
+        ]],
+    };
+    // As nodes half a step inside the border, which stand for their cells.
+    let mapped = scenario::Shape::DepthMap {
+        grid: grid_mm([1.2, 1.7], 0.1, |s, z| {
+            if s.abs() < 1.01 && z.abs() < 1.46 {
+                20.0
+            } else {
+                0.0
+            }
+        }),
+    };
+    for (offset, width) in [(0.7, 3.0), (-0.7, 3.0), (2.5, 2.0), (-2.5, 2.0)] {
+        for law in [Law::Ecl, Law::Sliced] {
+            for path in [RollerPath::Point, RollerPath::Envelope] {
+                let moved = [
+                    make(rectangle.clone(), offset, law, path),
+                    make(drawn(0.0), offset, law, path),
+                    make(drawn(offset), 0.0, law, path),
+                ];
+                let force = |d: &Defect, u: f64| {
+                    acting([d].into_iter(), &LAW, &at(u), Side::Outer, 9e-6)
+                        .map(|a| (a.elastic, a.floor.damaged_length))
+                };
+                for d in &moved {
+                    for u in [0.0, 0.02, 0.035] {
+                        let ((a, la), (b, lb)) =
+                            (force(d, u).unwrap(), force(&moved[0], u).unwrap());
+                        assert!(
+                            (a / b - 1.0).abs() < 1e-9,
+                            "{offset} {law:?} {path:?} at {u}: {a} {b}"
+                        );
+                        assert!((la - lb).abs() < 1e-12 && (la - 1e-3 * width).abs() < 1e-12);
+                    }
+                }
+                let map = make(mapped.clone(), offset, law, path);
+                assert!((map.damaged_length(0.0) - 1e-3 * width).abs() < 0.11e-3);
+            }
+        }
+    }
+    // Mirrored damage gives the same force.
+    let pair = [1.1, -1.1].map(|z| make(drawn(z), 0.0, Law::Sliced, RollerPath::Envelope));
+    let [a, b] =
+        pair.map(|d| acting([&d].into_iter(), &LAW, &at(0.01), Side::Outer, 9e-6).unwrap());
+    assert!((a.elastic / b.elastic - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -367,61 +639,79 @@ fn analytic_edge_gradient_is_the_derivative_of_the_energy() {
         (Surface::Roller(3), Side::Outer),
         (Surface::Roller(3), Side::Inner),
     ] {
-        let both: Vec<Defect> = [&map, &rectangle]
-            .map(|x| defect(x.clone(), on, Law::Sliced, RollerPath::Envelope, 12))
-            .to_vec();
-        let base = if on == Surface::Roller(3) && side == Side::Inner {
-            PI
-        } else {
-            0.0
+        let make =
+            |x: &scenario::Shape| defect(x.clone(), on, Law::Sliced, RollerPath::Envelope, 12);
+        let deepening = scenario::Shape::Profile {
+            arc_mm: vec![-1.5, -0.2, 0.6, 1.5],
+            width_mm: vec![1.0, 5.0, 3.1, 0.0],
+            depth_um: Some(vec![3.0, 18.0, 11.0, 6.0]),
         };
-        for k in 0..60 {
-            let x = (1.7e-3 * (f64::from(k) / 30.0 - 0.99)) / both[0].radius;
-            let angles = Angles {
-                orbit: x - base + 0.3 + 0.2,
-                spin: if base > 0.0 || on == Surface::Roller(3) {
-                    0.5
-                } else {
-                    0.0
-                },
-                ring: if on == Surface::InnerRaceway {
-                    0.5
-                } else {
-                    0.0
-                },
+        let sets: Vec<Vec<Defect>> = [
+            vec![&map, &rectangle],
+            vec![&map],
+            vec![&rectangle],
+            vec![&scenario::Shape::Circle { diameter_mm: 3.1 }],
+            vec![&scenario::Shape::Li2023Irregular { max_width_mm: 4.0 }],
+            vec![&oblique()],
+            vec![&deepening],
+        ]
+        .map(|set| set.into_iter().map(make).collect())
+        .into();
+        for (set, both) in sets.iter().enumerate() {
+            let base = if on == Surface::Roller(3) && side == Side::Inner {
+                PI
+            } else {
+                0.0
             };
-            let angles = Angles {
-                orbit: if on == Surface::OuterRaceway {
-                    x
-                } else {
-                    angles.orbit
-                },
-                ..angles
-            };
-            let delta = 14e-6;
-            let stored = |a: &Angles| energy(both.iter(), &LAW, a, side, delta);
-            let e = edge_gradient(both.iter(), &LAW, &angles, side, delta);
-            let step = 1e-7;
-            let by = |f: &dyn Fn(&mut Angles, f64)| {
-                let [up, down] = [step, -step].map(|h| {
-                    let mut a = angles;
-                    f(&mut a, h);
-                    stored(&a)
-                });
-                (up - down) / (2.0 * step)
-            };
-            let numeric = [
-                by(&|a, h| a.orbit += h),
-                by(&|a, h| a.spin += h),
-                by(&|a, h| a.ring += h),
-            ];
-            let scale = 1e-4 * LAW.healthy(delta) * 0.1 * both[0].radius;
-            for (ours, theirs) in [e.orbit, e.spin, e.ring].into_iter().zip(numeric) {
-                // A kink within the step leaves a difference of the order of the step.
-                assert!(
-                    (ours - theirs).abs() < scale + 2e-3 * theirs.abs(),
-                    "{on:?} {side:?} {k}: {e:?} {numeric:?}"
-                );
+            for k in 0..60 {
+                let x = (1.7e-3 * (f64::from(k) / 30.0 - 0.99)) / both[0].radius;
+                let angles = Angles {
+                    orbit: x - base + 0.3 + 0.2,
+                    spin: if base > 0.0 || on == Surface::Roller(3) {
+                        0.5
+                    } else {
+                        0.0
+                    },
+                    ring: if on == Surface::InnerRaceway {
+                        0.5
+                    } else {
+                        0.0
+                    },
+                };
+                let angles = Angles {
+                    orbit: if on == Surface::OuterRaceway {
+                        x
+                    } else {
+                        angles.orbit
+                    },
+                    ..angles
+                };
+                let delta = 14e-6;
+                let stored = |a: &Angles| energy(both.iter(), &LAW, a, side, delta);
+                let e = edge_gradient(both.iter(), &LAW, &angles, side, delta);
+                // Of several defects at once it is a difference itself, and the search over them leaves out ridges of a nanometre.
+                let (step, share) = if set == 0 { (3e-6, 3e-2) } else { (1e-7, 2e-3) };
+                let by = |f: &dyn Fn(&mut Angles, f64)| {
+                    let [up, down] = [step, -step].map(|h| {
+                        let mut a = angles;
+                        f(&mut a, h);
+                        stored(&a)
+                    });
+                    (up - down) / (2.0 * step)
+                };
+                let numeric = [
+                    by(&|a, h| a.orbit += h),
+                    by(&|a, h| a.spin += h),
+                    by(&|a, h| a.ring += h),
+                ];
+                let scale = 1e-4 * LAW.healthy(delta) * 0.1 * both[0].radius;
+                for (ours, theirs) in [e.orbit, e.spin, e.ring].into_iter().zip(numeric) {
+                    // A kink within the step leaves a difference of the order of the step.
+                    assert!(
+                        (ours - theirs).abs() < scale + share * theirs.abs(),
+                        "set {set} {on:?} {side:?} {k}: {e:?} {numeric:?}"
+                    );
+                }
             }
         }
     }
@@ -449,10 +739,15 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
             .unwrap()
             .elastic
     };
-    assert_eq!(force(&[&shallow, &deep], 0.0), force(&[&deep], 0.0));
-    assert_eq!(force(&[&deep, &shallow], 0.0), force(&[&deep], 0.0));
+    // One defect of one depth is summed as a whole, several slice by slice: the same to round-off.
+    let same = |a: f64, b: f64| (a - b).abs() < 1e-12 * b;
+    assert!(same(force(&[&shallow, &deep], 0.0), force(&[&deep], 0.0)));
+    assert!(same(force(&[&deep, &shallow], 0.0), force(&[&deep], 0.0)));
     let off = 1.5e-3 / deep.radius;
-    assert_eq!(force(&[&shallow, &deep], off), force(&[&shallow], off));
+    assert!(same(
+        force(&[&shallow, &deep], off),
+        force(&[&shallow], off)
+    ));
     // A ridge 5 um high under a defect that leaves its slices alone: it still carries.
     let ridge = scenario::Shape::DepthMap {
         grid: grid_mm([1.0, 3.0], 0.5, |_, z| if z > 1.6 { -5.0 } else { 0.0 }),
@@ -476,7 +771,7 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
     )
     .unwrap()
     .elastic;
-    assert!(alone > 0.0 && alone == with);
+    assert!(alone > 0.0 && same(alone, with));
 }
 
 /// The angles at which a roller's line of contact stands `u` (rad) from the centre of damage at 0 on either side.

@@ -38,5 +38,5 @@ fn prop_pushing_samples_allocates_nothing() {
     let spectra = spectra.finish();
     assert!(spectra.spectrum.is_some() && spectra.envelope.is_some() && spectra.lines[0].is_some());
     assert!(allocations() > before);
-    assert_eq!(blocks.whole().count(), 400_000);
+    assert_eq!(blocks.record().count(), 400_000);
 }

@@ -186,6 +186,7 @@ fn askew(base: Scenario) -> Scenario {
         row: s.bearing.rows,
         center_deg: 17.0,
         depth_um: 20.0,
+        axial_offset_mm: 0.0,
         shape: Shape::Profile {
             arc_mm: vec![-1.2, -0.4, 0.6, 1.1],
             width_mm: vec![0.0, 4.0, 3.0, 0.0],
@@ -197,6 +198,7 @@ fn askew(base: Scenario) -> Scenario {
         row: 1,
         center_deg: 10.0,
         depth_um: 9.0,
+        axial_offset_mm: 0.0,
         shape: Shape::Circle { diameter_mm: 2.0 },
     });
     s

@@ -1,9 +1,9 @@
 //! The solver's counted work stays what it was: a check of speed that no noise can move.
 //!
 //! `work.csv` holds steps, rejections and right-hand sides per simulated second: the mean over runs whose starts differ in the last digits,
-//! with plain and with fused arithmetic, and the standard deviation of one run. Impacts amplify round-off, so such runs are different
+//! with rounded and with fused products, and the standard deviation of one run. Impacts amplify round-off, so such runs are different
 //! runs of the same process after some tens of milliseconds, as runs on another processor are; that scatter is what the bounds come
-//! from. Two of the kernels, AVX2 and AVX-512, agree to the bit, so the widest stands for both.
+//! from. The fastest kernel stands for all with fused products.
 //!
 //! A change that moves the counts on purpose records them anew, and says why where it is committed:
 //!
@@ -64,7 +64,7 @@ fn scenarios() -> Vec<(&'static str, Scenario)> {
     ]
 }
 
-/// Plain arithmetic, and the fused one where there is any.
+/// Rounded products, and fused ones where the processor has them.
 fn kernels() -> Vec<Kernel> {
     let mut kernels = vec![Kernel::Portable, Kernel::fastest()];
     kernels.dedup();

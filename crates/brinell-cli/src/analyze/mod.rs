@@ -15,7 +15,7 @@ use brinell::analysis::{
     Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
     velocity,
 };
-use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
+use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::atomic_write;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::json;
@@ -329,11 +329,16 @@ fn as_json(result: &Result_) -> String {
     serde_json::to_string_pretty(&value).unwrap_or_default()
 }
 
-/// Headline indicators of a whole long signal.
+/// Headline indicators of a whole long signal; its peak is the largest of all samples.
 fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
-    HEADLINES
-        .into_iter()
-        .filter_map(|i| Some((i.name(), rest.moments.get(i)?)))
+    HEADLINES.into_iter().filter_map(|i| {
+        let name = match i {
+            Indicator::Peak => RECORD_PEAK,
+            Indicator::CrestFactor => "record_crest_factor",
+            i => i.name(),
+        };
+        Some((name, rest.moments.get(i)?))
+    })
 }
 
 fn write(

@@ -316,9 +316,9 @@ fn indicators(result: &Result_) -> Table {
     }
     Table {
         title: "Indicators".into(),
-        columns: ["Indicator", "#Value", "#95 % interval of a block", "Unit"].map(str::to_owned).to_vec(),
+        columns: ["Indicator", "#Value", "#95 % interval", "Unit"].map(str::to_owned).to_vec(),
         rows,
-        note: "Of the signal less its mean; intervals from blocks of revolutions. Bands of velocity are those of ISO 15242 at 1800 r/min, \
+        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. Bands of velocity are those of ISO 15242 at 1800 r/min, \
                with sharp edges."
             .into(),
     }

@@ -8,11 +8,9 @@ use brinell::calibrate::Target;
 use brinell::calibrate::signature::{Signature, decibels};
 use brinell::campaign::{Quantity, Spread};
 use brinell::scenario::{Scenario, Speed};
-use brinell::signal::{Band, Blocks, Indicator, LineSearch, line_frequency};
+use brinell::signal::{Band, Blocks, Indicator, Interval, LineSearch, line_frequency};
 use brinell::simulate::Simulation;
 
-/// Two-sided 95 % of a normal distribution, over its standard deviation.
-pub(super) const NORMAL: f64 = 1.96;
 /// Share of a run that its statistics are of, at most; and periods of a line that are needed to time it.
 const ANALYSED: f64 = 0.75;
 const PERIODS: f64 = 24.0;
@@ -152,9 +150,7 @@ fn targets(
     let blocks = Blocks::of(&measured.x, rate / shaft);
     for indicator in [Indicator::Rms, Indicator::Kurtosis] {
         if let Some(estimate) = blocks.estimate(indicator) {
-            let own = estimate
-                .interval
-                .map_or(0.0, |i| 0.5 * (i.high - i.low) / NORMAL);
+            let own = estimate.interval.map_or(0.0, |i| i.standard_uncertainty());
             targets.push(Target {
                 name: format!("{channel}.{}", indicator.name()),
                 value: estimate.value,
@@ -203,10 +199,7 @@ impl Pattern {
             name: l.name,
             unit: "dB".into(),
             value: Some(l.decibels),
-            spread: Spread::Interval(
-                l.decibels - NORMAL * l.uncertainty,
-                l.decibels + NORMAL * l.uncertainty,
-            ),
+            spread: Spread::Interval(Interval::normal(l.decibels, l.uncertainty)),
         };
         levels.into_iter().map(one).collect()
     }

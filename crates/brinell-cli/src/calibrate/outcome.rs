@@ -5,7 +5,7 @@ use super::{Plan, put};
 use crate::failure::Failure;
 use brinell::calibrate::identify::MOST;
 use brinell::calibrate::{Fit, MISSING};
-use brinell::scenario::Scenario;
+use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
 use serde_json::{Map, Value, json};
@@ -32,6 +32,15 @@ impl Found {
     pub(super) fn is_determined(&self) -> bool {
         self.interval.is_some()
     }
+
+    /// Whether the interval runs beyond the lower and the upper bound, where it ends for want of runs and not because data say so.
+    pub(super) fn is_cut(&self) -> [bool; 2] {
+        let within = self.is_determined();
+        [
+            within && self.place - self.half_width < 0.0,
+            within && self.place + self.half_width > 1.0,
+        ]
+    }
 }
 
 /// A target against the best run.
@@ -52,7 +61,7 @@ pub(super) struct Outcome<'a> {
     pub(super) fit: Fit,
     pub(super) found: Vec<Found>,
     pub(super) compared: Vec<Compared>,
-    pub(super) scenario: Scenario,
+    pub(super) best: Loaded,
 }
 
 impl<'a> Outcome<'a> {
@@ -93,16 +102,13 @@ impl<'a> Outcome<'a> {
             }
         });
         let compared = compared.collect();
-        let scenario = plan
-            .source
-            .load(&runs.points.settings(place), true)?
-            .scenario;
+        let best = plan.source.load(&runs.points.settings(place), true)?;
         Ok(Self {
             plan,
             runs,
             found,
             compared,
-            scenario,
+            best,
             fit,
         })
     }
@@ -131,7 +137,7 @@ impl<'a> Outcome<'a> {
         let mut written = vec![self.table().write_csv(folder.join("calibrate.csv"))?];
         let json = serde_json::to_string_pretty(&self.json()).unwrap_or_default() + "\n";
         put(folder, "calibrate.json", &json, &mut written)?;
-        put(folder, "best.toml", &self.scenario.to_toml(), &mut written)?;
+        put(folder, "best.toml", &self.best.to_toml(), &mut written)?;
         let page = brinell_report::calibration_html(&self.report());
         put(folder, "calibrate.html", &page, &mut written)?;
         Ok(written)

@@ -56,7 +56,7 @@ impl Outcome<'_> {
             ));
         }
         CalibrationReport {
-            title: format!("Calibration of {}", self.scenario.name),
+            title: format!("Calibration of {}", self.best.scenario.name),
             subtitle: format!(
                 "{} to {}",
                 names.join(", "),
@@ -77,7 +77,7 @@ impl Outcome<'_> {
             tried: self.tried(),
             failures: failed,
             method: self.method(),
-            scenario_toml: self.scenario.to_toml(),
+            scenario_toml: self.best.to_toml(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The runs of a calibration: what a point of the unit cube means as a scenario, and what its run answers.
 
-use super::measured::{NORMAL, Pattern};
+use super::measured::Pattern;
 use crate::campaign::{self, Ledger, Task, Work};
 use crate::failure::Failure;
 use crate::files::Source;
@@ -145,14 +145,8 @@ fn answers(row: &Row, targets: &[Target]) -> Option<Vec<Answer>> {
     Some(targets.iter().map(one).collect())
 }
 
-/// Standard uncertainty of a run's number: half its 95 % interval over 1.96; of a line's frequency half the interval, which is one sigma.
+/// Standard uncertainty of a run's number: half its 95 % interval over 1.96.
 pub(super) fn own_uncertainty(quantity: &Quantity) -> f64 {
-    let half = quantity
-        .interval()
-        .map_or(0.0, |(low, high)| 0.5 * (high - low));
-    if quantity.name.ends_with(".frequency") {
-        half
-    } else {
-        half / NORMAL
-    }
+    let interval = quantity.estimate().and_then(|e| e.interval);
+    interval.map_or(0.0, |i| i.standard_uncertainty())
 }

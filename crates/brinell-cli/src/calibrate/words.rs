@@ -104,6 +104,26 @@ impl Outcome<'_> {
                 format!("{}: not determined; the data say nothing of it.", found.name)
             });
         }
+        for found in &self.found {
+            let (low, high) = found.bounds;
+            all.extend(match found.is_cut() {
+                [true, false] => Some(format!(
+                    "{}: its 95 % interval runs beyond the lower bound, {}: only its upper end is determined; widen the bounds.",
+                    found.name,
+                    short(low, 4)
+                )),
+                [false, true] => Some(format!(
+                    "{}: its 95 % interval runs beyond the upper bound, {}: only its lower end is determined; widen the bounds.",
+                    found.name,
+                    short(high, 4)
+                )),
+                [true, true] => Some(format!(
+                    "{}: its 95 % interval runs beyond both bounds: not determined between them.",
+                    found.name
+                )),
+                [false, false] => None,
+            });
+        }
         for direction in &self.fit.identified.directions {
             if !direction.is_determined() {
                 all.extend(self.combination(direction));
@@ -172,7 +192,15 @@ impl Found {
     /// The interval in words.
     pub(super) fn told(&self) -> String {
         match self.interval {
-            Some((low, high)) => format!("95 %: {} to {}", short(low, 4), short(high, 4)),
+            Some((low, high)) => {
+                let bound = |cut: bool| if cut { " (bound)" } else { "" };
+                let [below, above] = self.is_cut().map(bound);
+                format!(
+                    "95 %: {}{below} to {}{above}",
+                    short(low, 4),
+                    short(high, 4)
+                )
+            }
             None => format!(
                 "not determined between {} and {}",
                 short(self.bounds.0, 4),

@@ -12,9 +12,9 @@ use std::path::PathBuf;
     compare.html   signals, spectra, envelope spectra, contact length and stiffness over the defect, entries and exits, ratios; one file\n  \
     compare.csv, compare.parquet   a row a number: value and interval in each run, and its ratio to the first\n  \
     compare.json   the same with the scenarios\n\n\
-    The interval of a ratio follows from the scatter of both runs' blocks of whole revolutions: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), a and \
-    b being means over blocks and s their standard errors, t Student's with Welch's degrees of freedom. It supposes runs that scatter \
-    independently. There is none where a mean is known to less than a quarter, and no ratio where blocks differ in length.\n\n\
+    A ratio is that of the two values printed. Its interval follows from theirs: ln(a/b) +- t sqrt(s_a^2 + s_b^2), s being the standard errors \
+    of ln(a) and ln(b), t Student's with Welch's degrees of freedom. It supposes runs that scatter independently. There is none where an \
+    interval of a or b is missing or reaches zero.\n\n\
     Exit codes: 0 done, 1 a run failed or was interrupted (nothing is written), 2 bad input.\n\n\
     Examples:\n  \
     brinell compare actual.toml simplified.toml -o out/compare\n  \

@@ -119,7 +119,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
-        say!("{} over {}:", side.label, sides[0].label);
+        say!("{} over {}, ratios:", side.label, sides[0].label);
         for name in page::headline(compared) {
             let Some(ratio) = compared
                 .iter()
@@ -129,9 +129,9 @@ fn tell(sides: &[Side], compared: &[Compared]) {
                 continue;
             };
             let interval = ratio.interval.map_or(String::new(), |(low, high)| {
-                format!(" (95 %: {} to {})", short(low, 3), short(high, 3))
+                format!(" (95 %: {} x to {} x)", short(low, 3), short(high, 3))
             });
-            say!("  {name}: {}{interval}", short(ratio.value, 3));
+            say!("  {name}: {} x{interval}", short(ratio.value, 3));
         }
     }
 }

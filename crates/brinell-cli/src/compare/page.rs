@@ -140,7 +140,7 @@ fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
         .any(|side| duration(side) != duration(&sides[0]))
     {
         all.push(
-            "The runs' durations differ: compare means over blocks, not extremes of whole runs."
+            "The runs' durations differ: the largest of a whole run (record_*) grows with it; everything else compares."
                 .into(),
         );
     }
@@ -269,8 +269,8 @@ fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
         title: title.into(),
         columns,
         rows: rows.collect(),
-        note: "In brackets 95 % intervals. Values are of whole runs; ratios with an interval are of the means over blocks of whole \
-               revolutions (of impacts: over instants), and suppose runs that scatter independently."
+        note: "Averages over whole revolutions (of impacts: over instants), in brackets 95 % intervals; peaks are those of a revolution. \
+               Ratios are of the values beside them; their intervals suppose runs that scatter independently."
             .into(),
     }
 }

@@ -68,8 +68,8 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
     json!({
         "brinell": brinell::VERSION,
         "first": sides[0].label,
-        "interval": "95 % of the mean over blocks of whole revolutions, or over a defect's entries or exits (Student's t)",
-        "ratio": "of the means over blocks, to the first run; of what has no blocks, of the values",
+        "interval": "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
+        "ratio": "of the value to the first run's",
         "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
                                 supposes runs that scatter independently",
         "quantities": quantities,

@@ -6,11 +6,11 @@ mod measures;
 use crate::plan::{CORNERS, polygons_mm};
 use crate::say::short;
 use brinell::defect::simplify::Extent;
-use brinell::defect::{Side, wrap};
+use brinell::defect::{Shape, Side, wrap};
 use brinell::derived::defect_passes;
 use brinell::model::{Model, ModelError};
 use brinell::observe::passes::place;
-use brinell::scenario::{Scenario, Surface};
+use brinell::scenario::{self, Scenario, Surface};
 use brinell::statics::static_load_zone;
 use brinell_report::DamageView;
 use curves::{depths, passage, section};
@@ -142,7 +142,7 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             half_turn_mm: is_roller.then_some(0.5e3 * TAU * defect.radius),
             title,
             facts: facts(&measures, defect),
-            polygons_mm: polygons_mm(&s.defects[k], &defect.shape, CORNERS),
+            polygons_mm: in_place(&s.defects[k], &defect.shape),
             against_mm: Vec::new(),
             against: String::new(),
             depths: depths(&defect.shape),
@@ -179,6 +179,18 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
         all.push(Damage { measures, view });
     }
     Ok(all)
+}
+
+/// The damage seen from above where it lies, mm.
+fn in_place(of: &scenario::Defect, shape: &Shape) -> Vec<Vec<[f64; 2]>> {
+    let mut polygons = polygons_mm(of, shape, CORNERS);
+    // An outline has been moved already.
+    if !matches!(shape, Shape::Outline(_)) {
+        for point in polygons.iter_mut().flatten() {
+            point[1] += of.axial_offset_mm;
+        }
+    }
+    polygons
 }
 
 /// First and last angle of the rollers of a row that the inner raceway loads, rad.

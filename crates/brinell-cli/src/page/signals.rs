@@ -143,12 +143,12 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         match channel.blocks.estimate(indicator) {
             Some(e) => Estimate {
                 value: e.value,
-                half_width: e.interval.map(|i| 0.5 * (i.high - i.low)),
+                interval: e.interval.map(|i| (i.low, i.high)),
                 unit: unit.into(),
             },
             None => Estimate {
                 value: f64::NAN,
-                half_width: None,
+                interval: None,
                 unit: unit.into(),
             },
         }
@@ -179,7 +179,7 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),
         rows,
         note: format!(
-            "From t = {} s on. ± is half the 95 % interval of the mean over blocks of whole revolutions. The anti-alias \
+            "From t = {} s on. Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution. The anti-alias \
              filter takes away what lies above half the sample rate: instantaneous values hold all of it.",
             short(parts.findings.from, 3)
         ),

@@ -58,10 +58,13 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             .found
             .map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
         let note = match line.found {
-            Some(f) => format!(
-                "{} in the envelope, ± {} Hz; pure rolling {:.2} Hz",
+            Some(_) => format!(
+                "{} in the envelope; {}pure rolling {:.2} Hz",
                 place(defect),
-                short(f.uncertainty, 1),
+                line.interval.map_or(String::new(), |i| format!(
+                    "95 %: {:.2} to {:.2} Hz; ",
+                    i.low, i.high
+                )),
                 line.nominal
             ),
             None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
@@ -107,12 +110,19 @@ pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
             ),
         ];
         for (label, value, note) in entries {
-            if let Some(value) = value {
+            if let Some(estimate) = value {
+                let interval = estimate.interval.map_or(String::new(), |i| {
+                    format!(
+                        "; 95 %: {} to {} %",
+                        short(100.0 * i.low, 3),
+                        short(100.0 * i.high, 3)
+                    )
+                });
                 facts.push(Fact::new(
                     format!("Row {}: {label}", row + 1),
-                    percent(value),
+                    percent(estimate.value),
                     "%",
-                    note,
+                    format!("{note}{interval}"),
                 ));
             }
         }

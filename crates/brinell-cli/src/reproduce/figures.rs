@@ -336,8 +336,9 @@ fn trend(
             IndicatorPoint {
                 x: *x,
                 value: number.map_or(f64::NAN, |n| n.value),
-                interval: number.and_then(|n| n.interval).map(|i| (i.low, i.high)),
-                whole: f64::NAN,
+                interval: (number.and_then(|n| n.interval))
+                    .map(|i| (i.low, i.high))
+                    .filter(|(low, high)| low.is_finite() && high.is_finite()),
             }
         };
         IndicatorLine {
@@ -361,7 +362,8 @@ pub(super) fn told(value: Option<f64>, interval: Option<(f64, f64)>) -> String {
     let Some(value) = value else {
         return "–".into();
     };
-    match interval {
+    // A run too short to tell has no finite one.
+    match interval.filter(|(low, high)| low.is_finite() && high.is_finite()) {
         Some((low, high)) => format!(
             "{} [{}, {}]",
             short(value, 4),
@@ -405,7 +407,7 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
         title: "Numbers".into(),
         columns,
         rows: cases.iter().map(row).collect(),
-        note: "Accelerations in m/s². Means over blocks of whole turns with 95 % intervals; peaks: means over entries or exits.".into(),
+        note: "Accelerations in m/s². Averages over whole turns with 95 % intervals; peaks: means over entries or exits.".into(),
     }
 }
 

@@ -280,7 +280,7 @@ fn write(
     let folder = &args.output;
     let mut header = json!({
         "brinell": brinell::VERSION, "length": asked.length.words(), "base_toml": brinell::paper::BASE,
-        "interval": "95 % of the mean over blocks of whole revolutions of the inner ring (Student's t)",
+        "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
     });
     if let Some(sensitivity) = &came.sensitivity {
         header["sensitivity"] = sensitivity.json();

@@ -1,6 +1,6 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Done, execute, make_folder, ready, stop_flag};
+use super::{Done, Earlier, earlier, execute, make_folder, ready, stop_flag};
 use crate::args::RunArgs;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::files;
@@ -19,6 +19,7 @@ struct Task {
     path: PathBuf,
     loaded: Loaded,
     folder: PathBuf,
+    earlier: Earlier,
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -106,7 +107,8 @@ fn one(
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
     let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
-    execute(args, &task.loaded, simulation, &task.folder, progress, stop)
+    let replaced = (&task.loaded, &*task.folder, &task.earlier);
+    execute(args, replaced, simulation, progress, stop)
 }
 
 /// Each scenario's folder: `root` and the name of its file without ending.
@@ -139,8 +141,12 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
     let mut tasks = Vec::new();
     for (path, folder) in args.scenarios.iter().zip(folders) {
         let name = path.display().to_string();
-        match ready(args, path) {
-            Ok((loaded, simulation)) => {
+        let found = ready(args, path).and_then(|(loaded, simulation)| {
+            let earlier = earlier(args, &loaded, &folder)?;
+            Ok((loaded, simulation, earlier))
+        });
+        match found {
+            Ok((loaded, simulation, earlier)) => {
                 if !args.quiet && !simulation.idle_patterns().is_empty() {
                     complain!("{name}:");
                     files::warn_idle(simulation.idle_patterns());
@@ -149,6 +155,7 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
                     path: path.clone(),
                     loaded,
                     folder,
+                    earlier,
                 });
             }
             Err(failure) => failure.print_of(&name),

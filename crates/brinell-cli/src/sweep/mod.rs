@@ -295,7 +295,7 @@ fn write(
         "brinell": brinell::VERSION,
         "plan": points.header()["plan"],
         "points": { "complete": count("complete"), "failed": count("failed"), "not_run": count("not run") },
-        "interval": "95 % of the mean over blocks of whole revolutions of the inner ring (Student's t)",
+        "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
         "units": columns,
         "base": { "toml": points.source.text(), "set": overrides },
     });

@@ -190,15 +190,13 @@ fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
     match quantity.and_then(Quantity::interval) {
         Some((low, high)) => IndicatorPoint {
             x,
-            value: 0.5 * (low + high),
+            value,
             interval: Some((low, high)),
-            whole: value,
         },
         None => IndicatorPoint {
             x,
             value,
             interval: None,
-            whole: f64::NAN,
         },
     }
 }
@@ -259,8 +257,7 @@ fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
         0 => String::new(),
         more => format!("{more} more points are in sweep.csv. "),
     };
-    let note = "Values over the whole run; in brackets the 95 % interval of the mean over blocks of whole revolutions, which an extreme of \
-                the whole run may lie above.";
+    let note = "Averages over whole revolutions, in brackets their 95 % intervals; peaks are those of a revolution.";
     Table {
         title: "Points".into(),
         columns,

@@ -208,7 +208,6 @@ impl Work for FromSource<'_> {
     fn signals(
         &self,
         task: &Task,
-        scenario: &Scenario,
         simulation: &Simulation,
     ) -> Result<Option<Box<dyn SignalWriter>>, Failure> {
         let (Some(folder), Some(path)) = (&self.signals, self.path(&task.fingerprint)) else {
@@ -216,7 +215,8 @@ impl Work for FromSource<'_> {
         };
         make_folder(folder)?;
         let columns = signal_columns(simulation);
-        let metadata = signal_metadata(scenario.to_toml(), simulation);
+        let text = self.source.load(&task.settings, true)?.to_toml();
+        let metadata = signal_metadata(text, simulation);
         let writer = ParquetWriter::create(path, &columns, &metadata)?;
         Ok(Some(Box::new(writer)))
     }

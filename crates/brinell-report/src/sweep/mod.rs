@@ -16,12 +16,10 @@ pub use plot::indicator_plot;
 pub struct IndicatorPoint {
     /// The varied key's value, or the place among [`IndicatorPlot::x_names`].
     pub x: f64,
-    /// The dot: the mean over blocks where there is an interval. NaN where the point failed: the line has a gap there.
+    /// The dot. NaN where the point failed: the line has a gap there.
     pub value: f64,
     /// Ends of the 95 % interval.
     pub interval: Option<(f64, f64)>,
-    /// Over the whole run, where that is another number than the dot's; NaN otherwise.
-    pub whole: f64,
 }
 
 /// Points that differ in the key on the x axis alone.
@@ -120,10 +118,7 @@ fn legend(plots: &[IndicatorPlot]) -> String {
     let points = || lines().flat_map(|line| &line.points);
     let mut parts = Vec::new();
     if points().any(|p| p.interval.is_some()) {
-        parts.push("Dots: mean over blocks of whole revolutions, with its 95 % interval.");
-    }
-    if points().any(|p| p.whole.is_finite()) {
-        parts.push("Short bars: over the whole run; an extreme grows with the length looked at.");
+        parts.push("Dots: averages over whole revolutions, with their 95 % intervals.");
     }
     if points().any(|p| p.interval.is_none() && p.value.is_finite()) {
         parts.push("Rings: a value without an interval.");

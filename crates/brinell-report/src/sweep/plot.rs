@@ -37,7 +37,7 @@ pub fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let points = || plot.lines.iter().flat_map(|line| &line.points);
     let heights = points().flat_map(|p| {
         let (low, high) = p.interval.unwrap_or((p.value, p.value));
-        [p.value, low, high, p.whole]
+        [p.value, low, high]
     });
     let x = if named {
         Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
@@ -168,10 +168,6 @@ fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, join
             bars.push(vec![(x, low), (x, high)]);
             bars.push(vec![(x - 3.5, low), (x + 3.5, low)]);
             bars.push(vec![(x - 3.5, high), (x + 3.5, high)]);
-        }
-        if p.whole.is_finite() {
-            let y = chart.y.at(p.whole);
-            bars.push(vec![(x - 7.0, y), (x + 7.0, y)]);
         }
     }
     // Between names there is nothing.

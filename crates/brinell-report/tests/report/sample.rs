@@ -198,7 +198,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
                 kind: text.into(),
                 cells: vec![Estimate {
                     value: at(0),
-                    half_width: Some(at(1)),
+                    interval: Some((at(1), at(2))),
                     unit: text.into(),
                 }],
             }],

@@ -7,12 +7,7 @@ use brinell_report::{
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
-    IndicatorPoint {
-        x,
-        value,
-        interval,
-        whole: f64::NAN,
-    }
+    IndicatorPoint { x, value, interval }
 }
 
 fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {

@@ -75,7 +75,6 @@ pub fn to_json(
                 "value": e.value,
                 "unit": unit,
                 "interval_95": e.interval.map(|v| [v.low, v.high]),
-                "blocks": e.interval.map(|v| v.blocks),
             }))
         }).collect::<Map<_, _>>(),
     });

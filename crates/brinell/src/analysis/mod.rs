@@ -119,7 +119,7 @@ pub struct Analysis {
     pub shaft_found: bool,
     /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
     pub shaft_lines: Vec<usize>,
-    /// Indicators of the signal less its mean, with intervals from blocks of revolutions.
+    /// Indicators of the signal less its mean over whole revolutions, with intervals; peaks are those of a revolution.
     pub indicators: Vec<(Indicator, Estimate)>,
     /// The most impulsive band, where there is one.
     pub kurtogram: Option<KurtogramBand>,
@@ -222,7 +222,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     })
 }
 
-/// Of a signal less its mean, with intervals from blocks of `revolution` samples.
+/// Of a signal less its mean, averaged over revolutions of `revolution` samples.
 fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
     let blocks = Blocks::of(x, revolution);
     (Indicator::ALL.into_iter())

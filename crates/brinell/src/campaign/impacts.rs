@@ -8,7 +8,7 @@
 
 use crate::derived::defect_passes;
 use crate::observe::Findings;
-use crate::signal::{Interval, student_t_quantile};
+use crate::signal::Estimate;
 use crate::simulate::Simulation;
 
 /// Fewest samples that a roller's time over the defect is taken for.
@@ -33,10 +33,8 @@ pub struct Impacts {
     pub step: f64,
     /// The measured acceleration averaged over the instants, m/s^2; empty without any.
     pub mean: Vec<f64>,
-    /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2.
-    pub peak: Option<f64>,
-    /// Its 95 % interval (Student's t over the instants).
-    pub interval: Option<Interval>,
+    /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2, with its 95 % interval.
+    pub peak: Option<Estimate>,
 }
 
 /// Entries and exits of each defect, in this order.
@@ -61,8 +59,7 @@ pub fn impacts(simulation: &Simulation, findings: &Findings) -> Vec<Impacts> {
                 from: -0.5 * window,
                 step: 1.0 / (rate * FINER as f64),
                 mean,
-                peak: (count > 0).then(|| peaks.iter().sum::<f64>() / count as f64),
-                interval: interval(&peaks),
+                peak: Estimate::of_mean(&peaks),
             });
         }
     }
@@ -107,25 +104,6 @@ fn peak(values: &[f64], from: f64, samples: f64) -> f64 {
         .fold(0.0, |peak, x| x.abs().max(peak))
 }
 
-/// Of the mean over instants; each is a block of its own.
-fn interval(peaks: &[f64]) -> Option<Interval> {
-    let n = peaks.len();
-    if n < 3 {
-        return None;
-    }
-    let center = peaks.iter().sum::<f64>() / n as f64;
-    let squares: f64 = peaks.iter().map(|p| (p - center).powi(2)).sum();
-    let error = (squares / (n - 1) as f64 / n as f64).sqrt();
-    let half = student_t_quantile(0.975, (n - 1) as u32) * error;
-    Some(Interval {
-        center,
-        low: center - half,
-        high: center + half,
-        blocks: n,
-        periods_per_block: 1,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,10 +131,6 @@ mod tests {
                 "{t}: {mean} for {expected}"
             );
         }
-        // Student's t with 3 degrees of freedom on 3, 5, 4, 8: mean 5, s = sqrt(14/3).
-        let i = interval(&peaks).unwrap();
-        let half = 3.1824463052837078 * (14.0_f64 / 3.0 / 4.0).sqrt();
-        assert!((i.high - 5.0 - half).abs() < 1e-12 && (i.low - 5.0 + half).abs() < 1e-12);
     }
 
     #[test]
@@ -177,6 +151,6 @@ mod tests {
             [0, 1, 1, 0, 0, 0]
         );
         assert_eq!(around(&values, std::iter::empty(), 20.0), (vec![], vec![]));
-        assert_eq!(interval(&[1.0, 2.0]), None);
+        assert_eq!(Estimate::of_mean(&[]), None);
     }
 }

@@ -7,10 +7,10 @@
 
 use super::impacts::{Impacts, impacts};
 use crate::channel::STIFFNESS_UNIT;
-use crate::observe::{Findings, Kind};
+use crate::observe::{DefectLine, Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::{Peak, peak_near};
-use crate::signal::{Indicator, LineSearch};
+use crate::signal::{Estimate, Indicator, Interval, LineSearch, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 use crate::simulate::{Outcome, Simulation};
 
 /// One number of a run.
@@ -20,7 +20,7 @@ pub struct Quantity {
     pub name: String,
     /// SI unit; 1 where it has none.
     pub unit: String,
-    /// The value over the whole analysed run; `None` where there is none, and never infinite or not a number.
+    /// The value; `None` where there is none, and never infinite or not a number.
     pub value: Option<f64>,
     /// What is known of its scatter.
     pub spread: Spread,
@@ -31,11 +31,10 @@ pub struct Quantity {
 pub enum Spread {
     /// It never does: a count, an extreme.
     Without,
-    /// It does, but not in this run: too few blocks.
+    /// It does, but not in this run: it is too short to tell.
     Unknown,
-    /// Low and high end, 95 %. Of indicators an interval of the mean over blocks ([`crate::signal::Blocks`]), so that of a peak lies below
-    /// the whole run's.
-    Interval(f64, f64),
+    /// 95 % interval of the same quantity; the value lies within it.
+    Interval(Interval),
 }
 
 impl Quantity {
@@ -48,18 +47,26 @@ impl Quantity {
         }
     }
 
-    fn within(mut self, interval: Option<(f64, f64)>) -> Self {
-        let known = interval.filter(|(low, high)| low.is_finite() && high.is_finite());
-        self.spread = known.map_or(Spread::Unknown, |(low, high)| Spread::Interval(low, high));
-        self
+    fn estimated(name: impl Into<String>, unit: &str, estimate: Option<Estimate>) -> Self {
+        let mut quantity = Self::new(name, unit, estimate.map(|e| e.value));
+        let interval = estimate.and_then(|e| e.interval);
+        quantity.spread = interval.map_or(Spread::Unknown, Spread::Interval);
+        quantity
     }
 
-    /// The interval, where there is one.
-    pub fn interval(&self) -> Option<(f64, f64)> {
-        match self.spread {
-            Spread::Interval(low, high) => Some((low, high)),
+    /// Value and interval; `None` without a value.
+    pub fn estimate(&self) -> Option<Estimate> {
+        let interval = match self.spread {
+            Spread::Interval(interval) => Some(interval),
             Spread::Without | Spread::Unknown => None,
-        }
+        };
+        self.value.map(|value| Estimate { value, interval })
+    }
+
+    /// Ends of the interval, where there is one.
+    pub fn interval(&self) -> Option<(f64, f64)> {
+        let interval = self.estimate()?.interval?;
+        Some((interval.low, interval.high))
     }
 }
 
@@ -88,11 +95,15 @@ pub fn quantities(
 
 /// Channel, kind and indicator as one name.
 pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
+    quantity_name(channel, kind, indicator.name())
+}
+
+fn quantity_name(channel: &str, kind: Kind, what: &str) -> String {
     let filtered = match kind {
         Kind::AntiAliased if !channel.starts_with("measured_") => ".anti_aliased",
         _ => "",
     };
-    format!("{channel}{filtered}.{}", indicator.name())
+    format!("{channel}{filtered}.{what}")
 }
 
 fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
@@ -105,15 +116,23 @@ fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
                 "1"
             };
             let name = indicator_name(&channel.name, channel.kind, indicator);
-            let interval = estimate.and_then(|e| e.interval).map(|i| (i.low, i.high));
-            all.push(Quantity::new(name, unit, estimate.map(|e| e.value)).within(interval));
+            all.push(Quantity::estimated(name, unit, estimate));
         }
     }
-    let (blocks, periods) = findings.channels.first().map_or((0, 0), |c| {
-        (c.blocks.whole_blocks().0.len(), c.blocks.whole_blocks().1)
-    });
-    all.push(Quantity::new("blocks", "1", Some(blocks as f64)));
-    all.push(Quantity::new("turns_per_block", "1", Some(periods as f64)));
+    // The largest of the record grows with its length: no interval.
+    for channel in &findings.channels {
+        let record = channel.blocks.record();
+        for (what, value) in [
+            (RECORD_PEAK, record.get(Indicator::Peak)),
+            (RECORD_PEAK_TO_PEAK, record.get(Indicator::PeakToPeak)),
+        ] {
+            let name = quantity_name(&channel.name, channel.kind, what);
+            all.push(Quantity::new(name, channel.unit, value));
+        }
+    }
+    let turns = findings.channels.first();
+    let turns = turns.map_or(0, |c| c.blocks.revolutions());
+    all.push(Quantity::new("analysed_turns", "1", Some(turns as f64)));
 }
 
 /// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`] looks in. Where
@@ -178,11 +197,9 @@ fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>
     let passes = findings.passes.best();
     for index in 0..simulation.model().defects.len() {
         let line = findings.lines.iter().find(|l| l.defect == index);
-        let found = line.and_then(|l| l.found);
-        let interval = found.map(|f| (f.frequency - f.uncertainty, f.frequency + f.uncertainty));
         let named = |name: &str| format!("defect{}.{name}", index + 1);
-        let hz = found.map(|f| f.frequency);
-        all.push(Quantity::new(named("frequency"), "Hz", hz).within(interval));
+        let rate = line.and_then(DefectLine::estimate);
+        all.push(Quantity::estimated(named("frequency"), "Hz", rate));
         let nominal = line.map(|l| l.nominal);
         all.push(Quantity::new(
             named("pure_rolling_frequency"),
@@ -210,20 +227,20 @@ fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>
         ));
     }
     for one in impacts(simulation, findings) {
-        let interval = one.interval.map(|i| (i.low, i.high));
-        all.push(Quantity::new(impact_name(&one), "m/s^2", one.peak).within(interval));
+        all.push(Quantity::estimated(impact_name(&one), "m/s^2", one.peak));
     }
 }
 
 fn rows(findings: &Findings, all: &mut Vec<Quantity>) {
     for (row, slip) in findings.slip.rows.iter().enumerate() {
-        for (name, value) in [
+        for (name, estimate) in [
             ("cage_slip", slip.cage()),
             ("loaded_orbit_slip", slip.loaded_orbit()),
             ("loaded_surface_slip", slip.loaded_surface()),
             ("unloaded_orbit_slip", slip.unloaded_orbit()),
         ] {
-            all.push(Quantity::new(format!("row{}.{name}", row + 1), "1", value));
+            let name = format!("row{}.{name}", row + 1);
+            all.push(Quantity::estimated(name, "1", estimate));
         }
     }
     for (row, load) in findings.load_zone.rows.iter().enumerate() {

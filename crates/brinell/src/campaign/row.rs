@@ -2,6 +2,7 @@
 
 use super::quantities::{Quantity, Spread};
 use crate::scenario::Scenario;
+use crate::signal::Interval;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
@@ -49,7 +50,9 @@ impl Row {
                         let value = match q.spread {
                             Spread::Without => json!([q.unit, q.value]),
                             Spread::Unknown => json!([q.unit, q.value, null, null]),
-                            Spread::Interval(low, high) => json!([q.unit, q.value, low, high]),
+                            Spread::Interval(i) => {
+                                json!([q.unit, q.value, i.low, i.high, i.freedom])
+                            }
                         };
                         (q.name.clone(), value)
                     })
@@ -97,10 +100,15 @@ fn quantity(name: &str, parts: &[Value]) -> Option<Quantity> {
     };
     let (unit, value, spread) = match parts {
         [unit, value] => (unit, value, Spread::Without),
-        [unit, value, low, high] => match (number(low)?, number(high)?) {
-            (Some(low), Some(high)) => (unit, value, Spread::Interval(low, high)),
-            _ => (unit, value, Spread::Unknown),
-        },
+        [unit, value, Value::Null, Value::Null] => (unit, value, Spread::Unknown),
+        [unit, value, low, high, freedom] => {
+            let interval = Interval {
+                low: low.as_f64()?,
+                high: high.as_f64()?,
+                freedom: u32::try_from(freedom.as_u64()?).ok().filter(|f| *f > 0)?,
+            };
+            (unit, value, Spread::Interval(interval))
+        }
         _ => return None,
     };
     Some(Quantity {
@@ -152,7 +160,11 @@ mod tests {
             let spread = match k % 3 {
                 0 => Spread::Without,
                 1 => Spread::Unknown,
-                _ => Spread::Interval(-x, 0.1 * x),
+                _ => Spread::Interval(Interval {
+                    low: -x,
+                    high: 0.1 * x,
+                    freedom: 7,
+                }),
             };
             quantity(&format!("q{k}"), (k % 7 > 0).then_some(x), spread)
         });

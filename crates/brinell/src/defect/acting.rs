@@ -1,12 +1,15 @@
 //! Force, stiffness and energy of a contact that stands on damage, one defect or several (section 3).
 //!
-//! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` each slice feels the deepest of the depths that damage it;
-//! a defect that leaves a slice alone (h_k = 0) has no say there, so that it does not level another's raised edge. Along an envelope the
-//! roller follows the envelope of that joint surface, neighbouring defects included.
+//! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` all defects at a contact are one surface, the deepest at each point;
+//! a defect that leaves a point alone has no say there, so that it does not level another's raised edge. Along an envelope the roller follows
+//! the envelope of that joint surface, neighbouring defects included.
 
-use super::ground::Ground;
-use super::joint::{Rest, Strip, rest};
-use super::{Angles, Defect, Side};
+use super::bands::Band;
+use super::ground::{Cover, Ground, slice_borders};
+use super::joint::{Depths, Strip, rest};
+use super::map_slices::GAUSS;
+use super::track::settled;
+use super::{Angles, Defect, Shape, Side};
 use crate::contact::{Floor, Hertz};
 use crate::scenario::{Law, Surface};
 
@@ -28,18 +31,43 @@ struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    #[inline]
-    fn depth(&self, k: usize) -> f64 {
-        self.ground.slices[k].value(self.s)
+    /// The line z = const of the surface before its envelope.
+    fn strip(&self, z: f64) -> Option<Strip<'a>> {
+        let depths = match &self.defect.shape {
+            Shape::DepthMap(grid) => Depths::Map(grid, z),
+            _ => Depths::Within {
+                band: Band::at(&self.ground.bands, z),
+                z,
+                floor: &self.ground.surface.as_ref()?.floor,
+                reached: self.ground.floor.as_ref()?,
+            },
+        };
+        Some(Strip { depths, s: self.s })
     }
 
-    /// Slice k of the surface before its envelope.
-    fn strip(&self, k: usize) -> Strip<'a> {
-        let surface = self.ground.surface.as_ref();
-        Strip {
-            lines: surface.map_or(&[], |x| &x.slices[k]),
-            envelope: self.ground.slices.get(k),
-            s: self.s,
+    /// The depth at z where the defect covers it, before any envelope.
+    fn under(&self, z: f64) -> Option<f64> {
+        if let Shape::DepthMap(grid) = &self.defect.shape {
+            return grid.under(self.s, z);
+        }
+        let holds = |c: [f64; 2]| c[0] <= self.s && self.s <= c[1];
+        let covered = Band::at(&self.ground.bands, z)?.chords(z).any(holds);
+        covered.then(|| self.defect.depth_at(self.s))
+    }
+
+    /// The next z above z at which that, or the form of the borders along s, may change; of a depth map along an envelope only where damage ends.
+    fn next(&self, z: f64) -> f64 {
+        if let Shape::DepthMap(grid) = &self.defect.shape {
+            return match &self.ground.surface {
+                None => grid.next_row(z),
+                Some(_) => grid.next_end(self.s, z),
+            };
+        }
+        let bands = &self.ground.bands;
+        match bands.get(bands.partition_point(|b| b.z[1] <= z)) {
+            Some(band) if band.z[0] <= z => band.next(self.s, z),
+            Some(band) => band.z[0],
+            None => f64::INFINITY,
         }
     }
 
@@ -79,71 +107,133 @@ fn cuts<'a>(
     })
 }
 
-/// Where a roller rests on the joint surface of several defects in slice k; `None` at a point, and where one defect alone bears on the contact.
-fn rest_on<'a>(
+/// The highest raised edge (m, 0 or less) and R_eq of several defects along an envelope; `None` at a point.
+fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)> {
+    let radius = cuts.clone().next()?.ground.surface.as_ref()?.radius;
+    let surfaces = cuts.filter_map(|cut| cut.ground.surface.as_ref());
+    Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
+}
+
+/// phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each point.
+fn joint<'a>(
     cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    strip: impl Fn(&Cut<'a>) -> Strip<'a> + Clone,
-) -> Option<Rest> {
-    let surface = cuts.clone().next()?.ground.surface.as_ref()?;
-    cuts.clone().nth(1)?;
-    let lowest = cuts
-        .clone()
-        .filter_map(|cut| cut.ground.surface.as_ref())
-        .map(|x| x.extremes.0)
-        .fold(0.0, f64::min);
-    let strips = cuts.map(move |cut| strip(&cut));
-    Some(rest(strips, lowest, surface.radius))
-}
-
-/// The deeper of two depths of a slice, where each damages it.
-#[inline]
-fn deeper(a: f64, b: f64) -> f64 {
-    if a == 0.0 || (b != 0.0 && b > a) {
-        b
-    } else {
-        a
+    (slices, length): (usize, f64),
+    mut add: impl FnMut(f64, f64),
+) {
+    let rolling = rolling(cuts.clone());
+    let deepest = |z: f64| cuts.clone().filter_map(|cut| cut.under(z)).reduce(f64::max);
+    for k in 0..slices {
+        let [low, high] = slice_borders(k, slices, length);
+        let (mut covered, mut section) = (0.0, 0.0);
+        let mut z = low;
+        while z < high {
+            let next = cuts.clone().map(|cut| cut.next(z)).fold(high, f64::min);
+            let to = if next > z { next } else { high };
+            let (from, wide) = (z, to - z);
+            z = to;
+            let is_covered = deepest(from + 0.5 * wide).is_some();
+            let lowest = rolling.map_or(0.0, |(lowest, _)| lowest);
+            if !is_covered && lowest >= 0.0 {
+                continue;
+            }
+            // Along an envelope each point costs a search.
+            let points = if rolling.is_none() || wide > 0.6 * (high - low) {
+                3
+            } else if wide > 0.25 * (high - low) {
+                2
+            } else {
+                1
+            };
+            for [x, weight] in GAUSS[points - 1] {
+                let at = from + x * wide;
+                let h = match rolling {
+                    None => deepest(at),
+                    Some((lowest, radius)) => {
+                        let strips = cuts.clone().filter_map(move |cut| cut.strip(at));
+                        let h = rest(strips, lowest, radius);
+                        // What lifts the roller counts before the line of contact stands on it.
+                        (is_covered || h < 0.0).then_some(h)
+                    }
+                };
+                if let Some(h) = h {
+                    covered += weight * wide;
+                    section += weight * wide * h;
+                }
+            }
+        }
+        let phi = settled(covered / (high - low));
+        if phi > 0.0 {
+            add(phi, section / covered);
+        }
     }
 }
 
-/// Depth of slice k under several defects.
-fn depth_of<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone, k: usize) -> f64 {
-    match rest_on(cuts.clone(), move |cut| cut.strip(k)) {
-        Some(rest) => rest.depth,
-        None => cuts.fold(0.0, |h, cut| deeper(h, cut.depth(k))),
-    }
+/// Mean over the roller's length of a function of what presses there.
+struct Mean {
+    value: f64,
+    /// Share of the length that damage covers.
+    covered: f64,
 }
 
-/// Mean over the slices of f(delta - h_k); `undamaged` is f(delta), and nothing but undamaged slices gives it to the bit.
+/// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is, that to the bit.
 #[inline]
 fn mean<'a>(
     mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
     undamaged: f64,
     delta: f64,
     f: impl Fn(f64) -> f64,
-) -> Option<f64> {
+) -> Option<Mean> {
     let all = cuts.clone();
     let first = cuts.next()?;
-    let several = cuts.next().is_some();
-    let n = first.ground.slices.len();
-    let (mut healthy, mut sum) = (0_usize, 0.0);
-    for k in 0..n {
-        let h = if several {
-            depth_of(all.clone(), k)
-        } else {
-            first.depth(k)
-        };
-        if h == 0.0 {
-            healthy += 1;
-        } else {
-            sum += f(delta - h);
+    let ground = first.ground;
+    let n = ground.slices as f64;
+    // What is covered, slices with any depth, what is left of them, and the sum over the rest; a slice counts 1.
+    let (mut covered, mut met, mut left, mut sum) = (0.0, 0.0, 0.0, 0.0);
+    let mut add = |count: f64, phi: f64, h: f64| {
+        covered += count * phi;
+        if h != 0.0 {
+            met += count;
+            left += count * (1.0 - phi);
+            sum += count * phi * f(delta - h);
+        }
+    };
+    if cuts.next().is_some() {
+        let size = (ground.slices, first.defect.roller_length);
+        joint(all, size, |phi, h| add(1.0, phi, h));
+    } else {
+        match &ground.cover {
+            Cover::Unsliced => {}
+            Cover::Even => {
+                let length = first.defect.damaged_length(first.s);
+                let phi = settled(length / first.defect.roller_length);
+                if phi > 0.0 {
+                    let h = match &ground.floor {
+                        Some(floor) => floor.value(first.s).max(0.0),
+                        None => first.defect.depth_at(first.s),
+                    };
+                    add(n, phi, h);
+                }
+            }
+            Cover::Slices(tracks) => {
+                for track in tracks {
+                    let (phi, h) = track.value(first.s);
+                    if phi > 0.0 {
+                        add(track.count, phi, h);
+                    }
+                }
+            }
         }
     }
-    Some(if healthy == n {
-        undamaged
-    } else if healthy == 0 {
-        sum / n as f64
-    } else {
-        (healthy as f64 * undamaged + sum) / n as f64
+    let left = left + (n - met);
+    Some(Mean {
+        value: if met == 0.0 {
+            undamaged
+        } else if left == 0.0 {
+            sum / n
+        } else {
+            (left * undamaged + sum) / n
+        },
+        covered: covered / n,
     })
 }
 
@@ -177,19 +267,14 @@ pub fn acting_given<'a>(
     if law_of(defects.clone()) == Law::Sliced {
         let cuts = cuts(defects, angles, side);
         let undamaged = law.stiffness * power;
-        let elastic = mean(cuts.clone(), undamaged, delta, |x| law.healthy(x))?;
-        let (length, damaged) = cuts.fold((0.0, 0.0_f64), |(_, widest), cut| {
-            (
-                cut.defect.roller_length,
-                widest.max(cut.defect.damaged_length(cut.s)),
-            )
-        });
+        let length = cuts.clone().next()?.defect.roller_length;
+        let mean = mean(cuts, undamaged, delta, |x| law.healthy(x))?;
         return Some(Acting {
-            elastic,
+            elastic: mean.value,
             floor: Floor {
-                share: 1.0 - damaged / length,
+                share: 1.0 - mean.covered,
                 depth: 0.0,
-                damaged_length: damaged,
+                damaged_length: mean.covered * length,
             },
         });
     }
@@ -220,11 +305,15 @@ pub fn floors<'a>(
     let several = defects.clone().nth(1).is_some();
     let joint = several
         .then(|| {
-            rest_on(cuts(defects.clone(), angles, side), |cut| Strip {
-                lines: cut.ground.surface.as_ref().map_or(&[], |x| &x.floor),
-                envelope: cut.ground.floor.as_ref(),
-                s: cut.s,
-            })
+            let cuts = cuts(defects.clone(), angles, side);
+            let (lowest, radius) = rolling(cuts.clone())?;
+            cuts.clone().nth(1)?;
+            let strips = cuts.filter_map(|cut| {
+                let lines = &cut.ground.surface.as_ref()?.floor;
+                let depths = Depths::Lines(lines, cut.ground.floor.as_ref());
+                Some(Strip { depths, s: cut.s })
+            });
+            Some(rest(strips, lowest, radius))
         })
         .flatten();
     let angles = *angles;
@@ -234,7 +323,7 @@ pub fn floors<'a>(
         Some(match &joint {
             None => floor,
             Some(rest) => Floor {
-                depth: d.depth_at(u * d.radius).min(rest.depth).max(0.0),
+                depth: d.depth_at(u * d.radius).min(*rest).max(0.0),
                 ..floor
             },
         })
@@ -252,7 +341,8 @@ pub fn tangent<'a>(
     if law_of(defects.clone()) == Law::Sliced {
         let cuts = cuts(defects, angles, side);
         let undamaged = law.tangent(delta, None);
-        return mean(cuts, undamaged, delta, |x| law.tangent(x, None)).unwrap_or(undamaged);
+        return mean(cuts, undamaged, delta, |x| law.tangent(x, None))
+            .map_or(undamaged, |mean| mean.value);
     }
     let acting = acting(defects, law, angles, side, delta);
     law.tangent(delta, acting.map(|a| a.floor).as_ref())
@@ -267,10 +357,10 @@ pub fn energy<'a>(
     delta: f64,
 ) -> f64 {
     if law_of(defects.clone()) == Law::Sliced {
-        // Exact for several defects too: which depth acts in a slice does not depend on delta.
         let cuts = cuts(defects, angles, side);
         let undamaged = law.energy(delta);
-        return mean(cuts, undamaged, delta, |x| law.energy(x)).unwrap_or(undamaged);
+        return mean(cuts, undamaged, delta, |x| law.energy(x))
+            .map_or(undamaged, |mean| mean.value);
     }
     if delta <= 0.0 {
         return 0.0;
@@ -298,8 +388,9 @@ pub fn energy<'a>(
 
 /// Derivatives of a contact's elastic energy at a fixed approach with the angles that carry it over damage, N m.
 ///
-/// dE/du = (1/n_s) sum over slices of Q(delta - h_k) (-dh_k/ds) R, and u = theta - psi, theta - psi - W or theta - phi - psi (+ pi) by the
-/// damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
+/// With E(x) the energy of the healthy contact at the approach x and Q(x) its force, dE/ds = (1/n_s) sum over slices of
+/// dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta - psi - W or
+/// theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EdgeGradient {
     /// dE/dtheta.
@@ -310,7 +401,19 @@ pub struct EdgeGradient {
     pub ring: f64,
 }
 
-/// The derivatives under `sliced`; each slice counts for the defect that acts in it, or for those that the roller rests on.
+impl EdgeGradient {
+    /// Adds dE/du of defects on one surface.
+    fn add(&mut self, surface: Surface, slope: f64) {
+        self.orbit += slope;
+        match surface {
+            Surface::OuterRaceway => {}
+            Surface::InnerRaceway => self.ring -= slope,
+            Surface::Roller(_) => self.spin -= slope,
+        }
+    }
+}
+
+/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of the arc.
 pub fn edge_gradient<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
@@ -318,45 +421,65 @@ pub fn edge_gradient<'a>(
     side: Side,
     delta: f64,
 ) -> EdgeGradient {
+    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
+    const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     let cuts = cuts(defects, angles, side);
     let Some(first) = cuts.clone().next() else {
         return gradient;
     };
-    let n = first.ground.slices.len();
-    let mut add = |slope: f64, cut: Cut| {
-        gradient.orbit += slope;
-        match cut.defect.surface {
-            Surface::OuterRaceway => {}
-            Surface::InnerRaceway => gradient.ring -= slope,
-            Surface::Roller(_) => gradient.spin -= slope,
-        }
-    };
-    for k in 0..n {
-        // dE over an arc of the damage, N.
-        let push = |h: f64| -law.healthy(delta - h) / n as f64;
-        if let Some(rest) = rest_on(cuts.clone(), move |cut| cut.strip(k)) {
-            if rest.depth != 0.0 {
-                for (strip, slope) in rest.slopes {
-                    if let Some(cut) = cuts.clone().nth(strip) {
-                        add(push(rest.depth) * slope * cut.defect.radius, cut);
+    if cuts.clone().nth(1).is_some() {
+        let is_roller = |cut: &Cut| matches!(cut.defect.surface, Surface::Roller(_));
+        // Defects on the roller move over the contact apart from those on the raceway.
+        for on_roller in [false, true] {
+            let moves = |cut: &Cut| is_roller(cut) == on_roller;
+            let Some(one) = cuts.clone().find(moves) else {
+                continue;
+            };
+            let held = |step: f64| {
+                let moved = cuts.clone().map(move |mut cut| {
+                    if is_roller(&cut) == on_roller {
+                        cut.s += step;
                     }
+                    cut
+                });
+                let undamaged = law.energy(delta);
+                mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
+            };
+            let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
+            gradient.add(one.defect.surface, slope * one.defect.radius);
+        }
+        return gradient;
+    }
+    let (ground, s) = (first.ground, first.s);
+    let slope = match &ground.cover {
+        Cover::Unsliced => 0.0,
+        Cover::Even => {
+            let phi = settled(first.defect.damaged_length(s) / first.defect.roller_length);
+            let floor = ground.floor.as_ref();
+            floor.map_or(0.0, |floor| {
+                -phi * law.healthy(delta - floor.value(s).max(0.0)) * floor.slope(s)
+            })
+        }
+        Cover::Slices(tracks) => {
+            let whole = law.energy(delta);
+            let mut sum = 0.0;
+            for track in tracks {
+                let (phi, h) = track.value(s);
+                if phi > 0.0 {
+                    let (widens, sinks) = track.slope(s);
+                    let x = delta - h;
+                    let edge = if phi < 1.0 && widens != 0.0 {
+                        widens * (law.energy(x) - whole)
+                    } else {
+                        0.0
+                    };
+                    sum += track.count * (edge - phi * law.healthy(x) * sinks);
                 }
             }
-            continue;
+            sum / ground.slices as f64
         }
-        let (h, cut) = cuts.clone().fold((0.0, first), |(h, acting), cut| {
-            let own = cut.depth(k);
-            if deeper(h, own) == h {
-                (h, acting)
-            } else {
-                (own, cut)
-            }
-        });
-        if h != 0.0 {
-            let slope = cut.ground.slices[k].slope(cut.s);
-            add(push(h) * slope * cut.defect.radius, cut);
-        }
-    }
+    };
+    gradient.add(first.defect.surface, slope * first.defect.radius);
     gradient
 }

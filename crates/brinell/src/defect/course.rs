@@ -35,15 +35,67 @@ pub(super) struct Piece {
     pub(super) c: [f64; 3],
 }
 
-/// Pieces side by side from `first` to `last`, 0 outside; at a jump the right-hand value.
+/// Finds the piece that holds s in constant time, whatever the pieces hold.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Course {
+pub(super) struct Lookup {
     first: f64,
     last: f64,
-    pieces: Vec<Piece>,
+    pieces: usize,
     /// The piece on which each of equally wide buckets begins.
     index: Vec<u32>,
     buckets_per_metre: f64,
+}
+
+impl Lookup {
+    /// For `pieces` that follow one another from `first` to `last` (m); `start` says where each begins.
+    pub(super) fn new(first: f64, last: f64, pieces: usize, start: impl Fn(usize) -> f64) -> Self {
+        let buckets = 2 * pieces;
+        let width = (last - first) / buckets as f64;
+        let mut k = 0;
+        let index = (0..buckets)
+            .map(|bucket| {
+                let s = first + bucket as f64 * width;
+                while k + 1 < pieces && start(k + 1) <= s {
+                    k += 1;
+                }
+                // Round-off may put an s just left of a bucket's border into that bucket.
+                k.saturating_sub(1) as u32
+            })
+            .collect();
+        Self {
+            first,
+            last,
+            pieces,
+            index,
+            buckets_per_metre: 1.0 / width,
+        }
+    }
+
+    /// First and last s, m.
+    pub(super) fn span(&self) -> (f64, f64) {
+        (self.first, self.last)
+    }
+
+    /// The piece that holds s, the right-hand one at a breakpoint.
+    #[inline]
+    pub(super) fn find(&self, s: f64, start: impl Fn(usize) -> f64) -> Option<usize> {
+        if !(s >= self.first && s <= self.last) || self.pieces == 0 {
+            return None;
+        }
+        let bucket = ((s - self.first) * self.buckets_per_metre) as usize;
+        let mut k = self.index[bucket.min(self.index.len() - 1)] as usize;
+        while k + 1 < self.pieces && start(k + 1) <= s {
+            k += 1;
+        }
+        Some(k)
+    }
+}
+
+/// Pieces side by side, 0 before and after them; at a jump the right-hand value.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Course {
+    lookup: Lookup,
+    pieces: Vec<Piece>,
 }
 
 impl Course {
@@ -75,31 +127,15 @@ impl Course {
         if pieces.is_empty() {
             return Self::default();
         }
-        let buckets = 2 * pieces.len();
-        let width = (last - first) / buckets as f64;
-        let mut k = 0;
-        let index = (0..buckets)
-            .map(|bucket| {
-                let s = first + bucket as f64 * width;
-                while k + 1 < pieces.len() && pieces[k + 1].start <= s {
-                    k += 1;
-                }
-                // Round-off may put an s just left of a bucket's border into that bucket.
-                k.saturating_sub(1) as u32
-            })
-            .collect();
         Self {
-            first,
-            last,
+            lookup: Lookup::new(first, last, pieces.len(), |k| pieces[k].start),
             pieces,
-            index,
-            buckets_per_metre: 1.0 / width,
         }
     }
 
     /// First and last s of what is not 0, m.
     pub fn span(&self) -> (f64, f64) {
-        (self.first, self.last)
+        self.lookup.span()
     }
 
     /// Whether the function is 0 everywhere.
@@ -110,14 +146,7 @@ impl Course {
     /// The piece that holds s, and how far into it s lies.
     #[inline]
     fn at(&self, s: f64) -> Option<(&Piece, f64)> {
-        if !(s >= self.first && s <= self.last) || self.pieces.is_empty() {
-            return None;
-        }
-        let bucket = ((s - self.first) * self.buckets_per_metre) as usize;
-        let mut k = self.index[bucket.min(self.index.len() - 1)] as usize;
-        while k + 1 < self.pieces.len() && self.pieces[k + 1].start <= s {
-            k += 1;
-        }
+        let k = self.lookup.find(s, |k| self.pieces[k].start)?;
         let piece = &self.pieces[k];
         Some((piece, s - piece.start))
     }
@@ -135,12 +164,23 @@ impl Course {
         self.at(s).map_or(0.0, |(p, x)| p.c[1] + 2.0 * x * p.c[2])
     }
 
+    /// Value, derivative and half the second derivative at s.
+    pub(super) fn quadratic(&self, s: f64) -> [f64; 3] {
+        self.at(s).map_or([0.0; 3], |(p, x)| {
+            [
+                p.c[0] + x * (p.c[1] + x * p.c[2]),
+                p.c[1] + 2.0 * x * p.c[2],
+                p.c[2],
+            ]
+        })
+    }
+
     /// Integral over all s, m^2.
     pub fn integral(&self) -> f64 {
         let ends = self.pieces.iter().skip(1).map(|p| p.start);
         self.pieces
             .iter()
-            .zip(ends.chain([self.last]))
+            .zip(ends.chain([self.lookup.last]))
             .map(|(p, end)| {
                 let x = end - p.start;
                 x * (p.c[0] + x * (p.c[1] / 2.0 + x * p.c[2] / 3.0))
@@ -153,7 +193,7 @@ impl Course {
         let ends = self.pieces.iter().skip(1).map(|p| p.start);
         self.pieces
             .iter()
-            .zip(ends.chain([self.last]))
+            .zip(ends.chain([self.lookup.last]))
             .map(|(p, end)| p.c[0].max(p.c[0] + p.c[1] * (end - p.start)))
             .fold(0.0, f64::max)
     }
@@ -164,7 +204,7 @@ impl Course {
         if self.pieces.is_empty() {
             return Vec::new();
         }
-        starts.chain([self.last]).collect()
+        starts.chain([self.lookup.last]).collect()
     }
 }
 

@@ -47,6 +47,12 @@ impl Grid {
         Some(this)
     }
 
+    /// The same, moved along z by `offset` (m).
+    pub fn moved(mut self, offset: f64) -> Self {
+        self.start[1] += offset;
+        self
+    }
+
     /// Leaves out what a roller of length L (m) does not reach: cells beyond |z| = L/2.
     pub fn within(mut self, length: f64) -> Self {
         self.tabulate(0.5 * length);
@@ -82,8 +88,104 @@ impl Grid {
         self.mean = Course::of_lines(&self.mean_lines);
     }
 
-    fn s(&self, column: usize) -> f64 {
+    /// s of a column, m.
+    pub(super) fn s(&self, column: usize) -> f64 {
         self.start[0] + column as f64 * self.step[0]
+    }
+
+    /// Nodes along s.
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Distance of columns, m.
+    pub(super) fn step(&self) -> f64 {
+        self.step[0]
+    }
+
+    /// The cells between rows within low..high (m): the row below each, and what of its z lies within.
+    pub(super) fn rows_within(&self, low: f64, high: f64) -> Vec<(usize, [f64; 2])> {
+        (0..self.rows - 1)
+            .map(|row| (row, [self.z(row).max(low), self.z(row + 1).min(high)]))
+            .filter(|(_, [a, b])| a < b)
+            .collect()
+    }
+
+    /// Whether anything is damaged between two columns and two rows, given the first of each.
+    pub(super) fn is_damaged(&self, column: usize, row: usize) -> bool {
+        let at = row * self.columns + column;
+        [at, at + 1, at + self.columns, at + self.columns + 1]
+            .iter()
+            .any(|k| self.depth[*k] != 0.0)
+    }
+
+    /// Depth of a column at z between the row given and the next, m.
+    pub(super) fn between_rows(&self, column: usize, row: usize, z: f64) -> f64 {
+        let share = (z - self.z(row)) / self.step[1];
+        let at = row * self.columns + column;
+        (1.0 - share) * self.depth[at] + share * self.depth[at + self.columns]
+    }
+
+    /// The row below z; `None` beyond the grid.
+    pub(super) fn row_at(&self, z: f64) -> Option<usize> {
+        Self::place((z - self.start[1]) / self.step[1], self.rows)
+    }
+
+    fn place(x: f64, nodes: usize) -> Option<usize> {
+        (0.0..=(nodes - 1) as f64)
+            .contains(&x)
+            .then(|| (x as usize).min(nodes - 2))
+    }
+
+    /// Depth at (s, z), m; `None` where nothing is damaged.
+    pub(super) fn under(&self, s: f64, z: f64) -> Option<f64> {
+        let row = self.row_at(z)?;
+        let column = Self::place((s - self.start[0]) / self.step[0], self.columns)?;
+        self.is_damaged(column, row).then(|| {
+            let share = (s - self.s(column)) / self.step[0];
+            let (a, b) = (
+                self.between_rows(column, row, z),
+                self.between_rows(column + 1, row, z),
+            );
+            a + share * (b - a)
+        })
+    }
+
+    /// z of the next row above z, m; infinite beyond the last.
+    pub(super) fn next_row(&self, z: f64) -> f64 {
+        let row = ((z - self.start[1]) / self.step[1]).floor() + 1.0;
+        let mut row = row.clamp(0.0, self.rows as f64) as usize;
+        while row < self.rows && self.z(row) <= z {
+            row += 1;
+        }
+        if row < self.rows {
+            self.z(row)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// z of the next row above z at which damage begins or ends at s, m; infinite beyond the last.
+    pub(super) fn next_end(&self, s: f64, z: f64) -> f64 {
+        let Some(column) = Self::place((s - self.start[0]) / self.step[0], self.columns) else {
+            return f64::INFINITY;
+        };
+        let damaged = |z: f64| {
+            self.row_at(z)
+                .is_some_and(|row| self.is_damaged(column, row))
+        };
+        let inside = |row: f64| row + 0.5 * self.step[1];
+        let mut next = self.next_row(z);
+        let here = damaged(next - 0.5 * self.step[1]);
+        while next.is_finite() && damaged(inside(next)) == here {
+            next = self.next_row(next);
+        }
+        next
+    }
+
+    /// First column at s or before it, below 0 before the first.
+    pub(super) fn column_at(&self, s: f64) -> i64 {
+        ((s - self.start[0]) / self.step[0]).floor() as i64
     }
 
     fn z(&self, row: usize) -> f64 {
@@ -140,12 +242,9 @@ impl Grid {
         self.lines(&values)
     }
 
-    /// Depth at (s, z), m.
+    /// Depth at (s, z), m; 0 where nothing is damaged.
     pub fn depth(&self, s: f64, z: f64) -> f64 {
-        let line = self.along(z).into_iter().find(|l| s >= l.from && s <= l.to);
-        line.map_or(0.0, |l| {
-            l.at_from + (l.at_to - l.at_from) * (s - l.from) / (l.to - l.from)
-        })
+        self.under(s, z).unwrap_or(0.0)
     }
 
     /// Deepest and highest node, m; the highest is below 0 where an edge is raised.

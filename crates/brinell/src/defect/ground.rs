@@ -1,8 +1,11 @@
-//! What a roller stands on, made ready for one surface, law and path: depths h_s(s) and h_k(s) in constant time.
+//! What a roller stands on, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in constant time.
 
 use super::Shape;
+use super::bands::Band;
 use super::course::{Course, Line};
 use super::envelope::envelope;
+use super::map_slices::{along_the_envelope, at_a_point};
+use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
 
 /// How damage acts, the same for every contact of a model (section 3).
@@ -35,13 +38,27 @@ impl Rules {
     }
 }
 
-/// A border closer to a slice's middle than this share of L lies on it.
-const SLACK: f64 = 1e-9;
-
-/// Axial position z_k of slice k (from 0) of n_s across a roller of length L, m.
-pub fn slice_position(k: usize, slices: usize, length: f64) -> f64 {
+/// First and last z of slice k (from 0) of n_s across a roller of length L, m.
+pub(super) fn slice_borders(k: usize, slices: usize, length: f64) -> [f64; 2] {
     // From the middle, so that slices on both sides are mirror images to the bit.
+    let border = |k: usize| (2 * k as i64 - slices as i64) as f64 / (2.0 * slices as f64) * length;
+    [border(k), border(k + 1)]
+}
+
+/// Axial position z_k of the middle of slice k (from 0) of n_s across a roller of length L, m.
+pub fn slice_position(k: usize, slices: usize, length: f64) -> f64 {
     (2 * k as i64 + 1 - slices as i64) as f64 / (2.0 * slices as f64) * length
+}
+
+/// What damage covers of the slices, and how deep.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Cover {
+    /// Law `ecl`: there are no slices.
+    Unsliced,
+    /// As deep at every covered z: L_s over L is all that counts, however many slices there are.
+    Even,
+    /// phi_k(s) and h_k(s); slices that the damage never covers are left out.
+    Slices(Vec<Track>),
 }
 
 /// Depths under one side of a roller.
@@ -49,83 +66,143 @@ pub fn slice_position(k: usize, slices: usize, length: f64) -> f64 {
 pub struct Ground {
     /// First and last s at which the contact stands on damage, m: the shape's arc, and what the envelope of raised edges adds.
     pub(super) arc: (f64, f64),
-    /// h_env of h_s, where the path is the envelope: for the laws that know one depth.
+    /// h_env of h_s, where the path is the envelope: for the laws that know one depth, and under slices that the damage covers from end to end.
     pub(super) floor: Option<Course>,
-    /// h_k of each slice; empty under `ecl`.
-    pub(super) slices: Vec<Course>,
+    /// Slices.
+    pub(super) cover: Cover,
+    /// n_s.
+    pub(super) slices: usize,
+    /// The damage from above, for several defects at one contact; empty under `ecl` and for depth maps.
+    pub(super) bands: Vec<Band>,
     /// What the envelopes were made of, for the joint surface of several defects; `None` where the path is the point.
     pub(super) surface: Option<Surface>,
 }
 
-/// Depths before their envelope, as straight pieces.
+/// Depths before their envelope.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Surface {
     /// R_eq, m.
     pub(super) radius: f64,
-    /// h_s.
+    /// h_s as straight pieces.
     pub(super) floor: Vec<Line>,
-    /// h_k of each slice; empty under `ecl`.
-    pub(super) slices: Vec<Vec<Line>>,
     /// Lowest (0 or less) and deepest of what the law uses, m.
     pub(super) extremes: (f64, f64),
 }
 
 impl Ground {
-    /// For a roller of length `length` that meets the damage with the relative radius R_eq (m); `depth` (m) is the defect's.
-    pub(super) fn new(shape: &Shape, depth: f64, length: f64, radius: f64, rules: &Rules) -> Self {
-        let slices: Vec<Vec<Line>> = match rules.law {
-            Law::Ecl => Vec::new(),
-            Law::Sliced => (0..rules.slices)
-                .map(|k| {
-                    let z = slice_position(k, rules.slices, length);
-                    shape.along(z, SLACK * length, depth)
-                })
-                .collect(),
-        };
+    /// For a roller of length `length` that meets the damage with the relative radius R_eq (m); `depth` (m) is the defect's, `middle` (m) the z
+    /// of a shape that is a width alone.
+    pub(super) fn new(
+        shape: &Shape,
+        (depth, middle): (f64, f64),
+        length: f64,
+        radius: f64,
+        rules: &Rules,
+    ) -> Self {
+        let sliced = rules.law == Law::Sliced;
         let along_envelope = rules.path == RollerPath::Envelope;
-        let courses: Vec<Course> = slices
-            .iter()
-            .map(|lines| match rules.path {
-                RollerPath::Point => Course::of_lines(lines),
-                RollerPath::Envelope => envelope(lines, radius),
-            })
-            .collect();
-        let arc = courses
-            .iter()
-            .filter(|c| !c.is_zero())
-            .map(Course::span)
-            .fold(shape.arc(), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let depths = along_envelope.then(|| shape.depths(depth));
-        Self {
-            arc,
-            floor: depths.as_ref().map(|lines| envelope(lines, radius)),
-            slices: courses,
-            surface: depths.map(|floor| Surface::new(floor, slices, radius)),
+        let surface = along_envelope.then(|| Surface::new(shape, depth, radius, sliced));
+        let floor = surface.as_ref().map(|x| envelope(&x.floor, radius));
+        let mut ground = Self {
+            arc: shape.arc(),
+            floor,
+            cover: Cover::Unsliced,
+            slices: rules.slices,
+            bands: Vec::new(),
+            surface,
+        };
+        if sliced {
+            let (borders, crossings) = shape.borders(middle);
+            let mut cuts: Vec<f64> = (0..rules.slices)
+                .map(|k| slice_borders(k, rules.slices, length)[0])
+                .collect();
+            cuts.push(0.5 * length);
+            ground.bands = Band::all(&borders, &crossings, &cuts);
+            ground.cover = match shape {
+                Shape::DepthMap(grid) => Cover::Slices(if along_envelope {
+                    along_the_envelope(grid, rules.slices, length, radius)
+                } else {
+                    at_a_point(grid, rules.slices, length)
+                }),
+                _ if !along_envelope || shape.is_straight() => Cover::Even,
+                _ => Cover::Slices(ground.tracks(shape, (depth, middle), length, radius)),
+            };
         }
+        if let Cover::Slices(tracks) = &ground.cover {
+            ground.arc = tracks
+                .iter()
+                .map(Track::span)
+                .fold(ground.arc, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        }
+        ground
+    }
+
+    /// Slices along the envelope of damage that has one depth at each s.
+    ///
+    /// A roller then rests on that floor, or on the nearer end of the damage along s at its z: h_env(s, z) = min(F(s), d^2 / (2 R_eq)), F being the
+    /// envelope of a floor without ends.
+    fn tracks(
+        &self,
+        shape: &Shape,
+        (depth, middle): (f64, f64),
+        length: f64,
+        radius: f64,
+    ) -> Vec<Track> {
+        let own = self.floor.as_ref().filter(|_| shape.has_depths());
+        let floor = |s: f64| own.map_or(depth, |floor| floor.value(s).max(0.0));
+        let deepest = self.surface.as_ref().map_or(depth, |x| x.extremes.1);
+        let reach = own.is_none().then(|| (2.0 * radius * depth).sqrt());
+        let n = self.slices;
+        // Slices on both sides of a width's middle are alike.
+        let alike = shape.is_width() && middle == 0.0;
+        let tracks = (if alike { n / 2 } else { 0 }..n).filter_map(|k| {
+            let [low, high] = slice_borders(k, n, length);
+            let from = self.bands.partition_point(|b| b.z[0] < low);
+            let to = self.bands.partition_point(|b| b.z[0] < high);
+            let bands = &self.bands[from..to];
+            let kinks = bands.iter().flat_map(|b| b.kinks(None));
+            let (first, last) = kinks.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| {
+                (a.min(s), b.max(s))
+            });
+            let mut stops: Vec<f64> = bands.iter().flat_map(|b| b.kinks(reach)).collect();
+            stops.extend(own.iter().flat_map(|floor| floor.breakpoints()));
+            stops.extend([first, last]);
+            stops.retain(|s| (first..=last).contains(s));
+            stops.sort_by(f64::total_cmp);
+            stops.dedup_by(|b, a| *b - *a < 1e-13);
+            let parts = fit(&stops, deepest, |s| {
+                let covered: f64 = bands.iter().map(|b| b.covered(s)).sum();
+                if covered <= 0.0 {
+                    return (0.0, 0.0);
+                }
+                let reached: f64 = bands.iter().map(|b| b.reached(s, floor(s), radius)).sum();
+                (covered / (high - low), reached / covered)
+            });
+            let twice = alike && 2 * k + 1 != n;
+            Track::new(if twice { 2.0 } else { 1.0 }, parts, last)
+        });
+        tracks.collect()
     }
 }
 
 impl Surface {
-    fn new(floor: Vec<Line>, slices: Vec<Vec<Line>>, radius: f64) -> Self {
-        let solid = |mut lines: Vec<Line>| {
-            lines.retain(|l| l.to > l.from);
-            lines
+    fn new(shape: &Shape, depth: f64, radius: f64, sliced: bool) -> Self {
+        let mut floor = shape.depths(depth);
+        floor.retain(|l| l.to > l.from);
+        let along = floor.iter().flat_map(|l| [l.at_from, l.at_to]);
+        let extremes = along.fold((0.0_f64, 0.0_f64), |(low, high), h| {
+            (low.min(h), high.max(h))
+        });
+        let extremes = match shape {
+            Shape::DepthMap(grid) if sliced => {
+                let (deepest, highest) = grid.extremes();
+                (highest.min(0.0), deepest.max(0.0))
+            }
+            _ => extremes,
         };
-        let floor = solid(floor);
-        let slices: Vec<Vec<Line>> = slices.into_iter().map(solid).collect();
-        let used = slices
-            .iter()
-            .flatten()
-            .chain(slices.is_empty().then_some(&floor).into_iter().flatten());
-        let extremes = used
-            .flat_map(|l| [l.at_from, l.at_to])
-            .fold((0.0_f64, 0.0_f64), |(low, high), h| {
-                (low.min(h), high.max(h))
-            });
         Self {
             radius,
             floor,
-            slices,
             extremes,
         }
     }

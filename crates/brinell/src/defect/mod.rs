@@ -4,18 +4,21 @@
 //! simulation looks depths up in constant time; [`acting()`] is what a contact feels of it.
 
 mod acting;
+mod bands;
 mod course;
 mod envelope;
 pub mod fit;
 mod grid;
 mod ground;
 mod joint;
+mod map_slices;
 mod outline;
 mod profile;
 mod random;
 pub mod section;
 mod shape;
 pub mod simplify;
+mod track;
 
 pub use acting::{
     Acting, EdgeGradient, acting, acting_given, edge_gradient, energy, floors, tangent,
@@ -83,8 +86,10 @@ pub struct Defect {
     pub center: f64,
     /// h, m, where the shape has no depths of its own.
     pub depth: f64,
-    /// Outline.
+    /// Outline, where it lies.
     pub shape: Shape,
+    /// z of the middle of a shape that is a width alone, m; outlines and depth maps have been moved instead.
+    pub middle: f64,
     /// R of the surface, m.
     pub radius: f64,
     /// L of the roller, m.
@@ -114,7 +119,9 @@ impl Defect {
         };
         let depth = 1e-6 * defect.depth_um;
         let roller_length = 1e-3 * bearing.roller_length_mm;
-        let shape = Shape::new(&defect.shape, depth)?.within(roller_length);
+        let offset = 1e-3 * defect.axial_offset_mm;
+        let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
+        let middle = if shape.is_width() { offset } else { 0.0 };
         let rules = Rules::new(contact);
         let grounds = SIDES.map(|side| {
             let met = match surface {
@@ -123,7 +130,7 @@ impl Defect {
                 Surface::Roller(_) => true,
             };
             let radius = relative_radius(bearing, side);
-            met.then(|| Ground::new(&shape, depth, roller_length, radius, &rules))
+            met.then(|| Ground::new(&shape, (depth, middle), roller_length, radius, &rules))
         });
         let radius = 0.5e-3 * diameter;
         let arc = shape.arc();
@@ -142,6 +149,7 @@ impl Defect {
             center: defect.center_deg.to_radians(),
             depth,
             shape,
+            middle,
             radius,
             roller_length,
             rules,
@@ -182,14 +190,20 @@ impl Defect {
         self.windows[side as usize]
     }
 
-    /// L_s at the arc coordinate s (m), clamped to the roller; 0 off the damage.
+    /// L_s at the arc coordinate s (m): the covered z within the roller's length; 0 off the damage.
     #[inline]
     pub fn damaged_length(&self, s: f64) -> f64 {
         let (first, last) = self.shape.arc();
         if s < first || s > last {
             return 0.0;
         }
-        self.shape.damaged_length(s).clamp(0.0, self.roller_length)
+        let length = self.shape.damaged_length(s);
+        if self.middle == 0.0 {
+            return length.clamp(0.0, self.roller_length);
+        }
+        let end = 0.5 * self.roller_length;
+        let [from, to] = [-0.5, 0.5].map(|side| (self.middle + side * length).clamp(-end, end));
+        (to - from).max(0.0)
     }
 
     /// h_s at the arc coordinate s (m) on the damage, before any envelope.

@@ -1,5 +1,6 @@
 //! Damage seen from above: the inside of polygons by the even-odd rule. Points (s, z) in m.
 
+use super::bands::Border;
 use super::course::{Course, Line};
 
 /// What is wrong with polygons; coordinates in m.
@@ -67,8 +68,36 @@ impl Outline {
         if !polygons.iter().flatten().flatten().all(|x| x.is_finite()) {
             return None;
         }
-        let width = width(&polygons);
+        let width = width(&polygons, f64::INFINITY);
         (width.integral() > 0.0).then_some(Self { polygons, width })
+    }
+
+    /// The same, moved along z by `offset` (m).
+    pub fn moved(mut self, offset: f64) -> Self {
+        for point in self.polygons.iter_mut().flatten() {
+            point[1] += offset;
+        }
+        self
+    }
+
+    /// The same with L_s counted within |z| <= L/2 alone, for a roller of length L (m).
+    pub fn within(mut self, length: f64) -> Self {
+        let (low, high) = self.heights();
+        let half = 0.5 * length;
+        if low < -half || high > half {
+            self.width = width(&self.polygons, half);
+        }
+        self
+    }
+
+    /// Borders between damage and none, each monotone in z, and the z at which sides cross.
+    pub(super) fn borders(&self) -> (Vec<Border>, Vec<f64>) {
+        let all = self.polygons.iter().flat_map(|p| sides(p));
+        let crossings = crossings(&edges(&self.polygons));
+        (
+            all.filter_map(|(p, q)| Border::straight(p, q)).collect(),
+            crossings.iter().map(|(_, at)| at[1]).collect(),
+        )
     }
 
     /// The same, larger by `factor` in both directions about the origin.
@@ -94,38 +123,6 @@ impl Outline {
             z().fold(f64::INFINITY, f64::min),
             z().fold(f64::NEG_INFINITY, f64::max),
         )
-    }
-
-    /// Where the line z = const is damaged: closed intervals of s, ascending. A border along the line counts, `slack` (m) being the
-    /// distance at which it lies on it.
-    pub fn chords(&self, z: f64, slack: f64) -> Vec<[f64; 2]> {
-        let mut all = self.crossings(z - slack);
-        all.extend(self.crossings(z + slack));
-        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut merged: Vec<[f64; 2]> = Vec::with_capacity(all.len());
-        for [from, to] in all {
-            match merged.last_mut() {
-                Some(last) if from <= last[1] => last[1] = last[1].max(to),
-                _ => merged.push([from, to]),
-            }
-        }
-        merged
-    }
-
-    fn crossings(&self, z: f64) -> Vec<[f64; 2]> {
-        let mut hits = Vec::new();
-        for polygon in &self.polygons {
-            for (p, q) in sides(polygon) {
-                if (p[1] <= z) != (q[1] <= z) {
-                    hits.push(p[0] + (z - p[1]) / (q[1] - p[1]) * (q[0] - p[0]));
-                }
-            }
-        }
-        hits.sort_by(f64::total_cmp);
-        hits.chunks_exact(2)
-            .map(|pair| [pair[0], pair[1]])
-            .filter(|[a, b]| b > a)
-            .collect()
     }
 }
 
@@ -156,11 +153,20 @@ fn edges(polygons: &[Vec<[f64; 2]>]) -> Vec<Edge> {
     all
 }
 
-/// L_s(s) by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
-fn width(polygons: &[Vec<[f64; 2]>]) -> Course {
+/// L_s(s) within |z| <= `half` by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
+fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Course {
     let edges = edges(polygons);
     let mut stops: Vec<f64> = polygons.iter().flatten().map(|p| p[0]).collect();
     stops.extend(crossings(&edges).iter().map(|(_, at)| at[0]));
+    for edge in &edges {
+        let [low, high] = [edge.left[1], edge.right[1]];
+        for z in [-half, half] {
+            if (low - z) * (high - z) < 0.0 {
+                let share = (z - low) / (high - low);
+                stops.push(edge.left[0] + share * (edge.right[0] - edge.left[0]));
+            }
+        }
+    }
     stops.sort_by(f64::total_cmp);
     stops.dedup();
     let mut lines: Vec<Line> = Vec::with_capacity(stops.len());
@@ -178,7 +184,10 @@ fn width(polygons: &[Vec<[f64; 2]>]) -> Course {
         let sum = |s: f64| {
             active
                 .chunks_exact(2)
-                .map(|pair| (pair[1].at(s) - pair[0].at(s)).max(0.0))
+                .map(|pair| {
+                    let [low, high] = [&pair[0], &pair[1]].map(|e| e.at(s).clamp(-half, half));
+                    (high - low).max(0.0)
+                })
                 .sum::<f64>()
         };
         let line = Line {
@@ -305,12 +314,11 @@ mod tests {
             ),
             (2.0, 4.0, 0.0)
         );
-        assert_eq!(o.chords(0.0, 1e-9), [[-2.0, -1.0], [1.0, 2.0]]);
-        assert_eq!(o.chords(1.5, 1e-9), [[-2.0, 2.0]]);
-        // The border belongs to the damage, whichever side it is on.
+        assert_eq!(o.clone().within(3.0).width().value(0.0), 1.0);
+        let moved = o.moved(1.0).within(4.0);
         assert_eq!(
-            (o.chords(2.0, 1e-9).len(), o.chords(-2.0, 1e-9).len()),
-            (1, 1)
+            (moved.width().value(0.0), moved.width().value(1.5)),
+            (1.0, 3.0)
         );
     }
 

@@ -2,6 +2,7 @@
 //!
 //! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no damage.
 
+use super::bands::Border;
 use super::course::Line;
 use super::grid::Grid;
 use super::outline::Outline;
@@ -130,12 +131,25 @@ impl Shape {
         })
     }
 
-    /// The same without what a roller of length L (m) does not reach.
-    pub fn within(self, length: f64) -> Self {
+    /// The same without what a roller of length L (m) does not reach, moved along z by `offset` (m). A shape that is a width alone stays
+    /// about z = 0: its defect keeps the offset.
+    pub fn placed(self, offset: f64, length: f64) -> Self {
         match self {
+            Self::DepthMap(grid) if offset != 0.0 => {
+                Self::DepthMap(grid.moved(offset).within(length))
+            }
             Self::DepthMap(grid) => Self::DepthMap(grid.within(length)),
+            Self::Outline(outline) if offset != 0.0 => {
+                Self::Outline(outline.moved(offset).within(length))
+            }
+            Self::Outline(outline) => Self::Outline(outline.within(length)),
             other => other,
         }
+    }
+
+    /// Whether the shape is a width alone, centred on z = 0 where nothing moves it.
+    pub fn is_width(&self) -> bool {
+        !matches!(self, Self::Outline(_) | Self::DepthMap(_))
     }
 
     /// First and last s of the damage, m.
@@ -204,29 +218,37 @@ impl Shape {
         }
     }
 
-    /// Depth along the line z = const as straight pieces (law `sliced`): widths alone are centred on z = 0, outlines and grids lie where they
-    /// lie. A border at z counts as damaged, `slack` (m) being the distance at which it lies on it.
-    pub(super) fn along(&self, z: f64, slack: f64, depth: f64) -> Vec<Line> {
-        let from_middle = z.abs();
-        let flat = |[from, to]: [f64; 2]| Line::flat(from, to, depth);
-        match self {
+    /// Borders between damage and none with the z at which they cross; a width alone is centred on z = `middle` (m). None for a depth map.
+    pub(super) fn borders(&self, middle: f64) -> (Vec<Border>, Vec<f64>) {
+        let upper: Vec<Border> = match self {
+            Self::Outline(outline) => return outline.borders(),
+            Self::DepthMap(_) => return (Vec::new(), Vec::new()),
             Self::Rectangle { half_length, width } => {
-                let damaged = *width > 0.0 && from_middle <= 0.5 * width + slack;
-                let line = flat([-half_length, *half_length]);
-                damaged.then_some(line).into_iter().collect()
+                joined([[-half_length, 0.5 * width], [*half_length, 0.5 * width]])
             }
-            Self::Circle { radius } => {
-                let half = (radius * radius - z * z).max(0.0).sqrt();
-                vec![flat([-half, half])]
-            }
-            Self::Profile(p) => p.along(from_middle, slack, depth),
-            Self::Li2023Irregular { scale } if *scale <= 0.0 => Vec::new(),
-            Self::Li2023Irregular { .. } => {
-                let wide = |s: f64| 0.5 * self.damaged_length(s) - from_middle + slack;
-                spans(self.arc(), wide).into_iter().map(flat).collect()
-            }
-            Self::Outline(outline) => outline.chords(z, slack).into_iter().map(flat).collect(),
-            Self::DepthMap(grid) => grid.along(z),
+            Self::Profile(p) => joined(p.half_widths()),
+            Self::Circle { radius } => [-1.0, 1.0]
+                .into_iter()
+                .filter_map(|side| Border::arc([0.0; 2], [*radius; 2], [side, 1.0], [0.0, *radius]))
+                .collect(),
+            Self::Li2023Irregular { scale } => li2023_borders(self.arc().0, *scale),
+        };
+        let lower = upper.iter().map(|b| b.mirrored());
+        let whole = upper.iter().copied().chain(lower);
+        (whole.map(|b| b.moved(middle)).collect(), Vec::new())
+    }
+
+    /// Whether every line z = const that meets the damage meets it from its first to its last s.
+    pub(super) fn is_straight(&self) -> bool {
+        matches!(self, Self::Rectangle { .. })
+    }
+
+    /// Whether the depth is another at another s.
+    pub(super) fn has_depths(&self) -> bool {
+        match self {
+            Self::Profile(p) => p.has_depths(),
+            Self::DepthMap(_) => true,
+            _ => false,
         }
     }
 
@@ -297,39 +319,53 @@ fn outline(polygons_mm: &[Vec<[f64; 2]>]) -> Option<Outline> {
     Outline::new(polygons_mm.iter().map(metres).collect())
 }
 
-/// Intervals on which f >= 0, their ends found by bisection; f may change sign at most once in each of many cells.
-fn spans((first, last): (f64, f64), f: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-    const CELLS: u32 = 8192;
-    let s = |k: u32| first + (last - first) * f64::from(k) / f64::from(CELLS);
-    let border = |mut inside: f64, mut outside: f64| {
-        while (outside - inside).abs() > 1e-15 {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                break;
+/// Borders of the half z >= 0 under points (s, half width), down to z = 0 at both ends.
+fn joined(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Border> {
+    let points: Vec<[f64; 2]> = points.into_iter().collect();
+    let ends = points
+        .first()
+        .map(|p| [p[0], 0.0])
+        .into_iter()
+        .chain(points.iter().copied())
+        .chain(points.last().map(|p| [p[0], 0.0]));
+    let all: Vec<[f64; 2]> = ends.collect();
+    all.windows(2)
+        .filter_map(|w| Border::straight(w[0], w[1]))
+        .collect()
+}
+
+/// Borders of the half z >= 0 of the paper's irregular shape, whose first s is `first` (m). The six arcs are printed to four digits and do not quite
+/// meet: straight borders join them.
+fn li2023_borders(first: f64, scale: f64) -> Vec<Border> {
+    const MM: f64 = 1e-3;
+    let mut start = first;
+    let mut borders = Vec::new();
+    let mut end = [first, 0.0];
+    for (index, length) in LI2023_ARCS_MM.into_iter().enumerate() {
+        let half = |share: f64| (MM * scale * li2023_half_width_mm(index, share)).max(0.0);
+        let [a, b] = [half(0.0), half(1.0)];
+        let to = start + MM * length;
+        borders.extend(Border::straight(end, [start, a]));
+        // Parts of circles, as wide as `scale` makes them: centre (s, z), radius, quadrant, z.
+        let mut arc = |center: [f64; 2], radius: f64, side: [f64; 2], z: [f64; 2]| {
+            let center = [start + MM * center[0], MM * scale * center[1]];
+            let radii = [MM * radius, MM * scale * radius];
+            borders.extend(Border::arc(center, radii, side, z));
+        };
+        match index {
+            0 => arc([-1.1589, 3.8284], 4.0, [1.0, -1.0], [a, b]),
+            3 => {
+                let top = half(0.5);
+                arc([0.7071, 1.0], 1.0, [-1.0, 1.0], [a, top]);
+                arc([0.7071, 1.0], 1.0, [1.0, 1.0], [b, top]);
             }
-            if f(middle) >= 0.0 {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
+            5 => arc([0.0, 0.0], 1.0, [1.0, 1.0], [b, a]),
+            _ => borders.extend(Border::straight([start, a], [to, b])),
         }
-        inside
-    };
-    let mut spans = Vec::new();
-    let mut open = (f(first) >= 0.0).then_some(first);
-    for k in 0..CELLS {
-        let (a, b) = (s(k), s(k + 1));
-        match (open, f(b) >= 0.0) {
-            (None, true) => open = Some(border(b, a)),
-            (Some(from), false) => {
-                spans.push([from, border(a, b)]);
-                open = None;
-            }
-            _ => {}
-        }
+        (start, end) = (to, [to, b]);
     }
-    spans.extend(open.map(|from| [from, last]));
-    spans
+    borders.extend(Border::straight(end, [start, 0.0]));
+    borders
 }
 
 #[cfg(test)]

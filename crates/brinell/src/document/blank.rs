@@ -87,6 +87,7 @@ pub(crate) fn defect() -> Defect {
         row: 0,
         center_deg: NONE,
         depth_um: NONE,
+        axial_offset_mm: NONE,
         shape: rectangle(),
     }
 }

@@ -138,6 +138,11 @@ pub(super) fn defect<K: Keys>(k: &mut K, load: [f64; 2], d: &mut Defect) {
         "h; depths of a profile or a depth map override it",
     );
     k.key(spec.from(0.0), depth, &mut d.depth_um);
+    k.key(
+        key("axial_offset_mm", "moves the shape along the axis, +z"),
+        stated(0.0, "z = 0 of the shape is the middle of the row"),
+        &mut d.axial_offset_mm,
+    );
 }
 
 fn shape<K: Keys>(k: &mut K, shape: &mut Shape) {

@@ -7,7 +7,7 @@ use super::problem::{Place, Problem, Severity};
 use super::provenance::{Origin, Provenance};
 use super::reader::Reader;
 use super::writer::{Style, Writer};
-use super::{blank, sections, source};
+use super::{blank, recorded, sections, source};
 use crate::scenario::{Scenario, Shape};
 
 /// A scenario that can run, and where its values come from.
@@ -30,6 +30,7 @@ pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Pr
     let root = source::parse(text, overrides)?;
     let mut scenario = blank::scenario();
     let mut reader = Reader::new(text, &root);
+    reader.read_recorded();
     sections::scenario(&mut reader, &mut scenario);
     reader.finish();
     let finder = Finder::new(&reader.found, &reader.provenance);
@@ -101,9 +102,14 @@ impl Loaded {
         });
     }
 
-    /// The scenario as TOML with every default filled in, each assumed value with its reason beside it.
+    /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the section `[provenance]`,
+    /// so that [`read`] says the same of it.
     pub fn to_toml(&self) -> String {
-        write(&self.scenario, Style::Resolved(by_key(&self.provenance)))
+        let style = Style::Resolved(by_key(&self.provenance));
+        let mut writer = Writer::new(style);
+        sections::scenario(&mut writer, &mut self.scenario.clone());
+        recorded::provenance(&mut writer, &mut recorded::of(&self.provenance));
+        writer.finish()
     }
 }
 

@@ -16,6 +16,7 @@ mod pointed;
 mod problem;
 mod provenance;
 mod reader;
+mod recorded;
 mod schema;
 mod sections;
 mod sensor;

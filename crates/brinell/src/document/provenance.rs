@@ -20,6 +20,8 @@ pub enum Origin {
     Derived(&'static str),
     /// Fixed default; says why.
     Default(&'static str),
+    /// A written scenario that says the value was assumed; why, in the words of its `[provenance]`.
+    Recorded(String),
 }
 
 /// Origin of one key's value.
@@ -54,6 +56,7 @@ impl Provenance {
             Origin::DamageFile(file) => format!("read from {file}"),
             Origin::Derived(how) => format!("derived: {how}"),
             Origin::Default(why) => format!("default: {why}"),
+            Origin::Recorded(reason) => reason.clone(),
         }
     }
 }

@@ -7,8 +7,9 @@ use super::leaf::{Leaf, Misfit};
 use super::nearest::nearest;
 use super::problem::{Place, Problem};
 use super::provenance::{Origin, Provenance};
+use super::recorded::{self, Assumed};
 use super::schema::known_keys;
-use super::source::{Entry, Node, Table, Value, quote};
+use super::source::{Entry, Node, Table, Value, override_value, quote};
 use crate::bearing::catalogue;
 
 /// Where a key of the scenario stands, and what it says there.
@@ -38,6 +39,8 @@ pub(crate) struct Reader<'a> {
     preset_unknown: bool,
     /// Section and name of every key there is, for hints on unknown ones.
     vocabulary: &'a [(String, String)],
+    /// What the file says was assumed when it was written.
+    recorded: HashMap<String, Assumed>,
     pub(crate) problems: Vec<Problem>,
     pub(crate) provenance: Vec<Provenance>,
     pub(crate) found: HashMap<String, Found>,
@@ -76,10 +79,20 @@ impl<'a> Reader<'a> {
             preset: None,
             preset_unknown: false,
             vocabulary,
+            recorded: HashMap::new(),
             problems: Vec::new(),
             provenance: Vec::new(),
             found: HashMap::new(),
         }
+    }
+
+    /// Reads which values were assumed when the file was written; the walk over the scenario's keys comes after.
+    pub(crate) fn read_recorded(&mut self) {
+        let mut list = None;
+        recorded::provenance(self, &mut list);
+        self.recorded = recorded::by_key(list);
+        // The list itself is no value of the run.
+        self.provenance.clear();
     }
 
     /// Ends the walk: what the file holds beyond the keys named is unknown.
@@ -224,11 +237,19 @@ impl<'a> Reader<'a> {
     fn read<T: Leaf>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
         match T::read(node, spec) {
             Ok(value) => {
-                let origin = match node.span {
-                    Some(_) => Origin::File,
-                    None => Origin::Override,
+                let recorded = || {
+                    let entry = self.recorded.get(path)?;
+                    let was = T::read(&override_value(&entry.value).ok()?, spec).ok()?;
+                    (was.write() == value.write()).then(|| entry.reason.clone())
                 };
-                self.record(path, spec, &value, origin, false);
+                let (origin, assumed) = match node.span {
+                    None => (Origin::Override, false),
+                    Some(_) => match recorded() {
+                        Some(reason) => (Origin::Recorded(reason), true),
+                        None => (Origin::File, false),
+                    },
+                };
+                self.record(path, spec, &value, origin, assumed);
                 Some(value)
             }
             Err(misfit) => {

@@ -6,7 +6,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::keys::{Fallback, Keys, Spec, Variant};
 use super::leaf::Leaf;
-use super::{blank, sections};
+use super::{blank, recorded, sections};
 
 #[derive(Default)]
 struct Object {
@@ -189,6 +189,7 @@ pub fn json_schema() -> Json {
         objects: vec![Object::default()],
     };
     sections::scenario(&mut walk, &mut blank::scenario());
+    recorded::provenance(&mut walk, &mut None);
     let root = walk.objects.pop().unwrap_or_default();
     let mut schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -206,6 +207,8 @@ pub(crate) fn known_keys() -> &'static [(String, String)] {
     static KEYS: LazyLock<Vec<(String, String)>> = LazyLock::new(|| {
         let mut keys = Vec::new();
         collect("", &json_schema(), &mut keys);
+        // Those of its entries are no hint for anything else.
+        keys.retain(|(section, _)| !section.starts_with(recorded::SECTION));
         keys
     });
     &KEYS

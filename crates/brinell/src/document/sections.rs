@@ -194,7 +194,7 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         Guidance::Rollers => stated(GuidanceFilm::Dynamic, "rollers guide: there is no film"),
         Guidance::OuterRing | Guidance::InnerRing => assumed(
             GuidanceFilm::Dynamic,
-            "whirl and squeeze count; the paper's, quasi-static, pumps the cage into a whirl",
+            "with whirl and squeeze, which the paper's quasi-static film leaves out",
         ),
     };
     k.key(

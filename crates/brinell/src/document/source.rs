@@ -305,7 +305,7 @@ fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>>
 }
 
 /// A TOML value; a bare word is a string.
-fn override_value(text: &str) -> Result<Node, String> {
+pub(crate) fn override_value(text: &str) -> Result<Node, String> {
     match DeValue::parse(text.trim()) {
         Ok(value) => Ok(Node::from_toml(&value, false)),
         Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => {

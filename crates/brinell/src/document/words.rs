@@ -27,7 +27,7 @@ words! { GuidanceFilm:
 
 words! { Law:
     Ecl = "ecl", "effective contact length";
-    Sliced = "sliced", "independent slices, each at its own depth";
+    Sliced = "sliced", "independent slices, each with what damage covers of it";
 }
 
 words! { RollerPath:

@@ -1,8 +1,10 @@
-//! Sums over long lists, with the widest instructions that the processor has.
+//! Sums over long lists, with the instructions of the process's kernel.
 
 use super::{Lanes, Portable, WIDTH};
+#[cfg(target_arch = "x86_64")]
+use crate::kernel::Kernel;
 
-/// Defines a function that runs `$body::<L, N>` compiled for the processor's instructions.
+/// Defines a function that runs `$body::<L, N>` compiled for the instructions of the process's kernel.
 macro_rules! dispatched {
     ($(#[$doc:meta])* $name:ident, $body:ident, ($($arg:ident: $type:ty),*) $(-> $out:ty)?) => {
         $(#[$doc])*
@@ -18,16 +20,12 @@ macro_rules! dispatched {
                 fn avx2<const N: usize>($($arg: $type),*) $(-> $out)? {
                     $body::<<Avx2 as Lanes>::Pair, N>($($arg),*)
                 }
-                if is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512vl")
-                {
-                    // SAFETY: the processor has these instructions.
-                    return unsafe { avx512::<N>($($arg),*) };
-                }
-                if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                match Kernel::in_use() {
+                    // SAFETY: the kernel in use is one that the processor has the instructions of.
+                    Kernel::Avx512 => return unsafe { avx512::<N>($($arg),*) },
                     // SAFETY: as above.
-                    return unsafe { avx2::<N>($($arg),*) };
+                    Kernel::Avx2 => return unsafe { avx2::<N>($($arg),*) },
+                    Kernel::Plain | Kernel::Portable => {}
                 }
             }
             $body::<Portable, N>($($arg),*)

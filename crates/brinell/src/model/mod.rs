@@ -12,12 +12,13 @@ mod momentum;
 mod motion;
 mod workspace;
 
+pub use crate::kernel::Kernel;
 pub use energy::{Energy, Power};
 pub use exposure::Exposure;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
-pub use workspace::{Kernel, Workspace};
+pub use workspace::Workspace;
 
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
@@ -25,6 +26,7 @@ use crate::contact::Hertz;
 use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
+use crate::kernel;
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
 use crate::scenario::{Guidance, GuidanceFilm, LoadOn, ModelKind, Scenario, Start};
@@ -151,6 +153,11 @@ impl Model {
     /// Where a value that the scenario's reader would have refused makes the model meaningless.
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
         check(s)?;
+        Kernel::chosen().map_err(|error| ModelError {
+            key: kernel::SETTING.into(),
+            value: format!("{:?}", error.value),
+            requirement: &error.requirement,
+        })?;
         let (b, c) = (&s.bearing, &s.cage);
         let half_mm = |diameter: f64| 0.5e-3 * diameter;
         let geometry = Geometry {

@@ -1,56 +1,8 @@
 //! What one evaluation of the equations of motion leaves behind: forces of every contact and the flows of energy.
 
 use super::{Model, Power};
+use crate::kernel::Kernel;
 use crate::lanes::{Column, WIDTH};
-
-/// How the equations of motion are computed. The kernels differ in round-off alone: [`Kernel::Plain`] and [`Kernel::Portable`] round every
-/// product on x86-64, the others fuse products with sums.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kernel {
-    /// One roller at a time, with the standard library's functions.
-    Plain,
-    /// Whatever the target always has: SSE2 on x86-64, NEON on 64-bit Arm.
-    Portable,
-    /// AVX2 and FMA.
-    Avx2,
-    /// AVX-512.
-    Avx512,
-}
-
-impl Kernel {
-    /// Every kernel.
-    pub const ALL: [Self; 4] = [Self::Plain, Self::Portable, Self::Avx2, Self::Avx512];
-
-    /// Whether this processor can run it.
-    pub fn is_there(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-            let avx512 = avx2
-                && is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512vl");
-            match self {
-                Self::Plain | Self::Portable => true,
-                Self::Avx2 => avx2,
-                Self::Avx512 => avx512,
-            }
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            matches!(self, Self::Plain | Self::Portable)
-        }
-    }
-
-    /// The widest that this processor can run.
-    pub fn fastest() -> Self {
-        Self::ALL
-            .into_iter()
-            .rev()
-            .find(|k| k.is_there())
-            .unwrap_or(Self::Portable)
-    }
-}
 
 /// Contact of one side, structure of arrays over slots.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -127,9 +79,9 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// For one model, with the fastest kernel that this processor has.
+    /// For one model, with the kernel of this process ([`Kernel::chosen`]).
     pub fn new(model: &Model) -> Self {
-        Self::with_kernel(model, Kernel::fastest())
+        Self::with_kernel(model, Kernel::in_use())
     }
 
     /// For one model and one kernel; the fastest where this processor lacks it.

@@ -3,6 +3,7 @@
 pub mod load_zone;
 pub mod motion;
 pub mod orbit;
+pub mod pass_rate;
 pub mod passes;
 pub mod slip;
 pub mod slip_course;
@@ -13,12 +14,14 @@ use crate::channel::Frame;
 use crate::scenario::{Defect, Scenario, Speed};
 use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, LineFrequency, LineSearch, Spectrogram, Spectrum, StreamSpectra,
+    Band, Blocks, EnvelopeSpectrum, Estimate, Interval, LineFrequency, LineSearch, Spectrogram,
+    Spectrum, StreamSpectra,
 };
 use crate::simulate::Simulation;
 use load_zone::LoadZone;
 use motion::Motion;
 use orbit::CageOrbit;
+use pass_rate::PassRates;
 use passes::Passes;
 use slip::Slip;
 use slip_course::SlipCourse;
@@ -69,6 +72,18 @@ pub struct DefectLine {
     pub nominal: f64,
     /// As found; `None` where none stands clear of the noise or the run is too short.
     pub found: Option<LineFrequency>,
+    /// 95 % interval of the mean frequency, slip's wander included; `None` where the run is too short to tell.
+    pub interval: Option<Interval>,
+}
+
+impl DefectLine {
+    /// The frequency found, Hz, with its interval.
+    pub fn estimate(&self) -> Option<Estimate> {
+        self.found.map(|found| Estimate {
+            value: found.frequency,
+            interval: self.interval,
+        })
+    }
 }
 
 /// Everything a run leaves.
@@ -102,6 +117,17 @@ pub struct Findings {
     pub envelope: Option<(EnvelopeSpectrum, Band)>,
     /// One a defect, at constant speed.
     pub lines: Vec<DefectLine>,
+    /// What had not settled when statistics began, at constant speed.
+    pub drifts: Vec<Drift>,
+}
+
+/// A quantity that was still on its way to its later value when statistics began.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drift {
+    /// Slip of the cage of a row, counted from 0: by how much more it was in the first fifth of the analysed time than in the last half.
+    CageSlip(usize, f64),
+    /// Of a channel: its RMS in the first fifth over that of the last half, less 1.
+    Level(String, f64),
 }
 
 /// Gathers [`Findings`] while a run goes; feed it the calls of [`crate::simulate::Observer`].
@@ -110,7 +136,12 @@ pub struct Watch {
     half_way: f64,
     ramp: f64,
     started: Option<f64>,
+    /// Of the inner ring, when statistics began, rad.
+    start_angle: f64,
+    /// Whole revolutions since then, by samples and by rows.
     turn: i64,
+    row_turn: i64,
+    constant_speed: bool,
     axis: usize,
     recorded: usize,
     channels: Vec<ChannelStatistics>,
@@ -120,6 +151,7 @@ pub struct Watch {
     cage_orbit: CageOrbit,
     motion: Motion,
     passes: Passes,
+    rates: PassRates,
     waveform: Waveform,
     spectrogram: TimeFrequency,
     spectra: StreamSpectra,
@@ -184,7 +216,10 @@ impl Watch {
             half_way: 0.5 * duration,
             ramp: model.load.ramp,
             started: None,
+            start_angle: 0.0,
             turn: 0,
+            row_turn: 0,
+            constant_speed: matches!(scenario.operation.speed_rpm, Speed::Constant(_)),
             axis: usize::from(load[1].abs() > load[0].abs()),
             recorded,
             channels,
@@ -194,6 +229,7 @@ impl Watch {
             cage_orbit: CageOrbit::new(model, duration, sample_rate),
             motion: Motion::new(model, duration, sample_rate),
             passes: Passes::new(model),
+            rates: PassRates::new(model),
             waveform: Waveform::new(),
             spectrogram: TimeFrequency::new(sample_rate, simulation.samples()),
             spectra: StreamSpectra::new(sample_rate, segment, band, &searches),
@@ -211,12 +247,18 @@ impl Watch {
     pub fn sample(&mut self, frame: &Frame) {
         if self.started.is_none() && has_settled(frame, self.half_way) {
             self.started = Some(frame.t);
-            self.turn = whole_turns(frame.model.rotation.at(frame.t).1);
+            self.start_angle = frame.model.rotation.at(frame.t).1;
+            self.rates.take(frame);
         }
         self.slip_course.take(frame, self.started.is_some());
         self.cage_orbit.take(frame);
         self.motion.take(frame);
         if self.started.is_some() {
+            let turn = whole_turns(frame.model.rotation.at(frame.t).1 - self.start_angle);
+            if turn != self.turn {
+                self.turn = turn;
+                self.rates.take(frame);
+            }
             self.load_zone.take(frame);
             self.slip.take(frame);
         }
@@ -231,9 +273,9 @@ impl Watch {
         if self.started.is_none_or(|from| t < from) {
             return;
         }
-        let turn = whole_turns(simulation.model().rotation.at(t).1);
-        let new_turn = turn != self.turn;
-        self.turn = turn;
+        let turn = whole_turns(simulation.model().rotation.at(t).1 - self.start_angle);
+        let new_turn = turn != self.row_turn;
+        self.row_turn = turn;
         let values = row.iter().chain(filtered);
         for (channel, value) in self.channels.iter_mut().zip(values) {
             if new_turn {
@@ -259,9 +301,11 @@ impl Watch {
                 || !names.contains(&c.name.as_str())
                 || !c.name.starts_with("measured_")
         });
+        let drifts = self.drifts();
         let spectra = self.spectra.finish();
         for (line, found) in self.lines.iter_mut().zip(spectra.lines) {
             line.found = found;
+            line.interval = found.and_then(|f| self.rates.interval(line.defect, &f));
         }
         Findings {
             from: self.started.unwrap_or(0.0),
@@ -278,9 +322,32 @@ impl Watch {
             spectrum: spectra.spectrum,
             envelope: spectra.envelope.map(|envelope| (envelope, self.band)),
             lines: self.lines,
+            drifts,
         }
     }
+
+    /// Of each cage, and of the measured acceleration along the load. A varying speed lets both drift by rights.
+    fn drifts(&self) -> Vec<Drift> {
+        if !self.constant_speed {
+            return Vec::new();
+        }
+        let rows = self.slip.rows.iter().enumerate();
+        let slips = rows.filter_map(|(row, slip)| Some(Drift::CageSlip(row, slip.cage_drift()?)));
+        let measured = format!("measured_a{}", ["x", "y"][self.axis]);
+        let level = self.channels.iter().find(|c| c.name == measured);
+        let level = level.and_then(|c| {
+            let ratio = (0.5 * c.blocks.level_drift()?).exp() - 1.0;
+            (ratio.abs() > LEAST_LEVEL_DRIFT).then_some(Drift::Level(c.name.clone(), ratio))
+        });
+        let slips =
+            slips.filter(|d| !matches!(d, Drift::CageSlip(_, by) if by.abs() < LEAST_SLIP_DRIFT));
+        slips.chain(level).collect()
+    }
 }
+
+/// Changes that are smaller mislead nobody.
+const LEAST_SLIP_DRIFT: f64 = 1e-3;
+const LEAST_LEVEL_DRIFT: f64 = 0.02;
 
 /// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way` (s) is reached.
 pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
@@ -306,6 +373,7 @@ fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine>
             name,
             nominal,
             found: None,
+            interval: None,
         }
     };
     scenario.defects.iter().enumerate().map(line).collect()

@@ -4,61 +4,66 @@ use crate::channel::Frame;
 use crate::defect::Side;
 use crate::model::Layout;
 use crate::scenario::ModelKind;
-
-/// A running mean.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Mean {
-    sum: f64,
-    count: u64,
-}
-
-impl Mean {
-    fn push(&mut self, x: f64) {
-        self.sum += x;
-        self.count += 1;
-    }
-
-    fn value(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.sum / self.count as f64)
-    }
-}
+use crate::signal::{Averages, Estimate};
+use std::f64::consts::TAU;
 
 /// Slip of one row, as fractions.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct RowSlip {
-    cage: Mean,
-    loaded_orbit: Mean,
-    loaded_surface: Mean,
-    unloaded_orbit: Mean,
+    cage: Averages,
+    loaded_orbit: Averages,
+    loaded_surface: Averages,
+    unloaded_orbit: Averages,
 }
 
 impl RowSlip {
+    fn end_revolution(&mut self) {
+        let RowSlip {
+            cage,
+            loaded_orbit,
+            loaded_surface,
+            unloaded_orbit,
+        } = self;
+        for averages in [cage, loaded_orbit, loaded_surface, unloaded_orbit] {
+            averages.end_block();
+        }
+    }
+
+    /// By how much the cage's slip was larger when statistics began than later, where that is more than its scatter explains.
+    pub fn cage_drift(&self) -> Option<f64> {
+        self.cage.drift()
+    }
+
     /// 1 - cage speed / its pure-rolling speed.
-    pub fn cage(&self) -> Option<f64> {
-        self.cage.value()
+    pub fn cage(&self) -> Option<Estimate> {
+        self.cage.estimate()
     }
 
     /// 1 - orbit speed / its pure-rolling speed, of rollers that the inner raceway presses.
-    pub fn loaded_orbit(&self) -> Option<f64> {
-        self.loaded_orbit.value()
+    pub fn loaded_orbit(&self) -> Option<Estimate> {
+        self.loaded_orbit.estimate()
     }
 
     /// |slip| at the inner contact / speed of the inner raceway's surface, of the same rollers.
-    pub fn loaded_surface(&self) -> Option<f64> {
-        self.loaded_surface.value()
+    pub fn loaded_surface(&self) -> Option<Estimate> {
+        self.loaded_surface.estimate()
     }
 
     /// 1 - orbit speed / its pure-rolling speed, of the other rollers.
-    pub fn unloaded_orbit(&self) -> Option<f64> {
-        self.unloaded_orbit.value()
+    pub fn unloaded_orbit(&self) -> Option<Estimate> {
+        self.unloaded_orbit.estimate()
     }
 }
 
 /// Slip of every row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Slip {
     /// One a row; empty means for the reference model, whose motion is kinematic.
     pub rows: Vec<RowSlip>,
+    /// Of the inner ring at the first instant, rad.
+    start_angle: Option<f64>,
+    /// Whole revolutions since then.
+    turn: i64,
 }
 
 impl Slip {
@@ -66,14 +71,22 @@ impl Slip {
     pub fn new(layout: &Layout) -> Self {
         Self {
             rows: vec![RowSlip::default(); layout.rows],
+            start_angle: None,
+            turn: 0,
         }
     }
 
     /// Takes one instant; skipped while the ring stands still.
     pub fn take(&mut self, f: &Frame) {
-        let (w, _) = f.model.rotation.at(f.t);
+        let (w, angle) = f.model.rotation.at(f.t);
         if f.model.kind == ModelKind::Reference || w == 0.0 {
             return;
+        }
+        let start = *self.start_angle.get_or_insert(angle);
+        let turn = ((angle - start) / TAU).floor() as i64;
+        if turn != self.turn {
+            self.turn = turn;
+            self.rows.iter_mut().for_each(RowSlip::end_revolution);
         }
         let l = &f.model.layout;
         let dof = l.dof();

@@ -220,11 +220,9 @@ mod tests {
         Number {
             value: center,
             interval: Some(Interval {
-                center,
                 low: 0.98 * center,
                 high: 1.02 * center,
-                blocks: 30,
-                periods_per_block: 1,
+                freedom: 29,
             }),
         }
     }

@@ -3,13 +3,20 @@
 use super::reading::{Reading, Record};
 use crate::campaign::{Row, Spread};
 use crate::observe::passes::PassPoint;
-use crate::signal::Interval;
+use crate::signal::{Estimate, Interval};
 use std::collections::BTreeMap;
+
+/// Of a number that scatters, in a run too short to say how much: it decides nothing.
+const UNKNOWN: Interval = Interval {
+    low: f64::NEG_INFINITY,
+    high: f64::INFINITY,
+    freedom: 1,
+};
 
 /// One number with what is known of its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
-    /// The mean over blocks where there is an interval, or else the value.
+    /// The value.
     pub value: f64,
     /// Its 95 % interval.
     pub interval: Option<Interval>,
@@ -37,29 +44,17 @@ impl Numbers {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
-    /// Adds everything of a finished run. Degrees of freedom are those of its blocks, also where there were more instants than blocks.
+    /// Adds everything of a finished run.
     pub fn add(&mut self, case: &str, row: &Row) {
-        let count = |name: &str| row.quantity(name).and_then(|q| q.value).unwrap_or(0.0);
-        let (blocks, turns) = (count("blocks") as usize, count("turns_per_block") as u64);
         for quantity in row.result.as_deref().unwrap_or(&[]) {
-            let number = match (quantity.spread, quantity.value) {
-                (Spread::Interval(low, high), Some(_)) => {
-                    let center = 0.5 * (low + high);
-                    Number {
-                        value: center,
-                        interval: Some(Interval {
-                            center,
-                            low,
-                            high,
-                            blocks,
-                            periods_per_block: turns,
-                        }),
-                    }
-                }
-                (_, Some(value)) => Number::exact(value),
-                (_, None) => continue,
+            let Some(Estimate { value, interval }) = quantity.estimate() else {
+                continue;
             };
-            self.insert(case, &quantity.name, number);
+            let interval = match quantity.spread {
+                Spread::Unknown => Some(UNKNOWN),
+                _ => interval,
+            };
+            self.insert(case, &quantity.name, Number { value, interval });
         }
     }
 
@@ -118,6 +113,7 @@ pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::verdict::{Verdict, greater, over};
     use super::*;
     use crate::campaign::Quantity;
 
@@ -156,37 +152,44 @@ mod tests {
             value,
             spread,
         };
+        let interval = Interval {
+            low: 2.0,
+            high: 4.0,
+            freedom: 8,
+        };
         let row = Row {
             settings: vec![],
             scenario: String::new(),
             version: String::new(),
             result: Ok(vec![
-                quantity("outer_ax.rms", Some(3.3), Spread::Interval(2.0, 4.0)),
-                quantity("measured_ax.rms", Some(2.0), Spread::Interval(1.0, 2.0)),
-                quantity("inner_ax.rms", Some(1.5), Spread::Interval(1.0, 2.0)),
+                quantity("outer_ax.rms", Some(3.3), Spread::Interval(interval)),
+                quantity("measured_ax.rms", Some(2.0), Spread::Interval(interval)),
+                quantity("inner_ax.rms", Some(1.5), Spread::Interval(interval)),
                 quantity("measured_ax.first_285ms.rms", Some(30.0), Spread::Without),
                 quantity("outer_ax.first_285ms.rms", Some(40.0), Spread::Without),
                 quantity("none", None, Spread::Unknown),
-                quantity("blocks", Some(12.0), Spread::Without),
-                quantity("turns_per_block", Some(2.0), Spread::Without),
+                quantity("short", Some(5.0), Spread::Unknown),
+                quantity("turns", Some(12.0), Spread::Without),
             ]),
         };
         let mut numbers = Numbers::default();
         numbers.add("a", &row);
         let rms = numbers.get("a", "outer_ax.rms").unwrap();
-        let interval = rms.interval.unwrap();
-        assert_eq!(
-            (rms.value, interval.blocks, interval.periods_per_block),
-            (3.0, 12, 2)
-        );
+        assert_eq!((rms.value, rms.interval), (3.3, Some(interval)));
         assert_eq!(numbers.get("a", "none"), None);
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
-        assert_eq!(numbers.get("a", "blocks"), Some(Number::exact(12.0)));
+        // Too short a run decides nothing, whatever it is held against.
+        let short = numbers.get("a", "short").unwrap();
+        for other in [short, rms, Number::exact(1.0)] {
+            assert_eq!(greater(over(short, other)), Verdict::Undecided);
+            assert_eq!(greater(over(other, short)), Verdict::Undecided);
+        }
+        assert_eq!(numbers.get("a", "turns"), Some(Number::exact(12.0)));
         let usual = Reading::USUAL;
         let read =
             |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
-        assert_eq!(read(usual, "outer_ax.rms"), Some(3.0));
-        assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(1.5));
+        assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));
+        assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(2.0));
         assert_eq!(read(usual.from_start(285), "outer_ax.rms"), Some(40.0));
         assert_eq!(
             read(usual.from_start(285).behind_filter(), "outer_ax.rms"),

@@ -1,6 +1,6 @@
 //! How numbers with intervals decide a statement. A number without an interval is exact: it is read off a shape, not off a signal.
 //!
-//! - a > b: by the 95 % interval of the ratio of the block means ([`crate::signal::ratio`]); decided where it excludes equality.
+//! - a > b: by the 95 % interval of the ratio ([`crate::signal::ratio`]); decided where it excludes equality.
 //! - near: decided where the interval lies wholly inside, or wholly outside, the stated bounds.
 //! - trends: by the ratios of neighbours. A step whose interval includes equality may go either way; the trend holds where it holds
 //!   whichever way such steps go, fails where it fails whichever way they go, and is undecided otherwise.
@@ -8,6 +8,7 @@
 //! Each interval is at 95 % by itself: of twenty true equalities one is expected to look decided.
 
 use super::numbers::Number;
+use crate::signal::Estimate;
 use crate::signal::ratio::{Ratio, ratio};
 
 /// What came out.
@@ -63,14 +64,17 @@ impl Verdict {
     }
 }
 
-/// The ratio of two numbers; `None` where one is not positive, or blocks of one stand for more turns than those of the other.
+/// The ratio of two numbers; `None` where one is not positive.
 pub fn over(of: Number, to: Number) -> Option<Ratio> {
     let scaled = |number: Number, by: f64| {
         let (low, high) = number.interval.map(|i| (i.low * by, i.high * by))?;
         Some((low.min(high), low.max(high)))
     };
     match (&of.interval, &to.interval) {
-        (Some(a), Some(b)) => ratio(a, b),
+        (Some(_), Some(_)) => {
+            let estimate = |Number { value, interval }| Estimate { value, interval };
+            ratio(&estimate(of), &estimate(to))
+        }
         _ if !(of.value > 0.0 && to.value > 0.0) => None,
         (Some(_), None) => Some(Ratio {
             value: of.value / to.value,
@@ -173,11 +177,9 @@ mod tests {
         Number {
             value,
             interval: Some(Interval {
-                center: value,
                 low: value - half,
                 high: value + half,
-                blocks: 20,
-                periods_per_block: 1,
+                freedom: 19,
             }),
         }
     }
@@ -221,7 +223,8 @@ mod tests {
             .unwrap()
             .interval
             .unwrap();
-        let half = t(38) / t(19) * 0.05 * 2.0_f64.sqrt();
+        let log_half = 0.5 * (2.1_f64 / 1.9).ln();
+        let half = t(38) / t(19) * log_half * 2.0_f64.sqrt();
         assert!((low - 2.0 * (-half).exp()).abs() < 1e-9);
         assert!((high - 2.0 * half.exp()).abs() < 1e-9);
     }

@@ -274,6 +274,8 @@ pub struct Defect {
     pub center_deg: f64,
     /// h, um; the depths of a profile or a depth map override it.
     pub depth_um: f64,
+    /// Moves the shape along +Z, mm; 0: z = 0 of the shape is the middle of the row.
+    pub axial_offset_mm: f64,
     /// Outline.
     pub shape: Shape,
 }

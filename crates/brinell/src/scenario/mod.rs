@@ -123,7 +123,7 @@ pub struct Cage {
 pub enum Law {
     /// Effective contact length (the paper, made continuous).
     Ecl,
-    /// Independent slices across the roller, each at its own depth (in the manner of ISO/TS 16281).
+    /// Independent slices across the roller, each with the fraction that damage covers and its mean depth (in the manner of ISO/TS 16281).
     Sliced,
 }
 

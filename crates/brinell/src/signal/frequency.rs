@@ -52,6 +52,11 @@ const NOISE_FLOOR: f64 = 1e-9;
 const PLACES_PER_BIN: f64 = 3.0;
 /// What interpolation adds to the uncertainty, in bins of the highest harmonic that counts.
 const INTERPOLATION_ERROR: f64 = 1e-3;
+/// A slow wander f(t) of the rate moves the maximum by the integral of v(t) f(t), where v(t) is proportional to the integral of n w(n) from t to the
+/// segment's end, and of integral 1: the phase's regression on time under the window. With the segment as the unit of time and Hann's window,
+/// the integral of v^2, and that of v(t) v(t + 1/2).
+const HANN_SQUARE: f64 = 1.684_784;
+const HANN_OVERLAP: f64 = 0.165_977;
 /// A comb that noise alone would show more often than this is not reported.
 const FALSE_ALARM_LIMIT: f64 = 1e-4;
 
@@ -92,6 +97,11 @@ pub struct LineFrequency {
     /// the impacts cause; slow wander of the rate within the segment is not in it. From three segments on, the
     /// observed spread of their estimates instead, wander included.
     pub uncertainty: f64,
+    /// The part of the uncertainty that noise and independent timing errors cause, Hz; slow wander of the rate is not in it.
+    pub noise: f64,
+    /// Time over which a slow wander of the rate is averaged, s: where the rate has spectral density S at frequency zero (two-sided), the
+    /// frequency scatters by sqrt(S / span). Hann's window makes it shorter than the record.
+    pub span: f64,
     /// Distance at which two trains of impacts would show two fundamentals, Hz: two bins of the segment.
     pub resolution: f64,
     /// Harmonics used.
@@ -150,16 +160,20 @@ impl LineAverage {
             return Some(latest);
         }
         let n = count as f64;
-        let variance = if count >= 3 {
-            self.frequencies.standard_deviation().powi(2) * n / (n - 1.0)
+        let interpolation = INTERPOLATION_ERROR * 0.5 * latest.resolution;
+        let of_mean = |variance: f64| (variance / (0.5 * (n + 1.0))).sqrt().hypot(interpolation);
+        let noise = of_mean(self.sum_of_variances / n);
+        let uncertainty = if count >= 3 {
+            of_mean(self.frequencies.standard_deviation().powi(2) * n / (n - 1.0))
         } else {
-            self.sum_of_variances / n
+            noise
         };
         Some(LineFrequency {
             frequency: self.frequencies.mean(),
-            uncertainty: (variance / (0.5 * (n + 1.0)))
-                .sqrt()
-                .hypot(INTERPOLATION_ERROR * 0.5 * latest.resolution),
+            uncertainty,
+            noise,
+            span: latest.span * HANN_SQUARE * n * n
+                / (n * HANN_SQUARE + 2.0 * (n - 1.0) * HANN_OVERLAP),
             false_alarm: self.worst_false_alarm,
             segments: count as usize,
             ..latest
@@ -280,6 +294,8 @@ impl Comb {
         Some(LineFrequency {
             frequency,
             uncertainty,
+            noise: uncertainty,
+            span: self.length as f64 / self.fs / HANN_SQUARE,
             resolution: self.resolution(),
             harmonics: self.noise.len(),
             false_alarm,

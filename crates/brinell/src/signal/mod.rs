@@ -1,7 +1,7 @@
 //! Signals: what a data logger would hold, and what an analyst reads off it.
 //!
-//! Following a run, sample by sample: [`mod@decimate`] is the anti-alias chain of the measured channels, [`indicators`]
-//! the condition indicators with their scatter, [`mod@ratio`] how those of two runs compare, and [`stream`] the spectra: [`spectrum`] amplitudes and
+//! Following a run, sample by sample: [`mod@decimate`] is the anti-alias chain of the measured channels, [`blocks`]
+//! the condition [`indicators`] with their intervals, which rest on [`mod@scatter`], [`mod@ratio`] how those of two runs compare, and [`stream`] the spectra: [`spectrum`] amplitudes and
 //! power spectral densities, [`mod@envelope`] the envelope's, and [`frequency`] the precise repetition frequency of a train of impacts.
 //! These hold a bounded amount of memory, however long the run is; nothing is allocated per sample.
 //!
@@ -16,6 +16,7 @@
 //! written "unit". Results do not depend on the number of threads: there is only one. The FFT chooses its instructions by processor, so between processors spectra may differ in the last
 //! bits; decimated channels and indicators use plain arithmetic and do not.
 
+pub mod blocks;
 pub mod decimate;
 pub mod diagnosis;
 pub mod distribution;
@@ -34,6 +35,8 @@ pub mod lines;
 pub mod order;
 pub mod psd;
 pub mod ratio;
+pub mod scatter;
+pub mod series;
 pub mod spectrogram;
 pub mod spectrum;
 pub mod stream;
@@ -45,6 +48,7 @@ pub mod window;
 #[cfg(test)]
 pub(crate) mod test_signals;
 
+pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
 pub use diagnosis::{
     Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose, diagnose_beside,
@@ -58,12 +62,14 @@ pub use error::SignalError;
 pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, line_frequency};
-pub use indicators::{Blocks, Estimate, Indicator, Interval, Moments, student_t_quantile};
+pub use indicators::{Indicator, Moments};
 pub use integrate::{velocity, velocity_trapezoid};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, LineSet, harmonics, sidebands};
 pub use order::{Angular, Rotation, order_spectrum, resample};
 pub use psd::{Detrend, Segments, density_interval, psd};
+pub use scatter::{Scatter, scatter, student_t_quantile};
+pub use series::{Averages, MOST_BLOCKS};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
 pub use stream::{Spectra, StreamSpectra};

@@ -1,81 +1,84 @@
-//! The ratio of one indicator in two runs, with the interval that follows from the scatter of their blocks.
+//! The ratio of one quantity in two runs, with the interval that follows from the intervals of both.
 //!
-//! With block means a and b, their standard errors s_a and s_b from n_a and n_b blocks, and r = a / b:
+//! With values a and b, r = a / b, standard errors s_a and s_b of their logarithms with nu_a and nu_b degrees of freedom:
 //!
 //! ```text
-//! ln r +- t(0.975, nu) sqrt(u_a + u_b),   u = (s / mean)^2,   nu = (u_a + u_b)^2 / (u_a^2 / (n_a - 1) + u_b^2 / (n_b - 1))
+//! ln r +- t(0.975, nu) sqrt(u_a + u_b),   u = s^2,   nu = (u_a + u_b)^2 / (u_a^2 / nu_a + u_b^2 / nu_b)
 //! ```
 //!
-//! The variance of a logarithm to first order, and Welch and Satterthwaite's degrees of freedom, rounded down. It supposes positive
-//! indicators, runs that scatter independently, and relative standard errors that are small: beyond [`LARGEST_ERROR`] the first order no
-//! longer holds, and there is no interval. Runs that begin alike go alike for a while; that makes the true scatter of the ratio smaller, so
-//! the interval errs on the wide side. A ratio of extremes asks for blocks of one length: where the blocks stand for different numbers of
-//! turns, there is no ratio.
+//! Degrees of freedom are those of Welch and Satterthwaite, rounded down. s is half the width of the 95 % interval on a logarithmic scale
+//! over Student's t; an interval that reaches zero says nothing of the logarithm, and then the ratio has none. It supposes runs that
+//! scatter independently. Runs that begin alike go alike for a while; that makes the true scatter of the ratio smaller, so
+//! the interval errs on the wide side.
 
-use super::indicators::{Interval, student_t_quantile};
+use super::blocks::{Estimate, Interval};
+use super::scatter::student_t_quantile;
 
-/// Largest relative standard error of a mean for which a ratio has an interval.
-pub const LARGEST_ERROR: f64 = 0.25;
-
-/// How one run's indicator stands to another's.
+/// How one run's quantity stands to another's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ratio {
-    /// Ratio of the means over blocks.
+    /// Ratio of the values.
     pub value: f64,
-    /// Its 95 % interval; `None` where a mean is too uncertain for one.
+    /// Its 95 % interval; `None` where a value has none, or one that reaches zero.
     pub interval: Option<(f64, f64)>,
 }
 
-/// The mean over blocks behind `of` over that behind `to`; `None` where one is not positive, or the blocks differ in length.
-pub fn ratio(of: &Interval, to: &Interval) -> Option<Ratio> {
-    let sound = of.center > 0.0 && to.center > 0.0;
-    if !sound || of.periods_per_block != to.periods_per_block {
+/// The value of `of` over that of `to`; `None` where one is not positive.
+pub fn ratio(of: &Estimate, to: &Estimate) -> Option<Ratio> {
+    if !(of.value > 0.0 && to.value > 0.0) {
         return None;
     }
-    let value = of.center / to.center;
-    let ([a, m], [b, n]) = (relative_variance(of)?, relative_variance(to)?);
-    let limit = LARGEST_ERROR * LARGEST_ERROR;
-    let half = if a + b == 0.0 {
-        0.0
-    } else {
-        let freedom = (a + b).powi(2) / (a * a / m + b * b / n);
-        student_t_quantile(0.975, freedom.floor().max(1.0) as u32) * (a + b).sqrt()
-    };
-    let interval = (a <= limit && b <= limit).then(|| (value * (-half).exp(), value * half.exp()));
-    Some(Ratio { value, interval })
+    let value = of.value / to.value;
+    Some(Ratio {
+        value,
+        interval: half_width(of, to).map(|half| (value * (-half).exp(), value * half.exp())),
+    })
 }
 
-/// Variance of the mean over its square, and the degrees of freedom that it has.
-fn relative_variance(interval: &Interval) -> Option<[f64; 2]> {
-    let freedom = interval.blocks.checked_sub(1).filter(|f| *f > 0)?;
-    let quantile = student_t_quantile(0.975, freedom as u32);
-    let error = 0.5 * (interval.high - interval.low) / quantile;
-    Some([(error / interval.center).powi(2), freedom as f64])
+/// Half the interval of ln r.
+fn half_width(of: &Estimate, to: &Estimate) -> Option<f64> {
+    let (a, m) = variance(&of.interval?)?;
+    let (b, n) = variance(&to.interval?)?;
+    if a + b == 0.0 {
+        return Some(0.0);
+    }
+    let freedom = (a + b).powi(2) / (a * a / m + b * b / n);
+    Some(student_t_quantile(0.975, freedom.floor().max(1.0) as u32) * (a + b).sqrt())
+}
+
+/// Variance of the logarithm, and the degrees of freedom that it has.
+fn variance(interval: &Interval) -> Option<(f64, f64)> {
+    (interval.low > 0.0).then(|| {
+        let quantile = student_t_quantile(0.975, interval.freedom);
+        let error = 0.5 * (interval.high / interval.low).ln() / quantile;
+        (error * error, f64::from(interval.freedom))
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::indicators::{Blocks, Indicator};
+    use super::super::blocks::Blocks;
+    use super::super::indicators::Indicator;
     use super::super::test_signals::Noise;
     use super::*;
 
-    fn interval(noise: &mut Noise, blocks: usize, scale: f64) -> Interval {
+    fn estimate(noise: &mut Noise, blocks: usize, scale: f64) -> Estimate {
         let mut all = Blocks::new();
         for _ in 0..blocks {
             (0..40).for_each(|_| all.push(scale * noise.normal()));
             all.end_block();
         }
-        all.estimate(Indicator::Rms).unwrap().interval.unwrap()
+        all.estimate(Indicator::Rms).unwrap()
     }
 
     #[test]
     fn analytic_interval_of_a_ratio_covers_the_truth_95_times_in_100() {
-        // RMS of white noise of two sizes in unequal numbers of blocks: the ratio is 2.5, as both blocks' RMS share their bias.
+        // RMS of white noise of two sizes in unequal numbers of blocks.
         let mut noise = Noise::new(11);
-        for (m, n) in [(15, 15), (6, 30), (4, 4)] {
+        for (m, n) in [(15, 15), (12, 30), (40, 60)] {
             let (mut covered, trials) = (0, 2000);
             for _ in 0..trials {
-                let (a, b) = (interval(&mut noise, m, 2.5), interval(&mut noise, n, 1.0));
+                let (a, b) = (estimate(&mut noise, m, 2.5), estimate(&mut noise, n, 1.0));
                 let (low, high) = ratio(&a, &b).unwrap().interval.unwrap();
                 covered += usize::from(low <= 2.5 && 2.5 <= high);
             }
@@ -91,45 +94,32 @@ mod tests {
     #[test]
     fn analytic_a_run_over_itself_and_the_inverse() {
         let mut noise = Noise::new(12);
-        let (a, b) = (interval(&mut noise, 9, 3.0), interval(&mut noise, 12, 1.0));
+        let (a, b) = (estimate(&mut noise, 9, 3.0), estimate(&mut noise, 12, 1.0));
         let (there, back) = (ratio(&a, &b).unwrap(), ratio(&b, &a).unwrap());
         assert!((there.value * back.value - 1.0).abs() < 1e-14);
         let ((l, h), (bl, bh)) = (there.interval.unwrap(), back.interval.unwrap());
         assert!((l * bh - 1.0).abs() < 1e-12 && (h * bl - 1.0).abs() < 1e-12);
         assert_eq!(ratio(&a, &a).unwrap().value, 1.0);
+        // The ratio of the values that are printed.
+        assert_eq!(there.value, a.value / b.value);
     }
 
     #[test]
-    fn prop_what_has_no_ratio() {
-        let sound = Interval {
-            center: 2.0,
-            low: 1.8,
-            high: 2.2,
-            blocks: 10,
-            periods_per_block: 1,
+    fn prop_what_has_no_ratio_or_no_interval() {
+        let of = |value: f64, low: f64, high: f64| Estimate {
+            value,
+            interval: Some(Interval {
+                low,
+                high,
+                freedom: 9,
+            }),
         };
-        let other = |change: fn(&mut Interval)| {
-            let mut other = sound;
-            change(&mut other);
-            ratio(&sound, &other)
-        };
-        assert_eq!(other(|i| i.center = 0.0), None);
-        assert_eq!(other(|i| i.center = -1.0), None);
-        assert_eq!(other(|i| i.periods_per_block = 2), None);
-        let wide = other(|i| (i.low, i.high) = (-3.0, 7.0)).unwrap();
+        let sound = of(2.0, 1.8, 2.2);
+        assert_eq!(ratio(&sound, &of(0.0, 0.0, 0.0)), None);
+        assert_eq!(ratio(&sound, &of(-1.0, -2.0, 1.0)), None);
+        let wide = ratio(&sound, &of(2.0, -3.0, 7.0)).unwrap();
         assert_eq!((wide.value, wide.interval), (1.0, None));
-        let exact = ratio(
-            &Interval {
-                low: 2.0,
-                high: 2.0,
-                ..sound
-            },
-            &Interval {
-                low: 2.0,
-                high: 2.0,
-                ..sound
-            },
-        );
-        assert_eq!(exact.unwrap().interval, Some((1.0, 1.0)));
+        let exact = of(2.0, 2.0, 2.0);
+        assert_eq!(ratio(&exact, &exact).unwrap().interval, Some((1.0, 1.0)));
     }
 }

@@ -89,7 +89,6 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, nan], [0, 1]] } }", "defects.0.shape.outline.points_mm", "not a finite number", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 0]] } }", "defects.0.shape.outline.points_mm", "fewer than three different corners", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 1], [2, 2]] } }", "defects.0.shape.outline.points_mm", "on one line", ""),
-        ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 1], [1, 0], [0, 1]] } }", "defects.0.shape.outline.points_mm", "crosses itself at s = 0.5 mm, z = 0.5 mm", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1, 0], [0, 4]] } }", "defects.0.shape.outline.points_mm", "off the raceway's edge", "-3 to 3 mm"),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [1000, 0], [0, 4000]] } }", "defects.0.shape.outline.points_mm", "um instead of mm", ""),
         ("shape", "shape = { outline = { points_mm = [[0, 0], [90, 0], [0, 1]] } }", "defects.0.shape.outline", "past a full circle", "-86.39 to 86.39 mm"),
@@ -309,6 +308,7 @@ fn analytic_sample_rate_is_held_against_the_defect_frequencies() {
 fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
     let outline = |points: &str| format!("{{ outline = {{ polygons_mm = {points} }} }}");
     let crossing = outline("[[[-1,-1],[1,-1],[1,1],[-1,1]],[[0,0],[2,0],[2,2],[0,2]]]");
+    let bow = outline("[[[0,0],[1,1],[1,0],[0,1]]]");
     let map = "{ depth_map = { ds_mm = 1, dz_mm = 1, columns = 3, rows = 12, depth_um = [REST] } }"
         .replace("REST", &["5"; 36].join(", "));
     let second = "{ on = \"outer-raceway\", depth_um = 5, center_deg = 1, shape = { circle = { diameter_mm = 2 } } }";
@@ -326,6 +326,18 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "what lies beyond is left out",
         ),
         ("defects.1", second, "defects.1", "overlaps defects.0"),
+        (
+            "defects.0.shape",
+            bow.as_str(),
+            "defects.0.shape.outline.polygons_mm",
+            "crosses itself at s = 0.5 mm, z = 0.5 mm",
+        ),
+        (
+            "defects.0.axial_offset_mm",
+            "2.5",
+            "defects.0.axial_offset_mm",
+            "what lies beyond is left out",
+        ),
     ] {
         let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));
         let warning = problem_of(&loaded.warnings, at);

@@ -3,6 +3,7 @@
 mod bad_input;
 mod defaults;
 mod json;
+mod recorded;
 mod robust;
 
 use brinell::document::{Loaded, Problem, read};

@@ -232,6 +232,7 @@ fn defects() -> impl Strategy<Value = Vec<Defect>> {
             -0.0
         },
         depth_um,
+        axial_offset_mm: 0.25,
         shape,
     });
     prop::collection::vec(defect, 0..4)

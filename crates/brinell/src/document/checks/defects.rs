@@ -14,8 +14,8 @@ impl Checker<'_> {
             self.width(i, defect);
             match &defect.shape {
                 Shape::Profile { .. } => self.profile(i, defect),
-                Shape::Outline { polygons_mm } => self.outline(i, "outline", polygons_mm),
-                Shape::DepthMap { grid } => self.depth_map(i, grid),
+                Shape::Outline { polygons_mm } => self.outline(i, defect, "outline", polygons_mm),
+                Shape::DepthMap { grid } => self.depth_map(i, defect, grid),
                 Shape::Grown { .. } => self.grown(i, defect),
                 Shape::Scan(scan) => self.scan(i, scan),
                 _ => {}
@@ -77,6 +77,14 @@ impl Checker<'_> {
                 ),
                 format!("<= {}", short(length)),
                 &[LENGTH],
+            );
+        } else if defect.axial_offset_mm != 0.0 {
+            let half = 0.5e-3 * width;
+            self.on_raceway(
+                i,
+                defect,
+                &format!("defects.{i}.shape.{key}"),
+                (-half, half),
             );
         }
     }

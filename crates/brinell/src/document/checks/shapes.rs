@@ -7,7 +7,7 @@ use crate::scenario::{
 };
 
 const LENGTH: &str = "bearing.roller_length_mm";
-/// Pieces that the slices of one depth map may take: 160 MB, and as much again along an envelope.
+/// Pieces that the slices of one depth map may take at a point: 400 MB; along an envelope twice as much.
 const MOST_PIECES: f64 = 5e6;
 /// A corner less than this beyond the roller's end, mm, is round-off.
 const EDGE_SLACK: f64 = 1e-6;
@@ -60,7 +60,13 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn outline(&mut self, i: usize, shape: &str, polygons: &[Vec<[f64; 2]>]) {
+    pub(super) fn outline(
+        &mut self,
+        i: usize,
+        defect: &Defect,
+        shape: &str,
+        polygons: &[Vec<[f64; 2]>],
+    ) {
         let Some(key) = self.polygons_key(i, shape, polygons) else {
             return;
         };
@@ -93,10 +99,16 @@ impl Checker<'_> {
                     ),
                     "a polygon that encloses something",
                 ),
-                Fault::CrossesItself { polygon, at: p } => (
-                    format!("{} crosses itself at {}", which(polygon), at(p)),
-                    "sides that do not cross; several polygons for several spots",
-                ),
+                Fault::CrossesItself { polygon, at: p } => {
+                    let message = format!(
+                        "{} crosses itself at {}: what its sides enclose twice counts as undamaged (even-odd rule)",
+                        which(polygon),
+                        at(p)
+                    );
+                    let allowed = "sides that do not cross; several polygons for several spots";
+                    self.warn(&key, message, allowed.into(), &[]);
+                    continue;
+                }
                 Fault::Cross {
                     polygons: [a, b],
                     at: p,
@@ -121,14 +133,38 @@ impl Checker<'_> {
         if shape == "outline"
             && let Some(outline) = defect::Outline::new(metres)
         {
-            self.on_raceway(&key, outline.heights());
+            self.on_raceway(i, defect, &key, outline.heights());
         }
     }
 
-    /// Damage beyond the roller's ends, given its smallest and largest z in m.
-    fn on_raceway(&mut self, key: &str, (low, high): (f64, f64)) {
+    /// Damage beyond the roller's ends, given its smallest and largest z in m before it is moved.
+    pub(super) fn on_raceway(
+        &mut self,
+        i: usize,
+        defect: &Defect,
+        key: &str,
+        (low, high): (f64, f64),
+    ) {
         let half = 0.5 * self.s.bearing.roller_length_mm;
-        let (low, high) = (1e3 * low, 1e3 * high);
+        let offset = defect.axial_offset_mm;
+        let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
+        // What an offset carries over the edge is left out, as long as anything stays.
+        if offset != 0.0 && low < half && high > -half {
+            if low < -half - EDGE_SLACK || high > half + EDGE_SLACK {
+                self.warn(
+                    &format!("defects.{i}.axial_offset_mm"),
+                    format!(
+                        "moves damage off the raceway's edge: z from {} to {} mm; the roller covers -{2} to {2} mm and what lies beyond is left out",
+                        short(low),
+                        short(high),
+                        short(half)
+                    ),
+                    String::new(),
+                    &[LENGTH],
+                );
+            }
+            return;
+        }
         if low < -half - EDGE_SLACK || high > half + EDGE_SLACK {
             self.error(
                 key,
@@ -154,7 +190,7 @@ impl Checker<'_> {
         else {
             return;
         };
-        self.outline(i, "grown", outline);
+        self.outline(i, defect, "grown", outline);
         let [width, area] =
             ["max_width_mm", "area_mm2"].map(|name| self.shape_key(i, "grown", name));
         match (max_width_mm, area_mm2) {
@@ -176,13 +212,13 @@ impl Checker<'_> {
                 if let Some(defect::Shape::Outline(grown)) =
                     defect::Shape::new(&defect.shape, depth)
                 {
-                    self.on_raceway(&key, grown.heights());
+                    self.on_raceway(i, defect, &key, grown.heights());
                 }
             }
         }
     }
 
-    pub(super) fn depth_map(&mut self, i: usize, grid: &DepthGrid) {
+    pub(super) fn depth_map(&mut self, i: usize, defect: &Defect, grid: &DepthGrid) {
         for name in ["missing", "radius_mm"] {
             let key = self.shape_key(i, "depth_map", name);
             if self.finder.value(&key).is_some() {
@@ -252,9 +288,10 @@ impl Checker<'_> {
         }
         let half = 0.5 * self.s.bearing.roller_length_mm;
         let (low, high) = map.heights();
-        let (low, high) = (1e3 * low, 1e3 * high);
+        let offset = defect.axial_offset_mm;
+        let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
         if low >= half || high <= -half {
-            self.on_raceway(&key, map.heights());
+            self.on_raceway(i, defect, &key, map.heights());
         } else if low < -half - grid.dz_mm || high > half + grid.dz_mm {
             self.warn(
                 &key,
@@ -384,7 +421,9 @@ impl Checker<'_> {
                     continue;
                 }
                 let rule = match s.contact.law {
-                    Law::Sliced => "each slice takes the deeper of the two",
+                    Law::Sliced => {
+                        "together they are one surface, the deeper of the two at each point"
+                    }
                     Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
                 };
                 let path = match s.contact.roller_path {

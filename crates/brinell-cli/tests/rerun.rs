@@ -1,0 +1,316 @@
+//! A run into a folder that holds results already; what a run keeps of its scenario's assumptions; the kernel.
+
+mod common;
+
+use common::{SHORT, brinell, command, files, json};
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+/// SHORT as `a.toml`, and another scenario as `b.toml`.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("a.toml"), SHORT).unwrap();
+    let other = SHORT.replace("depth_um = 20.0", "depth_um = 5.0");
+    fs::write(folder.path().join("b.toml"), other).unwrap();
+    folder
+}
+
+/// A run of 20 ms without the page, which takes longer than the run.
+fn run<'a>(scenario: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let first = ["run", scenario, "-o", "o", "--quiet", "--no-report"];
+    [&first[..], more].concat()
+}
+
+fn text(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+#[test]
+fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
+    let folder = folder();
+    let here = folder.path();
+    brinell(
+        here,
+        &[
+            "run",
+            "a.toml",
+            "-o",
+            "o",
+            "--quiet",
+            "--signals",
+            "csv",
+            "--plots",
+            "svg",
+        ],
+    )
+    .exits(0);
+    let output = here.join("o");
+    let first = files(&output);
+    assert!(first.iter().any(|n| n.starts_with("plots/")) && first.contains(&"report.html".into()));
+    let listed: Vec<String> =
+        serde_json::from_value(json(&output.join("summary.json"))["files"].clone()).unwrap();
+    let mut sorted = listed.clone();
+    sorted.sort();
+    assert_eq!(sorted, first, "the summary lists what is there");
+    // The user's own, beside them and among the pictures.
+    for own in ["o/notes.txt", "o/plots/own.svg", "o/my-signals.csv"] {
+        fs::write(here.join(own), "mine").unwrap();
+    }
+    brinell(here, &run("a.toml", &[])).exits(0).keeps_quiet();
+    let expected = [
+        "my-signals.csv",
+        "notes.txt",
+        "plots/own.svg",
+        "scenario.toml",
+        "signals.parquet",
+        "summary.json",
+    ];
+    assert_eq!(files(&output), expected);
+    // The written scenario is the same scenario; without pictures of anybody's, their folder goes too.
+    fs::remove_file(here.join("o/plots/own.svg")).unwrap();
+    brinell(here, &run("o/scenario.toml", &["--signals", "none"])).exits(0);
+    assert_eq!(
+        files(&output),
+        [
+            "my-signals.csv",
+            "notes.txt",
+            "scenario.toml",
+            "summary.json"
+        ]
+    );
+}
+
+#[test]
+fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
+    let folder = folder();
+    let here = folder.path();
+    brinell(
+        here,
+        &run("a.toml", &["--signals", "csv", "--plots", "svg"]),
+    )
+    .exits(0);
+    let before = common::results(&here.join("o"));
+    brinell(here, &run("b.toml", &[])).exits(2).complains(&[
+        "o holds results of another scenario",
+        "signals.csv",
+        "--overwrite",
+        "-o",
+    ]);
+    // An override makes another scenario as well.
+    brinell(here, &run("a.toml", &["--set", "operation.speed_rpm=900"])).exits(2);
+    assert!(
+        common::results(&here.join("o")) == before,
+        "a refused run changes nothing"
+    );
+    brinell(here, &run("b.toml", &["--overwrite"]))
+        .exits(0)
+        .keeps_quiet();
+    assert_eq!(
+        files(&here.join("o")),
+        ["scenario.toml", "signals.parquet", "summary.json"]
+    );
+    assert!(text(here, "o/scenario.toml").contains("depth_um = 5.0"));
+}
+
+#[test]
+fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results() {
+    let folder = folder();
+    let here = folder.path();
+    fs::create_dir(here.join("o")).unwrap();
+    fs::write(here.join("o/signals.csv"), "measured").unwrap();
+    for flags in [&[][..], &["--overwrite"]] {
+        brinell(here, &run("a.toml", flags))
+            .exits(2)
+            .complains(&["signals.csv"]);
+        assert_eq!(files(&here.join("o")), ["signals.csv"]);
+        assert_eq!(text(here, "o/signals.csv"), "measured");
+    }
+    // A summary that names what a run never writes does not get it removed.
+    fs::remove_file(here.join("o/signals.csv")).unwrap();
+    brinell(here, &run("a.toml", &[])).exits(0);
+    let mut summary = json(&here.join("o/summary.json"));
+    summary["files"] = serde_json::json!([
+        "scenario.toml",
+        "signals.parquet",
+        "summary.json",
+        "thesis.txt",
+        "../a.toml",
+        "plots/../../b.toml",
+        3
+    ]);
+    fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
+    fs::write(here.join("o/thesis.txt"), "mine").unwrap();
+    brinell(here, &run("a.toml", &[])).exits(0);
+    assert_eq!(
+        files(&here.join("o")),
+        [
+            "scenario.toml",
+            "signals.parquet",
+            "summary.json",
+            "thesis.txt"
+        ]
+    );
+    assert!(here.join("a.toml").exists() && here.join("b.toml").exists());
+    // As written before summaries listed files.
+    summary.as_object_mut().unwrap().remove("files");
+    fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
+    brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
+    assert_eq!(
+        files(&here.join("o")),
+        ["scenario.toml", "summary.json", "thesis.txt"]
+    );
+}
+
+#[test]
+fn regress_a_run_beside_its_own_scenario_keeps_it() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("scenario.toml"), SHORT).unwrap();
+    for _ in 0..2 {
+        let args = ["run", "scenario.toml", "-o", ".", "--quiet", "--no-report"];
+        brinell(here, &args).exits(0);
+        assert_eq!(
+            files(here),
+            ["scenario.toml", "signals.parquet", "summary.json"]
+        );
+        brinell(here, &["check", "scenario.toml"]).exits(0);
+    }
+    // Another scenario beside it is not written over.
+    fs::write(here.join("b.toml"), SHORT.replace("20.0", "5.0")).unwrap();
+    fs::remove_file(here.join("signals.parquet")).unwrap();
+    fs::remove_file(here.join("summary.json")).unwrap();
+    let kept = text(here, "scenario.toml");
+    brinell(here, &["run", "b.toml", "-o", ".", "--quiet"])
+        .exits(2)
+        .complains(&["scenario.toml", "--overwrite"]);
+    assert_eq!(text(here, "scenario.toml"), kept);
+}
+
+#[test]
+fn regress_one_foreign_folder_stops_all_of_several_runs() {
+    let folder = folder();
+    let here = folder.path();
+    let both = [
+        "run",
+        "a.toml",
+        "b.toml",
+        "-o",
+        "o",
+        "--quiet",
+        "--no-report",
+        "--signals",
+        "none",
+    ];
+    brinell(
+        here,
+        &["run", "a.toml", "-o", "o/b", "--quiet", "--no-report"],
+    )
+    .exits(0);
+    brinell(here, &both).exits(2).complains(&[
+        "b.toml: o/b holds results of another scenario",
+        "nothing was run",
+    ]);
+    assert!(!here.join("o/a").exists());
+    brinell(here, &[&both[..], &["--overwrite"]].concat()).exits(0);
+    for stem in ["a", "b"] {
+        assert_eq!(
+            files(&here.join("o").join(stem)),
+            ["scenario.toml", "summary.json"]
+        );
+    }
+}
+
+/// The keys and reasons that `check --assumptions` prints.
+fn assumptions(here: &Path, scenario: &str) -> Vec<String> {
+    let call = brinell(here, &["check", scenario, "--assumptions"]).exits(0);
+    let list = call
+        .out
+        .split("Assumed, because nobody stated it:\n")
+        .nth(1)
+        .unwrap();
+    list.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn regress_written_scenarios_keep_what_was_assumed() {
+    let folder = folder();
+    let here = folder.path();
+    brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
+    let source = assumptions(here, "a.toml");
+    assert!(source.len() > 10, "{source:?}");
+    assert_eq!(assumptions(here, "o/scenario.toml"), source);
+    let first = json(&here.join("o/summary.json"));
+    brinell(
+        here,
+        &[
+            "run",
+            "o/scenario.toml",
+            "-o",
+            "again",
+            "--quiet",
+            "--no-report",
+            "--signals",
+            "none",
+        ],
+    )
+    .exits(0);
+    let again = json(&here.join("again/summary.json"));
+    assert_eq!(first["assumed"].as_array().unwrap().len(), source.len());
+    assert_eq!(again["assumed"], first["assumed"]);
+    // Third hand, and of a comparison.
+    assert_eq!(
+        text(here, "again/scenario.toml"),
+        text(here, "o/scenario.toml")
+    );
+    brinell(
+        here,
+        &["compare", "a.toml", "o/scenario.toml", "-o", "c", "--quiet"],
+    )
+    .exits(0);
+    let written: Vec<String> = files(&here.join("c"))
+        .into_iter()
+        .filter(|n| n.ends_with(".toml"))
+        .collect();
+    assert_eq!(written.len(), 2, "{written:?}");
+    for name in written {
+        assert_eq!(assumptions(&here.join("c"), &name), source, "{name}");
+    }
+}
+
+#[test]
+fn prop_the_kernel_is_recorded_and_an_unknown_one_refused() {
+    let folder = folder();
+    let here = folder.path();
+    let call = |kernel: &str, args: &[&str]| -> common::Call {
+        let mut command = command(here, args);
+        command.env("BRINELL_KERNEL", kernel);
+        command.output().unwrap().into()
+    };
+    for kernel in ["plain", "portable"] {
+        let args = [
+            "run",
+            "a.toml",
+            "-o",
+            kernel,
+            "--quiet",
+            "--no-report",
+            "--signals",
+            "csv",
+        ];
+        call(kernel, &args).exits(0);
+        let summary = json(&here.join(kernel).join("summary.json"));
+        assert_eq!(summary["solver"]["kernel"], kernel);
+    }
+    // It reaches the run: libm rounds otherwise than the lanes' functions.
+    assert_ne!(
+        text(here, "plain/signals.csv"),
+        text(here, "portable/signals.csv")
+    );
+    for args in [&["run", "a.toml", "-o", "bad"][..], &["check", "a.toml"]] {
+        call("sse9", args)
+            .exits(2)
+            .complains(&["BRINELL_KERNEL = \"sse9\"", "plain, portable"]);
+    }
+    assert!(!here.join("bad").exists());
+}

@@ -1,0 +1,119 @@
+//! The rate at which rollers meet each defect, from the motion itself: how slip lets a defect frequency wander.
+//!
+//! The phase of a defect, in impacts: Z theta / (2 pi) of a defect on the outer raceway, Z (alpha - theta) / (2 pi) on the inner one, with theta the mean
+//! orbit angle of the row's Z rollers and alpha the inner ring's angle, and 2 (phi - theta) / (2 pi) on a roller that turns by phi. Its rise over
+//! each revolution of the inner ring is kept; the scatter of these, autocorrelation included, is that of the mean rate.
+
+use crate::channel::Frame;
+use crate::model::{Layout, Model};
+use crate::scenario::{ModelKind, Surface};
+use crate::signal::blocks::MOST_FREEDOM;
+use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter, student_t_quantile};
+use std::f64::consts::TAU;
+
+/// Of one defect.
+#[derive(Debug, Clone)]
+struct Rate {
+    surface: Surface,
+    row: usize,
+    /// The damaged roller, or the row's first.
+    slot: usize,
+    last: f64,
+    /// Impacts over seconds.
+    averages: Averages,
+}
+
+impl Rate {
+    fn phase(&self, f: &Frame) -> f64 {
+        let l = &f.model.layout;
+        let orbit = || {
+            let slots = (0..l.rollers()).filter(|slot| l.row(*slot) == self.row);
+            slots.map(|slot| f.y[l.theta() + slot]).sum::<f64>()
+        };
+        let rollers = (l.rollers() / l.rows) as f64;
+        let turns = match self.surface {
+            Surface::OuterRaceway => orbit(),
+            Surface::InnerRaceway => rollers * f.model.rotation.at(f.t).1 - orbit(),
+            Surface::Roller(_) => 2.0 * (f.y[l.phi() + self.slot] - f.y[l.theta() + self.slot]),
+        };
+        turns / TAU
+    }
+}
+
+/// Of all defects.
+#[derive(Debug, Clone)]
+pub struct PassRates {
+    last: Option<f64>,
+    rates: Vec<Rate>,
+}
+
+impl PassRates {
+    /// Nothing seen yet.
+    pub fn new(model: &Model) -> Self {
+        let l: &Layout = &model.layout;
+        let rate = |d: &crate::defect::Defect| Rate {
+            surface: d.surface,
+            row: d.row,
+            slot: l.slot(
+                d.row,
+                match d.surface {
+                    Surface::Roller(k) => k as usize,
+                    _ => 0,
+                },
+            ),
+            last: 0.0,
+            averages: Averages::new(),
+        };
+        let kinematic = model.kind == ModelKind::Reference;
+        let defects = model.defects.iter().filter(|_| !kinematic);
+        Self {
+            last: None,
+            rates: defects.map(rate).collect(),
+        }
+    }
+
+    /// Takes the instant at which statistics begin or a whole revolution of the inner ring has ended.
+    pub fn take(&mut self, f: &Frame) {
+        for rate in &mut self.rates {
+            let phase = rate.phase(f);
+            if let Some(last) = self.last {
+                rate.averages.add(phase - rate.last, f.t - last);
+                rate.averages.end_block();
+            }
+            rate.last = phase;
+        }
+        self.last = Some(f.t);
+    }
+
+    /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None` in the reference model, whose
+    /// rollers do not slip, and before the first revolution.
+    pub fn rate(&self, defect: usize) -> Option<Estimate> {
+        self.rates.get(defect)?.averages.estimate()
+    }
+
+    /// The interval of a frequency found in the envelope: of its noise, and of slip's wander about the mean rate.
+    ///
+    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the scatter of the motion's own
+    /// mean gives S, and the frequency is an average over [`LineFrequency::span`]. Degrees of freedom by Welch and Satterthwaite, those of
+    /// the noise counting as many. `None` where the run is too short to tell.
+    pub fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
+        let noise = found.noise * found.noise;
+        let (wander, freedom) = match self.rates.get(defect) {
+            None => (0.0, 1.0),
+            Some(rate) => {
+                let interval = rate.averages.estimate()?.interval?;
+                let quantile = student_t_quantile(0.975, interval.freedom);
+                let error = 0.5 * (interval.high - interval.low) / quantile;
+                let stretched = error * error * rate.averages.weight() / found.span;
+                (stretched, f64::from(interval.freedom))
+            }
+        };
+        let share = wander / (wander + noise);
+        let freedom = (freedom / (share * share)).min(f64::from(MOST_FREEDOM));
+        let scatter = Scatter {
+            error: (wander + noise).sqrt(),
+            freedom: freedom as u32,
+        };
+        Estimate::signed(found.frequency, Some(scatter)).interval
+    }
+}

@@ -1,0 +1,312 @@
+//! Condition indicators of a stream with their 95 % intervals, in bounded memory.
+//!
+//! [`Blocks`] gathers moments and extremes per revolution of the shaft. Every indicator is a function of averages over whole
+//! revolutions, so that records of different length estimate one number, and value and interval are of the same quantity:
+//!
+//! - mean, mean square, central moments and mean |x| are averaged over all samples of the whole revolutions; the root of the RMS and of
+//!   the standard deviation and the ratios (kurtosis M_4 / M_2^2, skewness, shape factor) are taken after averaging;
+//! - `peak` and `peak_to_peak` are averages over revolutions of the largest |x| and of the largest less the smallest x of a
+//!   revolution; crest and impulse factor are that average peak over the RMS and over mean |x|.
+//!
+//! The largest |x| of the whole record grows with its length and has no interval; [`Blocks::record`] has it.
+//!
+//! # Interval
+//!
+//! A function g of averages has, to first order, the scatter of the average of its influence values z_i = sum_j (dg/dmu_j)(v_ij - mu_j),
+//! one for each block i with block averages v_ij (the infinitesimal jackknife; B. Efron, "The jackknife, the bootstrap and other
+//! resampling plans", SIAM 1982, chapter 6). The series z_i is correlated, because a cage turns in about 2.3 revolutions of the shaft;
+//! [`scatter`](super::scatter) measures the standard error of its average in spite of that. Quantities that are positive by definition
+//! are taken on a logarithmic scale, g = ln of the indicator: their interval is value / f to value * f and never reaches zero.
+//! Mean and skewness are taken as they are: value +- half width. Either way the value lies within its interval.
+
+use super::indicators::{Indicator, Moments};
+use super::scatter::{Scatter, drift, scatter};
+use super::series::{Merge, Series};
+
+/// Name of the largest |x| of a whole record, in files and reports.
+pub const RECORD_PEAK: &str = "record_peak";
+/// Name of its largest less its smallest x.
+pub const RECORD_PEAK_TO_PEAK: &str = "record_peak_to_peak";
+
+/// A 95 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Degrees of freedom of the Student's t that it was made with.
+    pub freedom: u32,
+}
+
+impl Interval {
+    /// Of a value whose standard uncertainty is known.
+    pub fn normal(value: f64, uncertainty: f64) -> Self {
+        Interval {
+            low: value - NORMAL * uncertainty,
+            high: value + NORMAL * uncertainty,
+            freedom: MOST_FREEDOM,
+        }
+    }
+
+    /// Half the width over 1.96: with many degrees of freedom the standard error; with few it is larger, so that 1.96 times it still covers.
+    pub fn standard_uncertainty(&self) -> f64 {
+        0.5 * (self.high - self.low) / NORMAL
+    }
+}
+
+/// Beyond so many degrees of freedom Student's t is the normal distribution.
+pub const MOST_FREEDOM: u32 = 1000;
+
+/// Two-sided 95 % of a normal distribution.
+const NORMAL: f64 = 1.959_963_984_540_054;
+
+/// An indicator with its scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The value, within the interval.
+    pub value: f64,
+    /// 95 % interval of the same quantity; `None` where the record is too short to tell.
+    pub interval: Option<Interval>,
+}
+
+impl Estimate {
+    /// Of a quantity that is positive by definition: value / f to value * f. `relative` is the standard error of its logarithm.
+    pub fn positive(value: f64, relative: Option<Scatter>) -> Self {
+        let interval = relative.filter(|_| value > 0.0).map(|s| {
+            let factor = s.half_width().exp();
+            Interval {
+                low: value / factor,
+                high: value * factor,
+                freedom: s.freedom,
+            }
+        });
+        Estimate {
+            value,
+            interval: interval.filter(|i| i.high.is_finite()),
+        }
+    }
+
+    /// Of a quantity of either sign: value +- half width.
+    pub fn signed(value: f64, scatter: Option<Scatter>) -> Self {
+        let interval = scatter.map(|s| Interval {
+            low: value - s.half_width(),
+            high: value + s.half_width(),
+            freedom: s.freedom,
+        });
+        Estimate {
+            value,
+            interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()),
+        }
+    }
+
+    /// Of the mean of a correlated series of positive numbers, such as the peaks after impacts; `None` of an empty one.
+    pub fn of_mean(series: &[f64]) -> Option<Self> {
+        let mean = series.iter().sum::<f64>() / series.len() as f64;
+        let relative: Vec<f64> = series.iter().map(|x| x / mean - 1.0).collect();
+        mean.is_finite()
+            .then(|| Self::positive(mean, scatter(&relative)))
+    }
+}
+
+/// One or more whole revolutions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Block {
+    moments: Moments,
+    /// Sum over revolutions of the largest |x|.
+    peaks: f64,
+    /// Sum over revolutions of the largest less the smallest x.
+    ranges: f64,
+    revolutions: u64,
+}
+
+impl Merge for Block {
+    const NONE: Block = Block {
+        moments: Moments::new(),
+        peaks: 0.0,
+        ranges: 0.0,
+        revolutions: 0,
+    };
+
+    fn merge(&self, later: &Block) -> Block {
+        Block {
+            moments: self.moments.merge(&later.moments),
+            peaks: self.peaks + later.peaks,
+            ranges: self.ranges + later.ranges,
+            revolutions: self.revolutions + later.revolutions,
+        }
+    }
+}
+
+impl Block {
+    /// Of the samples of one revolution.
+    fn of(moments: Moments) -> Self {
+        Block {
+            peaks: moments.peak(),
+            ranges: moments.max() - moments.min(),
+            moments,
+            revolutions: 1,
+        }
+    }
+
+    fn peak(&self) -> f64 {
+        self.peaks / self.revolutions as f64
+    }
+
+    fn range(&self) -> f64 {
+        self.ranges / self.revolutions as f64
+    }
+
+    /// `None` where it is not defined or not finite.
+    fn get(&self, indicator: Indicator) -> Option<f64> {
+        use Indicator::*;
+        let of_record = self.moments.get(indicator)?;
+        let value = match indicator {
+            Peak => self.peak(),
+            PeakToPeak => self.range(),
+            CrestFactor => self.peak() / self.moments.rms(),
+            ImpulseFactor => self.peak() / self.moments.mean_absolute(),
+            Rms | Mean | StandardDeviation | Kurtosis | Skewness | ShapeFactor => of_record,
+        };
+        value.is_finite().then_some(value)
+    }
+}
+
+/// Statistics over consecutive blocks, in bounded memory.
+///
+/// The caller says [`end_block`](Self::end_block) at each whole revolution of the inner ring. Where one more than [`MOST_BLOCKS`](super::series::MOST_BLOCKS)
+/// blocks would begin, neighbours merge in pairs and from then on a block is twice as many revolutions. Samples before the end of
+/// the last whole revolution count; those after it count only where there is no whole one.
+#[derive(Debug, Clone)]
+pub struct Blocks {
+    series: Series<Block>,
+    /// The revolution that has not ended.
+    current: Moments,
+}
+
+impl Default for Blocks {
+    fn default() -> Self {
+        Blocks::new()
+    }
+}
+
+impl Blocks {
+    /// No samples, no blocks.
+    pub fn new() -> Self {
+        Blocks {
+            series: Series::new(),
+            current: Moments::new(),
+        }
+    }
+
+    /// Of a slice, in blocks of `samples` samples (not necessarily whole), 1 or more: a revolution is the sample rate
+    /// over the speed in Hz.
+    pub fn of(x: &[f64], samples: f64) -> Self {
+        let mut blocks = Blocks::new();
+        let samples = samples.max(1.0);
+        let mut end = samples;
+        let mut from = 0;
+        while end <= x.len() as f64 {
+            let to = end.ceil() as usize;
+            blocks.current.extend(&x[from..to]);
+            blocks.end_block();
+            (from, end) = (to, end + samples);
+        }
+        blocks.current.extend(&x[from..]);
+        blocks
+    }
+
+    /// Takes one sample.
+    pub fn push(&mut self, x: f64) {
+        self.current.push(x);
+    }
+
+    /// Ends a whole revolution. One without samples is passed over.
+    pub fn end_block(&mut self) {
+        if self.current.count() == 0 {
+            return;
+        }
+        self.series.push(&Block::of(self.current));
+        self.current = Moments::new();
+    }
+
+    /// Whole revolutions.
+    pub fn revolutions(&self) -> u64 {
+        self.series.revolutions()
+    }
+
+    /// Moments and extremes of all samples, those after the last whole revolution included.
+    pub fn record(&self) -> Moments {
+        self.series.all().moments.merge(&self.current)
+    }
+
+    /// All whole revolutions; without one, what has been seen.
+    fn all(&self) -> Block {
+        match self.series.all() {
+            Block { revolutions: 0, .. } => Block::of(self.current),
+            all => all,
+        }
+    }
+
+    /// An indicator with its interval; `None` where it is not defined (see [`Moments::get`]). Of a record shorter than one revolution it
+    /// is the indicator of all samples, without an interval.
+    pub fn estimate(&self, indicator: Indicator) -> Option<Estimate> {
+        let all = self.all();
+        let value = all.get(indicator)?;
+        let scatter = scatter(&self.influence(&all, indicator));
+        Some(if indicator.is_positive() {
+            Estimate::positive(value, scatter)
+        } else {
+            Estimate::signed(value, scatter)
+        })
+    }
+
+    /// By how much, on a logarithmic scale, the mean square began above its later value, where that is more than its scatter explains;
+    /// see [`drift`].
+    pub fn level_drift(&self) -> Option<f64> {
+        let half = drift(&self.influence(&self.all(), Indicator::Rms))?;
+        Some(2.0 * half)
+    }
+
+    /// The influence values of the whole blocks on an indicator of `all`, or on its logarithm where it is positive by definition; in order
+    /// of time, their mean about 0.
+    fn influence(&self, all: &Block, indicator: Indicator) -> Vec<f64> {
+        use Indicator::*;
+        let (mean, [m2, m3, m4]) = (all.moments.mean(), all.moments.central(all.moments.mean()));
+        let square = mean * mean + m2;
+        let samples = all.moments.count() as f64 / all.revolutions as f64;
+        let blocks = self.series.closed.iter();
+        blocks
+            .map(|block| {
+                let b = &block.moments;
+                // Revolutions of a varying speed hold different numbers of samples.
+                let weight = b.count() as f64 / block.revolutions as f64 / samples;
+                let shift = weight * (b.mean() - mean);
+                let [b2, b3, b4] = b.central(mean);
+                let d2 = weight * (b2 - m2);
+                let of_square = (d2 + 2.0 * mean * shift) / square;
+                let of_absolute =
+                    || weight * (b.mean_absolute() / all.moments.mean_absolute() - 1.0);
+                let of_peak = || block.peak() / all.peak() - 1.0;
+                match indicator {
+                    Mean => shift,
+                    Rms => 0.5 * of_square,
+                    StandardDeviation => 0.5 * d2 / m2,
+                    Peak => of_peak(),
+                    PeakToPeak => block.range() / all.range() - 1.0,
+                    CrestFactor => of_peak() - 0.5 * of_square,
+                    ImpulseFactor => of_peak() - of_absolute(),
+                    ShapeFactor => 0.5 * of_square - of_absolute(),
+                    Kurtosis => (weight * (b4 - m4) - 4.0 * m3 * shift) / m4 - 2.0 * d2 / m2,
+                    Skewness => {
+                        let third = weight * (b3 - m3) - 3.0 * m2 * shift;
+                        (third - 1.5 * m3 / m2 * d2) / m2.powf(1.5)
+                    }
+                }
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
