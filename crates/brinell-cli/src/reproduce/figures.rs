@@ -295,7 +295,7 @@ impl Drawn {
         }
         self.pieces.push(StudyPiece::Stack(Stack {
             name: name.into(),
-            title: "Around the bearing (section 3)".into(),
+            title: format!("Around the bearing (section 3): {}", self.names[0]),
             panels: plots,
             names: self.names.clone(),
             alike: false,

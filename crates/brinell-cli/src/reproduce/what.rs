@@ -42,7 +42,7 @@ impl What {
         }
     }
 
-    /// Of some cases, by their place among the names; the largest curve lies lowest, so that none hides another. `None` where none of them
+    /// Of some cases, by their place among the names; of waveforms the loudest lies lowest, so that none hides another. `None` where none of them
     /// has the curve.
     pub(super) fn overlay(
         self,
@@ -54,9 +54,9 @@ impl What {
         for (of, case) in cases {
             let (along, values) = self.curve(case);
             if !values.is_empty() {
-                let largest = values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+                let size = values.iter().map(|x| x.abs()).sum::<f64>();
                 curves.push((
-                    largest,
+                    size,
                     OverlaidCurve {
                         of: *of,
                         along,

@@ -51,7 +51,7 @@ pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
     plot(overlay, names, layout, height, None)
 }
 
-/// Plots one below the other, each under its title, with one y axis for all where `alike`.
+/// Plots one below the other, each under its title, with the same axes for all where `alike`. A panel of one curve needs no legend.
 pub(crate) fn stacked(
     name: &str,
     title: &str,
@@ -68,6 +68,7 @@ pub(crate) fn stacked(
     };
     let all: Vec<f64> = panels.iter().flat_map(of).collect();
     let common = alike.then_some(all.as_slice());
+    let along = range(panels.iter().flat_map(|p| p.curves.iter().flat_map(ends)));
     let size = layout.size(0.0);
     let mut picture = Picture::new(name, title, size.width, 0.0);
     let mut top = 2.0;
@@ -75,7 +76,12 @@ pub(crate) fn stacked(
         let words = font::fitted(&panel.title, size.font, true, size.width - 24.0);
         picture.text(Text::new(12.0, top + size.font, size.font, Anchor::Start, &words).bold());
         top += 1.5 * size.font;
-        let drawn = plot(panel, names, layout, 215.0, common);
+        let panel = Overlay {
+            x_range: panel.x_range.or(along.filter(|_| alike)),
+            ..panel.clone()
+        };
+        let named = if panel.curves.len() > 1 { names } else { &[] };
+        let drawn = plot(&panel, named, layout, 215.0, common);
         let height = drawn.height;
         picture.place(drawn, 0.0, top);
         top += height + 6.0;
@@ -145,7 +151,10 @@ fn plot(
         .collect();
     let width = layout.size(0.0).width;
     let mut picture = Picture::new(&name, &title, width, size.height);
-    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
+    let top = match entries.len() {
+        0 => 0.0,
+        _ => legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font),
+    };
     picture.height = top + size.height;
     picture.place(drawn, 0.0, top);
     picture

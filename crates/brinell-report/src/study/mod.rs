@@ -102,7 +102,7 @@ pub struct Stack {
     pub panels: Vec<Overlay>,
     /// What the curves belong to.
     pub names: Vec<String>,
-    /// Whether all have one y axis.
+    /// Whether all have the same axes.
     pub alike: bool,
     /// Under them; may be empty.
     pub note: String,

@@ -92,7 +92,10 @@ fn quotient(what: String, ratio: Option<crate::signal::ratio::Ratio>) -> Found {
     Found {
         what,
         value: ratio.map(|r| r.value),
-        interval: ratio.and_then(|r| r.interval),
+        // Of two exact numbers it is no interval.
+        interval: ratio
+            .and_then(|r| r.interval)
+            .filter(|(low, high)| low < high),
         unit: "",
     }
 }
