@@ -7,12 +7,14 @@ use crate::failure::Failure;
 use crate::progress::{Joint, Progress};
 use crate::recorder::Recorder;
 use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
+use brinell::channel::Frame;
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Simulation};
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Journal, SignalWriter};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -112,6 +114,12 @@ pub(crate) struct Task {
     pub(crate) duration_s: f64,
 }
 
+/// Observes a run beside its findings.
+pub(crate) trait Beside: Observer {
+    /// Keeps what its row does not hold, and gives numbers of its own for the row. The run came to its end.
+    fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, Failure>;
+}
+
 /// What makes runs of tasks.
 pub(crate) trait Work: Sync {
     /// The scenario of a task. It is made by the thread that runs it, so that memory goes with the runs in progress.
@@ -129,6 +137,11 @@ pub(crate) trait Work: Sync {
 
     /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
     fn hears(&self) -> Option<usize> {
+        None
+    }
+
+    /// What else observes the task's run, if anything.
+    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside>> {
         None
     }
 
@@ -233,7 +246,14 @@ fn one(
     let writers = work.signals(task, &simulation)?;
     let mut recorder = Recorder::new(&simulation, writers.into_iter().collect(), progress, stop)
         .hearing(work.hears());
-    let finished = finish(scenario, simulation, &mut recorder);
+    let mut beside = work.beside(task, &simulation);
+    let finished = match &mut beside {
+        Some(other) => {
+            let mut both = Both(&mut recorder, other.as_mut());
+            finish(scenario, simulation, &mut both)
+        }
+        None => finish(scenario, simulation, &mut recorder),
+    };
     let heard = recorder.close(&finished.outcome.end, false)?;
     let numbers = match &finished.outcome.end {
         End::Stopped => return Ok(None),
@@ -242,8 +262,33 @@ fn one(
             let settled = finished.findings.from * finished.simulation.sample_rate();
             let settled = heard.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
             let more = work.finished(task, &finished, settled)?;
-            Ok([finished.quantities(), more].concat())
+            let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
+            Ok([finished.quantities(), more, besides].concat())
         }
     };
     Ok(Some(row(numbers)))
+}
+
+/// Two observers of one run; the first alone is told the time.
+struct Both<'a>(&'a mut dyn Observer, &'a mut dyn Observer);
+
+impl Observer for Both<'_> {
+    fn step(&mut self, frame: &Frame) {
+        self.0.step(frame);
+        self.1.step(frame);
+    }
+
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        self.0.sample(index, frame);
+        self.1.sample(index, frame);
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.1.row(index, row, filtered)?;
+        self.0.row(index, row, filtered)
+    }
+
+    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
+        self.0.progress(t, work)
+    }
 }

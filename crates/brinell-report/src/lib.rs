@@ -69,7 +69,8 @@ pub use side_by_side::{
 pub use slip::{SlipRow, slip_over_angle, slip_over_time};
 pub use spectrogram::{Spectrogram, spectrogram};
 pub use study::{
-    Chapter, ClaimCard, ClaimPart, Study, StudyPiece, Tagged, Tone, study_html, study_pictures,
+    Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html,
+    study_pictures,
 };
 pub use sweep::{
     IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,

@@ -143,6 +143,8 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             title,
             facts: facts(&measures, defect),
             polygons_mm: in_place(&s.defects[k], &defect.shape),
+            against_mm: Vec::new(),
+            against: String::new(),
             depths: depths(&defect.shape),
             roller_length_mm: s.bearing.roller_length_mm,
             roller_diameter_mm: s.bearing.roller_diameter_mm,

@@ -21,13 +21,13 @@ use std::path::PathBuf;
     brinell reproduce --figure 18\n  \
     brinell reproduce --sensitivity --book docs/src/reproduction")]
 pub(crate) struct ReproduceArgs {
-    /// Only these figures of the paper, 9 to 20 [default: all]
+    /// Only these figures of the paper, 8 to 20 [default: all]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = figure)]
     pub(crate) figure: Vec<u32>,
     /// Shorter runs, wider intervals
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Also vary what the paper does not state, one assumption at a time, and search for a set that agrees with it best
+    /// Also vary what the paper does not state, one assumption at a time, and search over 1000 sets of assumptions for those that agree best
     #[arg(long, conflicts_with = "figure")]
     pub(crate) sensitivity: bool,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]

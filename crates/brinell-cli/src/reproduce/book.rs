@@ -31,6 +31,13 @@ pub(super) fn text(study: &Study, came: &Came, book: &Path) -> String {
                 StudyPiece::Claims(_) => claims(&mut text, &came.told),
                 StudyPiece::Table(one) => table(&mut text, one),
                 StudyPiece::Curves(one, _) => picture(&mut text, &folder, &one.name, &one.title),
+                StudyPiece::Stack(one) => {
+                    picture(&mut text, &folder, &one.name, &one.title);
+                    if !one.note.is_empty() {
+                        let _ = writeln!(text, "{}\n", one.note);
+                    }
+                }
+                StudyPiece::Plan(name, view) => picture(&mut text, &folder, name, &view.plan_title),
                 StudyPiece::Trend(plot) => picture(&mut text, &folder, &plot.name, &plot.label),
             }
         }
@@ -50,20 +57,13 @@ fn claims(text: &mut String, all: &[Told]) {
     text.push_str("| The paper | Verdict | Printed | Ours |\n| --- | --- | --- | --- |\n");
     for told in all {
         let mut ours_all = Vec::new();
-        for (statement, (verdict, found)) in
-            told.claim.statements.iter().zip(&told.judged.statements)
-        {
-            ours_all.push(format!(
-                "{} — {}: {}",
-                statement.words,
-                verdict.words(),
-                ours(found)
-            ));
+        for (words, verdict, found) in told.statements() {
+            ours_all.push(format!("{words} — {}: {}", verdict.words(), ours(found)));
         }
         if !told.claim.note.is_empty() {
             ours_all.push(told.claim.note.to_owned());
         }
-        let mut verdict = told.judged.verdict.words().to_owned();
+        let mut verdict = told.judged.words(told.claim);
         if !told.flips.is_empty() {
             verdict = format!("{verdict}; depends on {}", told.depends());
         }

@@ -3,7 +3,7 @@
 use super::figures::told;
 use super::sensitivity::Flip;
 use crate::failure::Failure;
-use brinell::paper::{Claim, Found, Judged, Verdict};
+use brinell::paper::{Basis, Claim, Found, Judged, Verdict};
 use brinell_io::{Cells, Column, Table};
 use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
 use serde_json::{Value, json};
@@ -24,6 +24,25 @@ impl Told {
         } else {
             "depends"
         }
+    }
+
+    /// Each statement with its verdict and its numbers; those of another reading after that reading's words.
+    pub(super) fn statements(&self) -> Vec<(String, Verdict, &[Found])> {
+        let own = self.claim.statements.iter().zip(&self.judged.statements);
+        let mut all: Vec<(String, Verdict, &[Found])> = own
+            .map(|(s, (verdict, found))| (s.words.to_owned(), *verdict, found.as_slice()))
+            .collect();
+        if let (Some(other), Some((_, judged))) = (&self.claim.otherwise, &self.judged.otherwise) {
+            let more = other.statements.iter().zip(judged);
+            all.extend(more.map(|(s, (verdict, found))| {
+                (
+                    format!("{}: {}", other.words, s.words),
+                    *verdict,
+                    found.as_slice(),
+                )
+            }));
+        }
+        all
     }
 
     /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
@@ -59,6 +78,7 @@ pub(super) fn ours(found: &[Found]) -> String {
         let (scale, unit) = match f.unit {
             "m" => (1e3, " mm"),
             "m/s^2" => (1.0, " m/s²"),
+            "N" => (1.0, " N"),
             "Hz" => (1.0, " Hz"),
             _ => (1.0, ""),
         };
@@ -74,17 +94,21 @@ pub(super) fn ours(found: &[Found]) -> String {
 
 /// As the page shows it.
 pub(super) fn card(told: &Told) -> ClaimCard {
-    let parts = told.claim.statements.iter().zip(&told.judged.statements);
+    let statements = told.statements();
+    let parts = statements.iter();
     ClaimCard {
         place: format!("{} · {}", told.claim.id, told.claim.place),
         sentence: told.claim.sentence.into(),
         printed: told.claim.paper.into(),
-        verdict: tagged(told.judged.verdict),
+        verdict: Tagged {
+            word: told.judged.words(told.claim),
+            ..tagged(told.judged.verdict)
+        },
         depends: told.depends(),
         parts: parts
-            .map(|(statement, (verdict, found))| ClaimPart {
+            .map(|(words, verdict, found)| ClaimPart {
                 verdict: tagged(*verdict),
-                words: statement.words.into(),
+                words: words.clone(),
                 ours: ours(found),
             })
             .collect(),
@@ -102,6 +126,16 @@ pub(super) fn counts(all: &[Told]) -> Vec<(Verdict, usize)> {
         .collect()
 }
 
+/// Claims with a verdict of a basis: how many of them hold.
+pub(super) fn held(all: &[Told], basis: Basis) -> (usize, usize) {
+    let mine = || {
+        all.iter()
+            .filter(move |t| t.claim.basis == basis && !t.claim.statements.is_empty())
+    };
+    let holds = mine().filter(|t| t.judged.verdict == Verdict::Holds);
+    (holds.count(), mine().count())
+}
+
 /// claims.csv and claims.json.
 pub(super) fn write(all: &[Told], header: &Value, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let csv = table(all).write_csv(folder.join("claims.csv"))?;
@@ -115,10 +149,11 @@ pub(super) fn write(all: &[Told], header: &Value, folder: &Path) -> Result<Vec<P
 
 fn claim_json(told: &Told) -> Value {
     let found = |f: &Found| json!({ "what": f.what, "value": f.value, "low": f.interval.map(|i| i.0), "high": f.interval.map(|i| i.1), "unit": f.unit });
-    let statements = told.claim.statements.iter().zip(&told.judged.statements);
+    let statements = told.statements();
     let statements: Vec<Value> = statements
-        .map(|(statement, (verdict, all))| {
-            json!({ "statement": statement.words, "verdict": verdict.words(), "ours": all.iter().map(found).collect::<Vec<_>>() })
+        .iter()
+        .map(|(words, verdict, all)| {
+            json!({ "statement": words, "verdict": verdict.words(), "ours": all.iter().map(found).collect::<Vec<_>>() })
         })
         .collect();
     let flips = told.flips.iter().map(|f| {
@@ -126,28 +161,28 @@ fn claim_json(told: &Told) -> Value {
     });
     json!({
         "id": told.claim.id, "place": told.claim.place, "sentence": told.claim.sentence, "paper": told.claim.paper,
-        "verdict": told.judged.verdict.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": told.claim.note,
+        "verdict": told.judged.verdict.words(), "in_words": told.judged.words(told.claim), "about": told.claim.basis.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": told.claim.note,
     })
 }
 
 /// A row a statement; a claim without any has one too.
 fn table(all: &[Told]) -> Table {
-    let mut columns: [Vec<Option<String>>; 9] = Default::default();
+    let mut columns: [Vec<Option<String>>; 10] = Default::default();
     for told in all {
         let claim = told.claim;
-        let rows = claim.statements.len().max(1);
-        for k in 0..rows {
-            let statement = claim.statements.get(k);
-            let judged = told.judged.statements.get(k);
+        let statements = told.statements();
+        for k in 0..statements.len().max(1) {
+            let one = statements.get(k);
             let cells = [
                 Some(claim.id.to_owned()),
                 Some(claim.place.to_owned()),
                 Some(claim.sentence.to_owned()),
                 Some(claim.paper.to_owned()),
-                Some(told.judged.verdict.words().to_owned()),
-                statement.map(|s| s.words.to_owned()),
-                judged.map(|j| j.0.words().to_owned()),
-                judged.map(|j| ours(&j.1)),
+                Some(told.judged.words(claim)),
+                Some(claim.basis.words().to_owned()).filter(|_| one.is_some()),
+                one.map(|s| s.0.clone()),
+                one.map(|s| s.1.words().to_owned()),
+                one.map(|s| ours(s.2)),
                 Some(told.depends()),
             ];
             for (column, cell) in columns.iter_mut().zip(cells) {
@@ -160,7 +195,11 @@ fn table(all: &[Told]) -> Table {
         ("place", "section and figure of the paper"),
         ("sentence", "the paper's words"),
         ("paper", "what it prints"),
-        ("claim_verdict", "of all statements together"),
+        (
+            "claim_verdict",
+            "of all statements together, and what it is conditional on",
+        ),
+        ("about", "what the verdict is a finding about"),
         ("statement", "what is checked"),
         ("verdict", "of the statement"),
         ("ours", "numbers with 95 % intervals"),

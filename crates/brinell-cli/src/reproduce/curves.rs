@@ -5,6 +5,8 @@ use serde_json::{Value, json};
 
 /// Length of the waveform kept, s: the run's last.
 const KEPT_S: f64 = 0.2;
+/// Runs up to this long, s, keep all of it: those about the start.
+const SHORT_S: f64 = 0.31;
 /// Spectra are kept up to here, Hz.
 const TOP_HZ: f64 = 1500.0;
 /// Points of a pass.
@@ -38,13 +40,26 @@ pub(super) struct Curves {
     pub(super) length: Vec<f64>,
     pub(super) stiffness: Vec<f64>,
     pub(super) force: Vec<f64>,
+    /// Around the bearing, by bins of its angle: mean force at the outer contacts of the damaged row, N.
+    pub(super) around_load: Vec<f64>,
+    /// Mean force between its cage and rollers, N; NaN where no roller came by.
+    pub(super) around_pocket: Vec<f64>,
+    /// Its rollers' spin over that of pure rolling; NaN likewise.
+    pub(super) around_spin: Vec<f64>,
 }
 
 impl Curves {
-    pub(super) fn of(run: &Finished) -> Self {
+    /// Of a run, and the mean forces between cage and rollers around the bearing.
+    pub(super) fn of(run: &Finished, around_pocket: Vec<f64>) -> Self {
         let (findings, rate) = (&run.findings, run.simulation.sample_rate());
         let (first, values) = findings.waveform.latest();
-        let skipped = values.len().saturating_sub((KEPT_S * rate) as usize);
+        let short = values.len() as f64 <= SHORT_S * rate;
+        let kept = if short {
+            values.len()
+        } else {
+            (KEPT_S * rate) as usize
+        };
+        let skipped = values.len().saturating_sub(kept);
         let waveform = Even {
             first: (first as f64 + skipped as f64) / rate,
             step: 1.0 / rate,
@@ -93,6 +108,19 @@ impl Curves {
             length: along(|p| p.length),
             stiffness: along(|p| p.stiffness),
             force: along(|p| p.force),
+            around_load: findings
+                .load_zone
+                .rows
+                .first()
+                .map_or(Vec::new(), |row| row.mean()),
+            around_spin: findings
+                .slip_course
+                .over_angle(0)
+                .spin
+                .iter()
+                .map(|slip| 1.0 - slip)
+                .collect(),
+            around_pocket,
             waveform,
         }
     }
@@ -103,6 +131,7 @@ impl Curves {
             "waveform": even(&self.waveform), "spectrum": even(&self.spectrum), "envelope": even(&self.envelope),
             "enters": self.enters, "leaves": self.leaves, "entry": even(&self.entry), "exit": even(&self.exit),
             "angle": self.angle, "length": self.length, "stiffness": self.stiffness, "force": self.force,
+            "around_load": self.around_load, "around_pocket": self.around_pocket, "around_spin": self.around_spin,
         })
     }
 
@@ -121,6 +150,15 @@ impl Curves {
             })
         };
         let all = |key: &str| list(value.get(key)?);
+        // JSON has no NaN: what no roller came by is null.
+        let gaps = |key: &str| {
+            let values = value.get(key)?.as_array()?.iter();
+            Some(
+                values
+                    .map(|x| x.as_f64().unwrap_or(f64::NAN))
+                    .collect::<Vec<_>>(),
+            )
+        };
         Some(Self {
             waveform: even("waveform")?,
             spectrum: even("spectrum")?,
@@ -133,6 +171,9 @@ impl Curves {
             length: all("length")?,
             stiffness: all("stiffness")?,
             force: all("force")?,
+            around_load: all("around_load")?,
+            around_pocket: gaps("around_pocket")?,
+            around_spin: gaps("around_spin")?,
         })
     }
 }

@@ -1,6 +1,7 @@
 //! `brinell reproduce`: the paper's experiments, its sentences held against them, and what the verdicts depend on.
 
 mod args;
+mod believe;
 mod book;
 mod claims;
 mod curves;
@@ -8,6 +9,7 @@ mod figures;
 mod page;
 mod points;
 mod sensitivity;
+mod what;
 
 use crate::campaign::{self, Ledger, Task};
 use crate::failure::Failure;
@@ -16,7 +18,7 @@ use crate::say::{complain, say, short};
 use crate::sweep::plural;
 pub(crate) use args::ReproduceArgs;
 use brinell::paper::{
-    Case, EXPERIMENTS, Experiment, Length, Numbers, case, claims as all_claims, judge,
+    Case, EXPERIMENTS, Experiment, Length, Numbers, Outline, case, claims as all_claims, judge,
 };
 use brinell_io::atomic_write;
 use claims::Told;
@@ -48,7 +50,7 @@ impl Asked {
         } else {
             Length::FULL
         };
-        let length = args.turns.map_or(usual, |turns| Length { turns });
+        let length = args.turns.map_or(usual, Length::Turns);
         let wanted = |e: &&Experiment| {
             args.figure.is_empty() || e.figures.iter().any(|f| args.figure.contains(f))
         };
@@ -60,7 +62,9 @@ impl Asked {
                 _ => {}
             }
         }
-        let points = cases.into_iter().map(|case| point(case, &[], length));
+        let points = cases
+            .into_iter()
+            .map(|case| point(case, &[], Outline::Joined, length));
         Ok(Self {
             whole: args.figure.is_empty(),
             points: points.collect::<Result<_, Failure>>()?,
@@ -123,7 +127,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let mut sensitivity = None;
     if let (Some(plan), false) = (&plan, interrupted) {
         if !args.quiet {
-            say!("search: up to {} sets of assumptions", plan.budget());
+            say!("searches: up to {} sets of assumptions", plan.sets());
         }
         let search = plan.search(&mut ledger, |batch, ledger| {
             let points = batch.iter().flat_map(|(_, points)| points);
@@ -135,7 +139,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
             let tasks = finalists.iter().flat_map(|f| &f.points).map(|p| &p.task);
             interrupted = runner.run(tasks, &mut ledger)?;
             if !interrupted {
-                sensitivity = Some(plan.finish(drawn.len(), finalists, &ledger));
+                sensitivity = Some(plan.finish(&drawn, finalists, &ledger));
             }
         }
     }
@@ -246,7 +250,7 @@ fn came(
         let judged = judge(claim, &numbers);
         let flips = sensitivity
             .as_ref()
-            .map_or(Vec::new(), |s| s.flips(place, judged.verdict));
+            .map_or(Vec::new(), |s| s.flips(place, judged.plain));
         wanted.then_some(Told {
             claim,
             judged,
@@ -275,7 +279,7 @@ fn write(
 ) -> Result<Vec<PathBuf>, Failure> {
     let folder = &args.output;
     let mut header = json!({
-        "brinell": brinell::VERSION, "turns": asked.length.turns, "base_toml": brinell::paper::BASE,
+        "brinell": brinell::VERSION, "length": asked.length.words(), "base_toml": brinell::paper::BASE,
         "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
     });
     if let Some(sensitivity) = &came.sensitivity {

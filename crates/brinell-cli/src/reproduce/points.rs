@@ -1,14 +1,18 @@
 //! Cases as tasks, and what is kept of their runs.
 
 use super::curves::Curves;
-use crate::campaign::{Ledger, Task, Work};
+use crate::campaign::{Beside, Ledger, Task, Work};
 use crate::failure::Failure;
+use crate::run::make_folder;
 use brinell::campaign::{Finished, Quantity, Spread, fingerprint};
+use brinell::channel::Frame;
 use brinell::document;
-use brinell::paper::{BASE, Case, Length, Numbers, entry_drop};
+use brinell::paper::{BASE, Case, FromStart, Length, Numbers, Outline, entry_drop, length_of};
 use brinell::scenario::Scenario;
+use brinell::simulate::{Observer, Simulation};
 use brinell_io::atomic_write;
 use std::collections::HashSet;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// A case under assumptions, ready to run.
@@ -18,16 +22,15 @@ pub(super) struct Point {
     pub(super) task: Task,
 }
 
-/// A case with `more` settings over its own. What it sets itself, its shape or its load, stays.
+/// A case with `more` settings below its own, its irregular defect in a reading of Eq. (27). What it sets itself, its shape or its load, stays.
 pub(super) fn point(
     case: &'static Case,
     more: &[(String, String)],
+    outline: Outline,
     length: Length,
 ) -> Result<Point, Failure> {
-    let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
-    let mut settings: Vec<(String, String)> = more.to_vec();
-    settings.extend(case.settings.iter().map(own));
-    let duration = length.duration_s(case.rpm);
+    let mut settings = case.over(more, outline);
+    let duration = length_of(case, length).duration_s(case.rpm);
     settings.push(("simulation.duration_s".into(), format!("{duration:?}")));
     let scenario = read(&settings)?;
     Ok(Point {
@@ -38,6 +41,11 @@ pub(super) fn point(
             settings,
         },
     })
+}
+
+/// The scenario of a case as it stands.
+pub(super) fn scenario(case: &Case) -> Result<Scenario, Failure> {
+    read(&case.over(&[], Outline::Joined))
 }
 
 fn read(settings: &[(String, String)]) -> Result<Scenario, Failure> {
@@ -94,27 +102,51 @@ impl Work for FromPaper {
         read(&task.settings)
     }
 
-    fn finished(
-        &self,
-        task: &Task,
-        finished: &Finished,
-        _: &[f64],
-    ) -> Result<Vec<Quantity>, Failure> {
-        if self.keep.contains(&task.fingerprint) {
-            let path = self.path(&task.fingerprint);
-            crate::run::make_folder(path.parent().unwrap_or(Path::new("")))?;
-            atomic_write(&path, Curves::of(finished).to_json().to_string().as_bytes())?;
+    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside>> {
+        let keep = self.keep.contains(&task.fingerprint);
+        Some(Box::new(Watched {
+            from_start: FromStart::new(simulation),
+            curves: keep.then(|| self.path(&task.fingerprint)),
+        }))
+    }
+}
+
+/// What a case's run needs beside its findings.
+struct Watched {
+    from_start: FromStart,
+    /// Where its curves go, if they are kept.
+    curves: Option<PathBuf>,
+}
+
+impl Observer for Watched {
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        self.from_start.sample(index, frame);
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.from_start.row(index, row, filtered)
+    }
+}
+
+impl Beside for Watched {
+    fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, Failure> {
+        if let Some(path) = &self.curves {
+            make_folder(path.parent().unwrap_or(Path::new("")))?;
+            let curves = Curves::of(finished, self.from_start.pocket_forces());
+            atomic_write(path, curves.to_json().to_string().as_bytes())?;
         }
         let drop = finished.findings.passes.best().first().and_then(|pass| {
             let defect = &finished.simulation.model().defects[pass.defect];
             let (first, last) = defect.shape.arc();
             entry_drop(&pass.points, (last - first) / defect.radius)
         });
-        Ok(vec![Quantity {
+        let mut all = self.from_start.quantities(&finished.findings);
+        all.push(Quantity {
             name: "defect1.entry_drop".into(),
             unit: "1".into(),
             value: drop,
             spread: Spread::Without,
-        }])
+        });
+        Ok(all)
     }
 }

@@ -29,6 +29,10 @@ pub struct DamageView {
     pub facts: Vec<Fact>,
     /// Seen from above, (s, z) in mm from the defect's centre; a polygon within another is a hole.
     pub polygons_mm: Vec<Vec<[f64; 2]>>,
+    /// Another shape, drawn as a dashed line around or over the damage; may be empty.
+    pub against_mm: Vec<[f64; 2]>,
+    /// What that shape is.
+    pub against: String,
     /// Depths, where the damage has more than one; drawn instead of the polygons.
     pub depths: Option<DepthPatch>,
     /// L of the roller.

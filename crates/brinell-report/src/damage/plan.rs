@@ -109,6 +109,18 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
             chart.picture.shapes.push(clipped(lines, true, paint));
         }
     }
+    let against = Paint::line(ink::VERMILLION, 1.8).dashed(&[6.0, 3.0]);
+    if !view.against_mm.is_empty() {
+        let known = view
+            .against_mm
+            .iter()
+            .filter(|q| q.iter().all(|v| v.is_finite()));
+        let line = drawn(known.map(|q| (x.at(q[0]), y.at(q[1]))));
+        chart
+            .picture
+            .shapes
+            .push(clipped(vec![line], true, against));
+    }
     for z in track {
         chart.picture.shapes.push(clipped(
             vec![vec![(ends[0], z), (ends[1], z)]],
@@ -174,6 +186,9 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
             ]
         }
     };
+    if !view.against_mm.is_empty() {
+        entries.push((&view.against, against));
+    }
     let mut zone_words = String::new();
     if let Some([from, to]) = view
         .load_zone_mm

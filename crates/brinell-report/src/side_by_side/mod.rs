@@ -10,6 +10,7 @@ use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
+pub(crate) use overlay::stacked;
 
 /// Where the values of a curve stand.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use super::{Along, OverlaidCurve, Overlay, Vertical};
 use crate::chart::{Chart, Domain, Spec, range};
-use crate::picture::{Paint, Picture, ink};
+use crate::font;
+use crate::picture::{Anchor, Paint, Picture, Text, ink};
 use crate::plots::{Layout, legend, marker_lanes};
 
 /// Told apart by everybody; a dash more where two might be taken for one another in grey.
@@ -46,6 +47,57 @@ fn shown(curve: &OverlaidCurve, (lo, hi): (f64, f64)) -> Vec<f64> {
 
 /// The plot; `names` are those of the runs.
 pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
+    let height = if layout == Layout::Wide { 330.0 } else { 290.0 };
+    plot(overlay, names, layout, height, None)
+}
+
+/// Plots one below the other, each under its title, with the same axes for all where `alike`. A panel of one curve needs no legend.
+pub(crate) fn stacked(
+    name: &str,
+    title: &str,
+    panels: &[Overlay],
+    names: &[String],
+    alike: bool,
+    layout: Layout,
+) -> Picture {
+    let whole = (f64::NEG_INFINITY, f64::INFINITY);
+    let of = |panel: &Overlay| {
+        let range = panel.x_range.unwrap_or(whole);
+        let values = panel.curves.iter().flat_map(move |c| shown(c, range));
+        values.collect::<Vec<f64>>()
+    };
+    let all: Vec<f64> = panels.iter().flat_map(of).collect();
+    let common = alike.then_some(all.as_slice());
+    let along = range(panels.iter().flat_map(|p| p.curves.iter().flat_map(ends)));
+    let size = layout.size(0.0);
+    let mut picture = Picture::new(name, title, size.width, 0.0);
+    let mut top = 2.0;
+    for panel in panels {
+        let words = font::fitted(&panel.title, size.font, true, size.width - 24.0);
+        picture.text(Text::new(12.0, top + size.font, size.font, Anchor::Start, &words).bold());
+        top += 1.5 * size.font;
+        let panel = Overlay {
+            x_range: panel.x_range.or(along.filter(|_| alike)),
+            ..panel.clone()
+        };
+        let named = if panel.curves.len() > 1 { names } else { &[] };
+        let drawn = plot(&panel, named, layout, 215.0, common);
+        let height = drawn.height;
+        picture.place(drawn, 0.0, top);
+        top += height + 6.0;
+    }
+    picture.height = top.max(1.0);
+    picture
+}
+
+/// A plot of some height under its legend; its y axis holds `common` too.
+fn plot(
+    overlay: &Overlay,
+    names: &[String],
+    layout: Layout,
+    height: f64,
+    common: Option<&[f64]>,
+) -> Picture {
     let (lo, hi) = overlay
         .x_range
         .unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
@@ -53,8 +105,8 @@ pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
         .curves
         .iter()
         .flat_map(|curve| shown(curve, (lo, hi)))
+        .chain(common.unwrap_or(&[]).iter().copied())
         .collect();
-    let height = if layout == Layout::Wide { 330.0 } else { 290.0 };
     let lanes = marker_lanes(&overlay.markers);
     let spec = Spec {
         name: overlay.name.clone(),
@@ -99,7 +151,10 @@ pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
         .collect();
     let width = layout.size(0.0).width;
     let mut picture = Picture::new(&name, &title, width, size.height);
-    let top = legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font);
+    let top = match entries.len() {
+        0 => 0.0,
+        _ => legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font),
+    };
     picture.height = top + size.height;
     picture.place(drawn, 0.0, top);
     picture

@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use crate::damage::{DamageView, damage_plan};
 use crate::data::Fact;
 use crate::frame::{close, figure, none, open, plain, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::side_by_side::{Overlay, overlay};
+use crate::side_by_side::{Overlay, overlay, stacked};
 use crate::sweep::{IndicatorPlot, indicator_plot};
 use crate::tables::{Table, facts, table};
 
@@ -78,12 +79,33 @@ pub enum StudyPiece {
     Words(String),
     /// Curves, and the names that they belong to.
     Curves(Overlay, Vec<String>),
+    /// Plots one below the other.
+    Stack(Stack),
+    /// Damage from above, under the name of the picture's file.
+    Plan(String, Box<DamageView>),
     /// Numbers with intervals against a quantity.
     Trend(IndicatorPlot),
     /// Words and numbers; its title is a heading.
     Table(Table),
     /// Claims.
     Claims(Vec<ClaimCard>),
+}
+
+/// Plots one below the other: curves that would hide one another, or the panels of one figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stack {
+    /// Name of the picture's file.
+    pub name: String,
+    /// Over all of them.
+    pub title: String,
+    /// The plots, each under its title.
+    pub panels: Vec<Overlay>,
+    /// What the curves belong to.
+    pub names: Vec<String>,
+    /// Whether all have the same axes.
+    pub alike: bool,
+    /// Under them; may be empty.
+    pub note: String,
 }
 
 /// A heading and what is under it.
@@ -129,8 +151,17 @@ pub fn study_pictures(study: &Study) -> Vec<Picture> {
 fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
     match piece {
         StudyPiece::Curves(one, names) => Some(overlay(one, names, layout)),
+        StudyPiece::Stack(s) => {
+            let panels = stacked(&s.name, &s.title, &s.panels, &s.names, s.alike, layout);
+            Some(panels)
+        }
+        StudyPiece::Plan(name, view) => {
+            let mut picture = damage_plan(view, 0, layout);
+            picture.name.clone_from(name);
+            Some(picture)
+        }
         StudyPiece::Trend(plot) => Some(indicator_plot(plot, layout)),
-        _ => None,
+        StudyPiece::Words(_) | StudyPiece::Table(_) | StudyPiece::Claims(_) => None,
     }
 }
 
@@ -176,8 +207,11 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
             return none(page, "No claim belongs to what was run.");
         }
         StudyPiece::Claims(cards) => return cards.iter().for_each(|card| claim(page, card)),
-        StudyPiece::Curves(one, _) => (&one.title, escape(&one.note)),
-        StudyPiece::Trend(plot) => (&plot.label, String::new()),
+        StudyPiece::Curves(one, _) => (one.title.as_str(), escape(&one.note)),
+        StudyPiece::Stack(stack) => (stack.title.as_str(), escape(&stack.note)),
+        // Its title is in the picture.
+        StudyPiece::Plan(..) => ("", String::new()),
+        StudyPiece::Trend(plot) => (plot.label.as_str(), String::new()),
     };
     if !title.is_empty() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(title));
@@ -266,6 +300,17 @@ mod tests {
                     StudyPiece::Words("some words".into()),
                     StudyPiece::Curves(Overlay::default(), vec![]),
                     StudyPiece::Trend(IndicatorPlot::default()),
+                    StudyPiece::Stack(Stack {
+                        panels: vec![
+                            Overlay {
+                                title: "Panel a".into(),
+                                ..Overlay::default()
+                            },
+                            Overlay::default(),
+                        ],
+                        ..Stack::default()
+                    }),
+                    StudyPiece::Plan("seen-from-above".into(), Box::default()),
                     StudyPiece::Table(Table {
                         title: "A table".into(),
                         ..Table::default()
@@ -281,6 +326,7 @@ mod tests {
             "href=\"#one\"",
             "Chapter one",
             "some words",
+            "Panel a",
             "A table",
             "a &lt; b &amp; c",
             "tag good",
@@ -290,6 +336,8 @@ mod tests {
         ] {
             assert!(page.contains(part), "{part}");
         }
-        assert_eq!(study_pictures(&study).len(), 2);
+        let pictures = study_pictures(&study);
+        assert_eq!(pictures.len(), 4);
+        assert_eq!(pictures[3].name, "seen-from-above");
     }
 }

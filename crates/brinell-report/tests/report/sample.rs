@@ -31,6 +31,8 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         half_turn_mm: (at(2) > 0.0).then(|| at(3)),
         facts: vec![Fact::new(text, at(0), text, text)],
         polygons_mm: vec![values.windows(2).map(|w| [w[0], w[1]]).collect()],
+        against_mm: values.windows(2).map(|w| [w[1], w[0]]).collect(),
+        against: text.into(),
         depths: (at(0) > 0.0).then(|| DepthPatch {
             start_mm: [at(1), at(2)],
             step_mm: [at(3), 0.5],

@@ -1,113 +1,8 @@
-//! Claims as data, and how one is decided from numbers.
+//! How a claim is decided from numbers.
 
+use super::claim::{Check, Claim, Statement};
 use super::numbers::{Number, Numbers};
-use super::verdict::{Trend, Verdict, between, follows, greater, over};
-
-/// How a statement is checked. Names are those of [`crate::campaign::quantities`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Check {
-    /// A number of a case lies within `share` of the paper's.
-    Near {
-        /// The case.
-        case: &'static str,
-        /// The number.
-        name: &'static str,
-        /// The paper's figure.
-        paper: f64,
-        /// How far off it may be, relative to the paper's.
-        share: f64,
-    },
-    /// A number of one case exceeds one of another.
-    Greater {
-        /// Case and number that is said to be larger.
-        of: (&'static str, &'static str),
-        /// Case and number that is said to be smaller.
-        than: (&'static str, &'static str),
-    },
-    /// The ratio of a number in two cases lies between bounds.
-    Ratio {
-        /// The case above.
-        of: &'static str,
-        /// The case below.
-        to: &'static str,
-        /// The number.
-        name: &'static str,
-        /// Least ratio.
-        low: f64,
-        /// Greatest ratio.
-        high: f64,
-    },
-    /// A number follows a trend along cases.
-    Follows {
-        /// The trend.
-        trend: Trend,
-        /// The cases, in order.
-        cases: &'static [&'static str],
-        /// The number.
-        name: &'static str,
-    },
-    /// A number's largest value along cases is at least `times` its smallest.
-    Changes {
-        /// The cases.
-        cases: &'static [&'static str],
-        /// The number.
-        name: &'static str,
-        /// Least ratio.
-        times: f64,
-    },
-}
-
-/// One checkable statement.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Statement {
-    /// In words.
-    pub words: &'static str,
-    /// How it is decided.
-    pub check: Check,
-}
-
-/// A sentence of the paper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Claim {
-    /// How tables call it.
-    pub id: &'static str,
-    /// Where it stands: "4.3, Fig. 17".
-    pub place: &'static str,
-    /// Its words, shortened at most.
-    pub sentence: &'static str,
-    /// The paper's figures, where it prints any.
-    pub paper: &'static str,
-    /// What is checked; none where no number decides the sentence.
-    pub statements: &'static [Statement],
-    /// What to know about it: how it was read, or why it cannot be checked and what was looked at instead.
-    pub note: &'static str,
-}
-
-impl Check {
-    /// Cases that it needs.
-    pub fn cases(&self) -> Vec<&'static str> {
-        match *self {
-            Self::Near { case, .. } => vec![case],
-            Self::Greater { of, than } => vec![of.0, than.0],
-            Self::Ratio { of, to, .. } => vec![of, to],
-            Self::Follows { cases, .. } | Self::Changes { cases, .. } => cases.to_vec(),
-        }
-    }
-}
-
-impl Claim {
-    /// Cases that it needs.
-    pub fn cases(&self) -> Vec<&'static str> {
-        let mut all: Vec<_> = self
-            .statements
-            .iter()
-            .flat_map(|s| s.check.cases())
-            .collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-}
+use super::verdict::{Verdict, between, follows, greater, over};
 
 /// A number of ours behind a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,21 +22,47 @@ pub struct Found {
 pub struct Judged {
     /// The claim's.
     pub verdict: Verdict,
+    /// The same from its own statements alone, without another reading.
+    pub plain: Verdict,
     /// Of each statement, with what decided it.
     pub statements: Vec<(Verdict, Vec<Found>)>,
+    /// Of the other reading as a whole, and of each of its statements.
+    pub otherwise: Option<(Verdict, Vec<(Verdict, Vec<Found>)>)>,
+}
+
+impl Judged {
+    /// The verdict in words, with what it is conditional on: "undecided: holds if the RMS includes the start-up".
+    pub fn words(&self, claim: &Claim) -> String {
+        let mut words = self.verdict.words().to_owned();
+        if let Some(other) = claim.otherwise.filter(|_| self.verdict != self.plain) {
+            words += &format!(": holds {}", other.words);
+        }
+        if !claim.under.is_empty() && self.verdict != Verdict::Missing {
+            words += &format!(", {}", claim.under);
+        }
+        words
+    }
 }
 
 /// Decides a claim.
 pub fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
-    let statements: Vec<_> = claim
-        .statements
-        .iter()
-        .map(|statement| decide(&statement.check, numbers))
-        .collect();
-    let verdicts: Vec<Verdict> = statements.iter().map(|s| s.0).collect();
+    let all = |statements: &[Statement]| {
+        let decided = statements.iter().map(|s| decide(&s.check, numbers));
+        let decided: Vec<(Verdict, Vec<Found>)> = decided.collect();
+        let verdicts: Vec<Verdict> = decided.iter().map(|s| s.0).collect();
+        (Verdict::of_all(&verdicts), decided)
+    };
+    let (plain, statements) = all(claim.statements);
+    let otherwise = claim.otherwise.map(|other| all(other.statements));
+    let turned = matches!(plain, Verdict::Fails | Verdict::Partly)
+        && otherwise
+            .as_ref()
+            .is_some_and(|other| other.0 == Verdict::Holds);
     Judged {
-        verdict: Verdict::of_all(&verdicts),
+        verdict: if turned { Verdict::Undecided } else { plain },
+        plain,
         statements,
+        otherwise,
     }
 }
 
@@ -153,6 +74,7 @@ fn unit(name: &str) -> &'static str {
         _ if name.ends_with("frequency") => "Hz",
         _ if name.ends_with("contact_length") => "m",
         _ if of_acceleration => "m/s^2",
+        _ if name.contains("force") => "N",
         _ => "",
     }
 }
@@ -170,7 +92,10 @@ fn quotient(what: String, ratio: Option<crate::signal::ratio::Ratio>) -> Found {
     Found {
         what,
         value: ratio.map(|r| r.value),
-        interval: ratio.and_then(|r| r.interval),
+        // Of two exact numbers it is no interval.
+        interval: ratio
+            .and_then(|r| r.interval)
+            .filter(|(low, high)| low < high),
         unit: "",
     }
 }
@@ -200,21 +125,39 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             ];
             (greater(ratio), all)
         }
-        Check::Ratio {
-            of,
-            to,
-            name,
-            low,
-            high,
-        } => {
-            let (a, b) = (numbers.get(of, name), numbers.get(to, name));
+        Check::Ratio { of, to, low, high } => {
+            let (a, b) = (numbers.get(of.0, of.1), numbers.get(to.0, to.1));
             let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
             let verdict = ratio.map_or(Verdict::Missing, |r| between(r.interval, low, high));
-            (
-                verdict,
-                vec![quotient(format!("{of} / {to}: {name}"), ratio)],
-            )
+            (verdict, vec![quotient(quotient_words(of, to), ratio)])
         }
+        Check::Differs { of, from, times } => {
+            let (a, b) = (numbers.get(of.0, of.1), numbers.get(from.0, from.1));
+            let ratio = a.zip(b).and_then(|(a, b)| over(a, b));
+            let verdict = ratio.map_or(Verdict::Missing, |r| match r.interval {
+                Some((low, high)) if low >= times || high <= 1.0 / times => Verdict::Holds,
+                Some((low, high)) if low > 1.0 / times && high < times => Verdict::Fails,
+                _ => Verdict::Undecided,
+            });
+            (verdict, vec![quotient(quotient_words(of, from), ratio)])
+        }
+        Check::Apart { cases, name, least } => match ends(cases, name, numbers) {
+            Ok((most, smallest)) => {
+                let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
+                let apart = most.1.value - smallest.1.value;
+                // Ends of independent intervals.
+                let error = half(most.1).hypot(half(smallest.1));
+                let interval = (apart - error, apart + error);
+                let found = Found {
+                    what: format!("{} less {}: {name}", most.0, smallest.0),
+                    value: Some(apart),
+                    interval: Some(interval),
+                    unit: unit(name),
+                };
+                (between(Some(interval), least, f64::INFINITY), vec![found])
+            }
+            Err(missing) => (Verdict::Missing, vec![missing]),
+        },
         Check::Follows { trend, cases, name } => {
             let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
             let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
@@ -225,31 +168,53 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
                 .collect();
             (follows(trend, &steps), all)
         }
-        Check::Changes { cases, name, times } => {
-            let mut known = Vec::new();
-            for case in cases {
-                match numbers.get(case, name) {
-                    Some(number) => known.push((*case, number)),
-                    None => return (Verdict::Missing, vec![found(case, name, None)]),
-                }
+        Check::Changes { cases, name, times } => match ends(cases, name, numbers) {
+            Ok((most, least)) => {
+                let ratio = over(most.1, least.1);
+                let what = format!("{} / {}: {name}", most.0, least.0);
+                let verdict = ratio.map_or(Verdict::Missing, |r| {
+                    between(r.interval, times, f64::INFINITY)
+                });
+                (verdict, vec![quotient(what, ratio)])
             }
-            let by = |a: &&(&str, Number), b: &&(&str, Number)| a.1.value.total_cmp(&b.1.value);
-            let (Some(most), Some(least)) = (known.iter().max_by(by), known.iter().min_by(by))
-            else {
-                return (Verdict::Missing, vec![]);
-            };
-            let ratio = over(most.1, least.1);
-            let what = format!("{} / {}: {name}", most.0, least.0);
-            let verdict = ratio.map_or(Verdict::Missing, |r| {
-                between(r.interval, times, f64::INFINITY)
-            });
-            (verdict, vec![quotient(what, ratio)])
+            Err(missing) => (Verdict::Missing, vec![missing]),
+        },
+    }
+}
+
+/// "a / b: name", or both names where they differ.
+fn quotient_words(of: (&str, &str), to: (&str, &str)) -> String {
+    if of.1 == to.1 {
+        format!("{} / {}: {}", of.0, to.0, of.1)
+    } else if of.0 == to.0 {
+        format!("{}: {} / {}", of.0, of.1, to.1)
+    } else {
+        format!("{}: {} / {}: {}", of.0, of.1, to.0, to.1)
+    }
+}
+
+type At = (&'static str, Number);
+
+/// The cases with a number's largest and smallest value; what is missing where one has none.
+fn ends(cases: &[&'static str], name: &str, numbers: &Numbers) -> Result<(At, At), Found> {
+    let mut known: Vec<At> = Vec::new();
+    for case in cases {
+        match numbers.get(case, name) {
+            Some(number) => known.push((*case, number)),
+            None => return Err(found(case, name, None)),
         }
+    }
+    known.sort_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    match (known.last(), known.first()) {
+        (Some(most), Some(least)) => Ok((*most, *least)),
+        _ => Err(found("", name, None)),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::claim::Otherwise;
+    use super::super::verdict::Trend;
     use super::super::{case, claims};
     use super::*;
     use crate::signal::Interval;
@@ -294,9 +259,8 @@ mod tests {
         assert_eq!(of(greater, &[("a", 1.0), ("b", 2.0)]), Verdict::Fails);
         assert_eq!(of(greater, &[("a", 1.0)]), Verdict::Missing);
         let ratio = Check::Ratio {
-            of: "a",
-            to: "b",
-            name: "q.rms",
+            of: ("a", "q.rms"),
+            to: ("b", "q.rms"),
             low: 1.0,
             high: 1.1,
         };
@@ -339,6 +303,80 @@ mod tests {
             Verdict::Fails
         );
         assert_eq!(of(changes, &[("a", 1.1)]), Verdict::Missing);
+        let differs = Check::Differs {
+            of: ("a", "q.rms"),
+            from: ("b", "q.rms"),
+            times: 1.5,
+        };
+        assert_eq!(of(differs, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
+        assert_eq!(of(differs, &[("a", 1.0), ("b", 2.0)]), Verdict::Holds);
+        assert_eq!(of(differs, &[("a", 1.5), ("b", 1.0)]), Verdict::Undecided);
+        assert_eq!(of(differs, &[("a", 1.1), ("b", 1.0)]), Verdict::Fails);
+        assert_eq!(of(differs, &[("a", 1.1)]), Verdict::Missing);
+        let apart = Check::Apart {
+            cases: &["a", "b", "c"],
+            name: "q.rms",
+            least: 0.5,
+        };
+        assert_eq!(
+            of(apart, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
+            Verdict::Holds
+        );
+        assert_eq!(
+            of(apart, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
+            Verdict::Undecided
+        );
+        assert_eq!(
+            of(apart, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
+            Verdict::Fails
+        );
+        assert_eq!(of(apart, &[("a", 1.1)]), Verdict::Missing);
+    }
+
+    #[test]
+    fn prop_another_reading_makes_a_failure_undecided_and_says_so() {
+        const AS_READ: &[Statement] = &[Statement {
+            words: "near",
+            check: Check::Near {
+                case: "a",
+                name: "q.rms",
+                paper: 10.0,
+                share: 0.1,
+            },
+        }];
+        const OTHER: &[Statement] = &[Statement {
+            words: "near",
+            check: Check::Near {
+                case: "b",
+                name: "q.rms",
+                paper: 10.0,
+                share: 0.1,
+            },
+        }];
+        let claim = Claim {
+            statements: AS_READ,
+            under: "under a guess",
+            otherwise: Some(Otherwise {
+                words: "if b",
+                statements: OTHER,
+            }),
+            ..Claim::USUAL
+        };
+        let words = |a: f64, b: Option<f64>| {
+            let mut numbers = Numbers::default();
+            numbers.insert("a", "q.rms", scattered(a));
+            if let Some(b) = b {
+                numbers.insert("b", "q.rms", scattered(b));
+            }
+            judge(&claim, &numbers).words(&claim)
+        };
+        assert_eq!(
+            words(20.0, Some(10.0)),
+            "undecided: holds if b, under a guess"
+        );
+        assert_eq!(words(20.0, Some(20.0)), "does not hold, under a guess");
+        assert_eq!(words(20.0, None), "does not hold, under a guess");
+        assert_eq!(words(10.0, Some(20.0)), "holds, under a guess");
     }
 
     #[test]

@@ -1,9 +1,17 @@
 //! What the cases gave, by name.
 
-use crate::campaign::Row;
+use super::reading::{Reading, Record};
+use crate::campaign::{Row, Spread};
 use crate::observe::passes::PassPoint;
 use crate::signal::{Estimate, Interval};
 use std::collections::BTreeMap;
+
+/// Of a number that scatters, in a run too short to say how much: it decides nothing.
+const UNKNOWN: Interval = Interval {
+    low: f64::NEG_INFINITY,
+    high: f64::INFINITY,
+    freedom: 1,
+};
 
 /// One number with what is known of its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +47,14 @@ impl Numbers {
     /// Adds everything of a finished run.
     pub fn add(&mut self, case: &str, row: &Row) {
         for quantity in row.result.as_deref().unwrap_or(&[]) {
-            if let Some(Estimate { value, interval }) = quantity.estimate() {
-                self.insert(case, &quantity.name, Number { value, interval });
-            }
+            let Some(Estimate { value, interval }) = quantity.estimate() else {
+                continue;
+            };
+            let interval = match quantity.spread {
+                Spread::Unknown => Some(UNKNOWN),
+                _ => interval,
+            };
+            self.insert(case, &quantity.name, Number { value, interval });
         }
     }
 
@@ -50,14 +63,32 @@ impl Numbers {
         self.all.get(&(case.to_owned(), name.to_owned())).copied()
     }
 
-    /// The same, the outer ring's accelerations being those behind the anti-alias filter.
+    /// The same, RMS and peak to peak being those of a reading. What a run has no such record of is missing.
     #[must_use]
-    pub fn behind_filter(&self) -> Self {
+    pub fn read(&self, reading: Reading) -> Self {
         let mut all = self.all.clone();
-        for ((case, name), number) in &self.all {
-            if let Some(rest) = name.strip_prefix("measured_a") {
-                all.insert((case.clone(), format!("outer_a{rest}")), *number);
+        if let Record::FromStart(ms) = reading.record {
+            let window = format!(".first_{ms}ms");
+            let of = |name: &str| {
+                ["rms", "peak_to_peak"]
+                    .iter()
+                    .any(|i| name.ends_with(&format!(".{i}")))
+            };
+            all.retain(|(_, name), _| !of(name));
+            for ((case, name), number) in &self.all {
+                let mut parts = name.split(window.as_str());
+                if let (Some(channel), Some(indicator)) = (parts.next(), parts.next()) {
+                    all.insert((case.clone(), format!("{channel}{indicator}")), *number);
+                }
             }
+        }
+        if reading.filtered {
+            let measured = all.iter().filter_map(|((case, name), number)| {
+                let rest = name.strip_prefix("measured_a")?;
+                Some(((case.clone(), format!("outer_a{rest}")), *number))
+            });
+            let measured: Vec<_> = measured.collect();
+            all.extend(measured);
         }
         Self { all }
     }
@@ -82,8 +113,9 @@ pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::verdict::{Verdict, greater, over};
     use super::*;
-    use crate::campaign::{Quantity, Spread};
+    use crate::campaign::Quantity;
 
     fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
         let point = |k: i32| {
@@ -132,7 +164,11 @@ mod tests {
             result: Ok(vec![
                 quantity("outer_ax.rms", Some(3.3), Spread::Interval(interval)),
                 quantity("measured_ax.rms", Some(2.0), Spread::Interval(interval)),
+                quantity("inner_ax.rms", Some(1.5), Spread::Interval(interval)),
+                quantity("measured_ax.first_285ms.rms", Some(30.0), Spread::Without),
+                quantity("outer_ax.first_285ms.rms", Some(40.0), Spread::Without),
                 quantity("none", None, Spread::Unknown),
+                quantity("short", Some(5.0), Spread::Unknown),
                 quantity("turns", Some(12.0), Spread::Without),
             ]),
         };
@@ -142,8 +178,24 @@ mod tests {
         assert_eq!((rms.value, rms.interval), (3.3, Some(interval)));
         assert_eq!(numbers.get("a", "none"), None);
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
+        // Too short a run decides nothing, whatever it is held against.
+        let short = numbers.get("a", "short").unwrap();
+        for other in [short, rms, Number::exact(1.0)] {
+            assert_eq!(greater(over(short, other)), Verdict::Undecided);
+            assert_eq!(greater(over(other, short)), Verdict::Undecided);
+        }
         assert_eq!(numbers.get("a", "turns"), Some(Number::exact(12.0)));
-        let filtered = numbers.behind_filter();
-        assert_eq!(filtered.get("a", "outer_ax.rms").unwrap().value, 2.0);
+        let usual = Reading::USUAL;
+        let read =
+            |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
+        assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));
+        assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(2.0));
+        assert_eq!(read(usual.from_start(285), "outer_ax.rms"), Some(40.0));
+        assert_eq!(
+            read(usual.from_start(285).behind_filter(), "outer_ax.rms"),
+            Some(30.0)
+        );
+        assert_eq!(read(usual.from_start(285), "inner_ax.rms"), None);
+        assert_eq!(read(usual.from_start(100), "outer_ax.rms"), None);
     }
 }

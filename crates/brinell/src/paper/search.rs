@@ -1,16 +1,18 @@
 //! A search for one set of assumptions: a unit cube over [`super::RANGES`], what [`crate::calibrate::fit`] is to meet in it, and how far a set
 //! stays from the paper's figures.
 
-use super::assumptions::{RANGES, Values};
 use super::numbers::Numbers;
-use super::{Claim, Verdict, claims, judge};
+use super::outline::Outline;
+use super::ranges::{RANGES, READ_AS, RECORDS, Values};
+use super::reading::{Reading, Record};
+use super::{Verdict, claims, judge};
 use crate::calibrate::{Answer, Target};
 
 /// Cases that every draw runs: the paper's three RMS values, at a seventh of the cost of all cases.
 pub const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];
 
 /// The paper's RMS of each of [`SEARCHED`], m/s^2 (section 4.5).
-const RMS: [f64; 3] = [30.414, 32.06, 29.01];
+pub const RMS: [f64; 3] = [30.414, 32.06, 29.01];
 /// The paper's simulated defect frequency of the irregular shape, Hz (section 4.1.3).
 const FREQUENCY: f64 = 249.40;
 
@@ -23,13 +25,16 @@ pub struct Draw {
     pub place: Vec<f64>,
     /// Key and value over every case.
     pub settings: Vec<(String, String)>,
-    /// Whether the outer ring is looked at behind the anti-alias filter.
-    pub filtered: bool,
+    /// How Eq. (27) is read.
+    pub outline: Outline,
+    /// How RMS and peak to peak are read off the runs.
+    pub reading: Reading,
 }
 
-/// Axes of the cube that is searched: one for each of [`RANGES`], in their order, and one for the filter.
-pub fn axes() -> usize {
-    RANGES.len() + 1
+/// Axes of the cube that is searched: one for each of [`RANGES`], in their order, one for the reading of Eq. (27), one for the filter, and one
+/// for the record unless that is `fixed`.
+pub fn axes(fixed: Option<Record>) -> usize {
+    RANGES.len() + 2 + usize::from(fixed.is_none())
 }
 
 /// The set at a place of the unit cube, the `number`th that is looked at. Numbers carry four digits: that is what a table shows, and what is
@@ -37,9 +42,9 @@ pub fn axes() -> usize {
 ///
 /// # Panics
 /// Where the place has not as many coordinates as there are [`axes`].
-pub fn draw(number: usize, place: &[f64]) -> Draw {
-    let (filter, places) = place.split_last().expect("a cube has axes");
-    assert_eq!(places.len(), RANGES.len());
+pub fn draw(number: usize, place: &[f64], fixed: Option<Record>) -> Draw {
+    assert_eq!(place.len(), axes(fixed));
+    let (places, others) = place.split_at(RANGES.len());
     let mut settings = Vec::new();
     for (range, place) in RANGES.iter().zip(places) {
         let values: Vec<String> = match range.values {
@@ -48,20 +53,29 @@ pub fn draw(number: usize, place: &[f64]) -> Draw {
                 vec![format!("{x:.3e}"); range.keys.len()]
             }
             Values::OneOf(choices) => {
-                let k = (place * choices.len() as f64) as usize;
-                let chosen = choices[k.min(choices.len() - 1)];
+                let chosen = chosen(choices, *place);
                 chosen.iter().map(|value| (*value).to_owned()).collect()
             }
         };
         let keys = range.keys.iter().map(|key| (*key).to_owned());
         settings.extend(keys.zip(values));
     }
+    let record = fixed.or_else(|| others.get(2).map(|u| chosen(RECORDS, *u)));
     Draw {
         number,
         place: place.to_vec(),
         settings,
-        filtered: *filter >= 0.5,
+        outline: chosen(READ_AS, others[0]),
+        reading: Reading {
+            filtered: others[1] >= 0.5,
+            record: record.unwrap_or(Record::Steady),
+        },
     }
+}
+
+fn chosen<T: Copy>(choices: &[T], place: f64) -> T {
+    let k = (place * choices.len() as f64) as usize;
+    choices[k.min(choices.len() - 1)]
 }
 
 /// What the search is to meet: the logarithms of the paper's RMS values, to 5 %, its frequency, to the 0.4 % that model and paper differ by
@@ -100,12 +114,19 @@ pub fn answers(numbers: &Numbers) -> Option<Vec<Answer>> {
 
 /// Share of the statements about the searched cases alone that hold.
 pub fn held(numbers: &Numbers) -> f64 {
-    let searched = |claim: &&Claim| claim.cases().iter().all(|case| SEARCHED.contains(case));
-    let verdicts: Vec<Verdict> = claims()
-        .filter(searched)
-        .flat_map(|claim| judge(claim, numbers).statements)
-        .map(|(verdict, _)| verdict)
-        .collect();
+    let mut verdicts: Vec<Verdict> = Vec::new();
+    for claim in claims() {
+        let judged = judge(claim, numbers).statements;
+        let about = claim
+            .statements
+            .iter()
+            .zip(judged)
+            .filter(|(statement, _)| {
+                let cases = statement.check.cases();
+                cases.iter().all(|case| SEARCHED.contains(case))
+            });
+        verdicts.extend(about.map(|(_, (verdict, _))| verdict));
+    }
     let held = verdicts.iter().filter(|v| **v == Verdict::Holds).count();
     held as f64 / verdicts.len().max(1) as f64
 }
@@ -144,7 +165,7 @@ pub fn distance(numbers: &Numbers) -> Option<Distance> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BASE, Number, VARIANTS};
+    use super::super::{BASE, CASES, Number, VARIANTS, WINDOWS_MS};
     use super::*;
     use std::collections::BTreeSet;
 
@@ -152,9 +173,9 @@ mod tests {
     fn prop_every_place_is_a_sound_scenario_and_every_choice_has_one() {
         let n = 12;
         let along = |axis: usize, k: usize| {
-            let mut place = vec![0.5; axes()];
+            let mut place = vec![0.5; axes(None)];
             place[axis] = k as f64 / n as f64;
-            draw(1, &place)
+            draw(1, &place, None)
         };
         for (axis, range) in RANGES.iter().enumerate() {
             let all: Vec<Draw> = (0..=n).map(|k| along(axis, k)).collect();
@@ -178,19 +199,35 @@ mod tests {
                 Values::OneOf(choices) => assert_eq!(seen.len(), choices.len(), "{:?}", range.keys),
             }
         }
-        assert!(!along(axes() - 1, 0).filtered && along(axes() - 1, n).filtered);
+        let (outline, filter, record) = (RANGES.len(), RANGES.len() + 1, RANGES.len() + 2);
+        assert!(!along(filter, 0).reading.filtered && along(filter, n).reading.filtered);
+        assert!(
+            READ_AS
+                .iter()
+                .all(|o| (0..=n).any(|k| along(outline, k).outline == *o))
+        );
+        let seen = |r: &Record| (0..=n).any(|k| along(record, k).reading.record == *r);
+        assert!(RECORDS.iter().all(seen));
+        let fixed = draw(
+            1,
+            &vec![0.5; axes(Some(Record::Steady))],
+            Some(Record::Steady),
+        );
+        assert_eq!(fixed.reading.record, Record::Steady);
     }
 
     #[test]
     fn prop_variants_are_sound_scenarios() {
         for variant in VARIANTS {
-            let settings: Vec<_> = variant
-                .settings
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect();
-            crate::document::read(BASE, &settings)
-                .unwrap_or_else(|e| panic!("{}: {e:?}", variant.id));
+            let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
+            let settings: Vec<_> = variant.settings.iter().map(own).collect();
+            for case in CASES {
+                crate::document::read(BASE, &case.over(&settings, variant.outline))
+                    .unwrap_or_else(|e| panic!("{}, {}: {e:?}", variant.id, case.id));
+            }
+            if let Record::FromStart(ms) = variant.reading.record {
+                assert!(WINDOWS_MS.contains(&ms), "{}", variant.id);
+            }
         }
     }
 

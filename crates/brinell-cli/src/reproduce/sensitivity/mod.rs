@@ -1,5 +1,6 @@
 //! The claims under each unstated assumption, and the search for a set of assumptions that agrees best.
 
+mod table;
 mod tell;
 
 use super::points::{Point, numbers, point};
@@ -7,8 +8,8 @@ use crate::campaign::{Ledger, Task};
 use crate::failure::Failure;
 use brinell::calibrate::{Settings, Unfit, fit, least_budget};
 use brinell::paper::{
-    Aspect, CASES, Claim, Distance, Draw, Judged, Length, Numbers, SEARCHED, VARIANTS, Variant,
-    Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
+    CASES, Claim, Distance, Draw, Judged, Length, Numbers, Reading, Record, SEARCHED, VARIANTS,
+    Variant, Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
 };
 
 /// The search is a fixed one.
@@ -17,6 +18,10 @@ const SEED: u64 = 2023;
 const BEST: usize = 5;
 const APART: f64 = 0.15;
 
+/// The searches: one chooses the stretch of the record too, the other keeps to the steady part, since the first goes where the paper's
+/// figures are met most easily.
+const SCOPES: [(Option<Record>, usize); 2] = [(None, 640), (Some(Record::Steady), 460)];
+
 /// An assumption that turns a verdict.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flip {
@@ -24,7 +29,7 @@ pub(super) struct Flip {
     pub(super) verdict: Verdict,
 }
 
-/// A variant's points; that of the filter has none of its own.
+/// A variant's points.
 struct Varied {
     variant: &'static Variant,
     points: Vec<Point>,
@@ -33,13 +38,28 @@ struct Varied {
 /// Everything that the sensitivity needs to run.
 pub(super) struct Plan {
     varied: Vec<Varied>,
-    /// Sets that the search may look at.
-    budget: usize,
+    quick: bool,
     length: Length,
 }
 
-/// A set that the search looked at, with its runs.
+/// A set that a search looked at, with its runs.
 pub(super) type Drawn = (Draw, Vec<Point>);
+
+/// What was found under one assumption made otherwise.
+struct Tried {
+    variant: &'static Variant,
+    /// Of every claim.
+    judged: Vec<Judged>,
+    numbers: Numbers,
+}
+
+/// What the sets of one kind of record came to.
+struct Nearest {
+    record: Record,
+    sets: usize,
+    /// Number of the set that is nearest to the paper's RMS values.
+    best: Option<(usize, Distance)>,
+}
 
 /// A set of assumptions, looked at on all cases.
 pub(super) struct Candidate {
@@ -50,25 +70,27 @@ pub(super) struct Candidate {
 
 impl Candidate {
     fn held(&self) -> usize {
-        let holds = |j: &&(_, Judged)| j.1.verdict == Verdict::Holds;
+        let holds = |j: &&(_, Judged)| j.1.plain == Verdict::Holds;
         self.judged.iter().filter(holds).count()
     }
 
     fn checkable(&self) -> usize {
-        let checkable = |j: &&(_, Judged)| j.1.verdict != Verdict::NotCheckable;
+        let checkable = |j: &&(_, Judged)| j.1.plain != Verdict::NotCheckable;
         self.judged.iter().filter(checkable).count()
     }
 }
 
 /// What came out.
 pub(super) struct Sensitivity {
-    /// Each variant with the verdict of every claim.
-    variants: Vec<(&'static Variant, Vec<Judged>)>,
+    /// In the order of [`VARIANTS`].
+    variants: Vec<Tried>,
     /// The best sets of the search, best first.
     candidates: Vec<Candidate>,
     /// Sets that were drawn.
     drawn: usize,
-    turns: u32,
+    /// By the stretch of the record.
+    nearest: Vec<Nearest>,
+    length: Length,
 }
 
 impl Plan {
@@ -80,7 +102,8 @@ impl Plan {
         };
         let varied = VARIANTS.iter().map(|variant| {
             let settings = owned(variant.settings);
-            let points = CASES.iter().map(|case| point(case, &settings, length));
+            let points = CASES.iter();
+            let points = points.map(|case| point(case, &settings, variant.outline, length));
             Ok(Varied {
                 variant,
                 points: points.collect::<Result<_, Failure>>()?,
@@ -88,14 +111,23 @@ impl Plan {
         });
         Ok(Self {
             varied: varied.collect::<Result<_, Failure>>()?,
-            budget: if quick { least_budget(axes()) } else { 96 },
+            quick,
             length,
         })
     }
 
-    /// Sets that the search looks at, at most.
-    pub(super) fn budget(&self) -> usize {
-        self.budget
+    fn budget(&self, scope: (Option<Record>, usize)) -> usize {
+        let least = least_budget(axes(scope.0));
+        if self.quick {
+            least
+        } else {
+            scope.1.max(least)
+        }
+    }
+
+    /// Sets that the searches look at, at most.
+    pub(super) fn sets(&self) -> usize {
+        SCOPES.iter().map(|scope| self.budget(*scope)).sum()
     }
 
     /// What runs first.
@@ -104,19 +136,37 @@ impl Plan {
         points.map(|point| &point.task)
     }
 
-    /// Sets of the search, in the order in which they were looked at. `run` sees to it that what it gets is done, and says whether it was
+    /// Sets of the searches, in the order in which they were looked at. `run` sees to it that what it gets is done, and says whether it was
     /// interrupted; then there are none.
     pub(super) fn search(
         &self,
         ledger: &mut Ledger,
         mut run: impl FnMut(&[Drawn], &mut Ledger) -> Result<bool, Failure>,
     ) -> Result<Option<Vec<Drawn>>, Failure> {
-        let (mut all, mut failure) = (Vec::new(), None);
+        let mut all = Vec::new();
+        for scope in SCOPES {
+            if !self.search_within(scope, &mut all, ledger, &mut run)? {
+                return Ok(None);
+            }
+        }
+        Ok(Some(all))
+    }
+
+    /// One search; whether it came to its end.
+    fn search_within(
+        &self,
+        scope: (Option<Record>, usize),
+        all: &mut Vec<Drawn>,
+        ledger: &mut Ledger,
+        run: &mut impl FnMut(&[Drawn], &mut Ledger) -> Result<bool, Failure>,
+    ) -> Result<bool, Failure> {
+        let mut failure = None;
         let mut ask = |places: &[Vec<f64>]| {
             let made = places.iter().enumerate().map(|(k, place)| {
-                let draw = draw(all.len() + k + 1, place);
+                let draw = draw(all.len() + k + 1, place, scope.0);
                 let cases = SEARCHED.iter().filter_map(|id| case(id));
-                let points = cases.map(|case| point(case, &draw.settings, self.length));
+                let points =
+                    cases.map(|case| point(case, &draw.settings, draw.outline, Length::START));
                 let points = points.collect::<Result<_, Failure>>()?;
                 Ok((draw, points))
             });
@@ -137,15 +187,15 @@ impl Plan {
         };
         let settings = Settings {
             seed: SEED,
-            budget: self.budget,
+            budget: self.budget(scope),
         };
         let targets = targets();
-        let found = fit(axes(), &targets, settings, &mut ask);
+        let found = fit(axes(scope.0), &targets, settings, &mut ask);
         match (failure, found) {
             (Some(failure), _) => Err(failure),
-            (None, Err(Unfit::Interrupted)) => Ok(None),
+            (None, Err(Unfit::Interrupted)) => Ok(false),
             // Without one that came to its end there is nothing to choose from, and that is told.
-            (None, _) => Ok(Some(all)),
+            (None, _) => Ok(true),
         }
     }
 
@@ -165,8 +215,10 @@ impl Plan {
         for (_, k) in scored {
             let one = &drawn[k].0;
             let near = |d: &&Draw| {
+                // Sets of different searches have different axes.
+                let same = (d.outline, d.reading) == (one.outline, one.reading);
                 let far = d.place.iter().zip(&one.place).map(|(a, b)| (a - b).abs());
-                far.fold(0.0, f64::max) < APART
+                same && far.fold(0.0, f64::max) < APART
             };
             if best.len() < BEST && !best.iter().any(near) {
                 best.push(one);
@@ -175,7 +227,7 @@ impl Plan {
         let finalist = |draw: &Draw| {
             let points = CASES
                 .iter()
-                .map(|case| point(case, &draw.settings, self.length));
+                .map(|case| point(case, &draw.settings, draw.outline, self.length));
             Ok(Finalist {
                 points: points.collect::<Result<_, Failure>>()?,
                 draw: draw.clone(),
@@ -186,21 +238,21 @@ impl Plan {
 
     pub(super) fn finish(
         &self,
-        drawn: usize,
+        drawn: &[Drawn],
         finalists: Vec<Finalist>,
         ledger: &Ledger,
     ) -> Sensitivity {
-        let judged = |n: &Numbers| claims().map(|claim| judge(claim, n)).collect();
         let variants = self.varied.iter().map(|v| {
             let plain = numbers(&v.points, ledger);
-            let numbers = match v.variant.aspect {
-                Aspect::Filter => plain.behind_filter(),
-                _ => plain,
-            };
-            (v.variant, judged(&numbers))
+            let read = plain.read(v.variant.reading);
+            Tried {
+                variant: v.variant,
+                judged: claims().map(|claim| judge(claim, &read)).collect(),
+                numbers: plain,
+            }
         });
         let candidates = finalists.into_iter().filter_map(|f| {
-            let numbers = of_draw(&f.draw, &f.points, ledger);
+            let numbers = numbers(&f.points, ledger).read(f.draw.reading);
             Some(Candidate {
                 distance: distance(&numbers)?,
                 judged: claims()
@@ -217,10 +269,31 @@ impl Plan {
         Sensitivity {
             variants: variants.collect(),
             candidates,
-            drawn,
-            turns: self.length.turns,
+            drawn: drawn.len(),
+            nearest: nearest(drawn, ledger),
+            length: self.length,
         }
     }
+}
+
+/// The nearest set of each stretch of the record, the steady part first.
+fn nearest(drawn: &[Drawn], ledger: &Ledger) -> Vec<Nearest> {
+    let mut all: Vec<Nearest> = Vec::new();
+    for record in brinell::paper::RECORDS {
+        let mine: Vec<&Drawn> = drawn
+            .iter()
+            .filter(|d| d.0.reading.record == *record)
+            .collect();
+        let known = mine
+            .iter()
+            .filter_map(|one| Some((one.0.number, distance(&read(one, ledger))?)));
+        all.push(Nearest {
+            record: *record,
+            sets: mine.len(),
+            best: known.min_by(|a, b| a.1.rms.total_cmp(&b.1.rms)),
+        });
+    }
+    all
 }
 
 /// A set of assumptions on its way to all cases.
@@ -230,16 +303,7 @@ pub(super) struct Finalist {
 }
 
 fn read((draw, points): &Drawn, ledger: &Ledger) -> Numbers {
-    of_draw(draw, points, ledger)
-}
-
-fn of_draw(draw: &Draw, points: &[Point], ledger: &Ledger) -> Numbers {
-    let plain = numbers(points, ledger);
-    if draw.filtered {
-        plain.behind_filter()
-    } else {
-        plain
-    }
+    numbers(points, ledger).read(draw.reading)
 }
 
 fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
@@ -253,7 +317,7 @@ fn score(numbers: &Numbers) -> Option<f64> {
 }
 
 impl Sensitivity {
-    /// Assumptions under which a claim that held fails, or one that failed holds.
+    /// Assumptions under which a claim that held fails, or one that failed holds. `verdict` is that of its own statements alone.
     pub(super) fn flips(&self, place: usize, verdict: Verdict) -> Vec<Flip> {
         let turned = |other: Verdict| {
             use Verdict::{Fails, Holds, Partly};
@@ -262,13 +326,49 @@ impl Sensitivity {
                 (Holds, Fails | Partly) | (Fails, Holds | Partly) | (Partly, Holds | Fails)
             )
         };
-        let all = self.variants.iter().filter_map(|(variant, judged)| {
-            let other = judged[place].verdict;
+        let all = self.variants.iter().filter_map(|tried| {
+            let other = tried.judged[place].plain;
             turned(other).then_some(Flip {
-                variant,
+                variant: tried.variant,
                 verdict: other,
             })
         });
         all.collect()
+    }
+
+    /// The verdicts of a claim under every assumption, that of the baseline first.
+    pub(super) fn verdicts(&self, id: &str) -> Vec<(&'static Variant, Verdict)> {
+        let place = claims().position(|claim| claim.id == id);
+        let of = |tried: &Tried| Some((tried.variant, tried.judged[place?].plain));
+        self.variants.iter().filter_map(of).collect()
+    }
+
+    /// Smallest and largest ratio of a number in two cases, both of the steady part, over the assumptions under which that is what is read.
+    pub(super) fn ratios(&self, of: &str, to: &str, name: &str) -> Option<(f64, f64)> {
+        let steady = self
+            .variants
+            .iter()
+            .filter(|t| t.variant.reading == Reading::USUAL);
+        let ratio = |tried: &Tried| {
+            let (a, b) = (tried.numbers.get(of, name)?, tried.numbers.get(to, name)?);
+            (b.value > 0.0).then(|| a.value / b.value)
+        };
+        let all: Vec<f64> = steady.filter_map(ratio).collect();
+        let least = all.iter().copied().min_by(f64::total_cmp)?;
+        Some((least, all.iter().copied().max_by(f64::total_cmp)?))
+    }
+
+    /// Sets that were looked at with the steady part and with a record from t = 0, and how near the nearest of each came.
+    pub(super) fn nearest(&self) -> [(usize, Option<&Distance>); 2] {
+        [true, false].map(|steady| {
+            let mine = || {
+                self.nearest
+                    .iter()
+                    .filter(move |n| (n.record == Record::Steady) == steady)
+            };
+            let best = mine().filter_map(|n| n.best.as_ref().map(|b| &b.1));
+            let best = best.min_by(|a, b| a.rms.total_cmp(&b.rms));
+            (mine().map(|n| n.sets).sum(), best)
+        })
     }
 }

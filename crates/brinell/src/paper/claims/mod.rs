@@ -1,14 +1,16 @@
-//! What sections 4 and 5 say, sentence by sentence.
+//! What sections 3 to 5 say, sentence by sentence.
 
 mod defects;
+mod models;
 mod operation;
 
-use super::judge::{Check, Claim, Statement};
+use super::claim::{Check, Claim, Statement};
 use super::verdict::Trend;
 
 /// Every claim, in the paper's order.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
-    defects::CLAIMS.iter().chain(operation::CLAIMS)
+    let operation = operation::CLAIMS.iter().chain(models::CLAIMS);
+    defects::CLAIMS.iter().chain(operation)
 }
 
 const fn so(words: &'static str, check: Check) -> Statement {
