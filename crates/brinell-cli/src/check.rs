@@ -187,6 +187,9 @@ fn clearance(b: &Bearing) -> String {
         "{} um on one side, {} um on the diameter",
         b.radial_clearance_um, diametral
     );
+    if diametral < 0.0 {
+        return format!("{both}: preload");
+    }
     let Some(bore) = bore_diameter_mm(b) else {
         return both;
     };

@@ -45,9 +45,13 @@ fn regress_check_prints_numbers_that_can_be_read() {
     let call = check(&[
         "operation.load_n=[0, -2500]",
         "bearing.radial_clearance_um=-10",
+        "defects=[]",
     ])
     .exits(0)
-    .says(&["load zone               360.0 deg wide"]);
+    .says(&[
+        "load zone               360.0 deg wide",
+        "-10 um on one side, -20 um on the diameter: preload",
+    ]);
     let after = |name: &str| {
         let line = call.out.lines().find(|l| l.trim_start().starts_with(name));
         line.unwrap_or_else(|| panic!("{name}: {}", call.out))

@@ -378,10 +378,9 @@ fn regress_record_picks_channels_by_wildcards() {
     }
     assert_eq!(names.len(), 3 + 11, "{names:?}");
     // There is no third row.
-    assert_eq!(
-        err,
-        "warning: simulation.record: \"contact3_*\" matches no channel of this bearing\n"
-    );
+    let idle = "warning: simulation.record: \"contact3_*\" matches no channel of this bearing\n";
+    assert!(err.ends_with(idle), "{err}");
+    assert_eq!(err.matches("warning: ").count(), 2, "{err}");
     let (names, _) = columns(here, r#"["contact*_outer_length", "pocket1_13_force"]"#);
     assert_eq!(names.len(), 1 + 13 + 1);
     assert_eq!(names[1], "contact1_01_outer_length");

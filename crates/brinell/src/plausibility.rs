@@ -309,10 +309,10 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         size if size >= 1e-3 => format!("{} mJ", short(1e3 * x)),
         _ => format!("{} uJ", short(1e6 * x)),
     };
-    let done = if work > 0.0 {
-        "put energy into"
+    let (done, by) = if work > 0.0 {
+        ("put energy into", "supplies it")
     } else {
-        "took energy out of"
+        ("took energy out of", "takes it up")
     };
     let share = if dissipated <= 0.0 {
         "while contact damping dissipates nothing".to_owned()
@@ -339,7 +339,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         }
     };
     Some(format!(
-        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body supplies it, so amplitudes depend \
+        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body {by}, so amplitudes depend \
          on the contact law. {remedy}",
         joule(work.abs())
     ))
