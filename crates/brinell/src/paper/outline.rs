@@ -101,7 +101,7 @@ impl Outline {
         if self == Self::Depth {
             let depth: Vec<f64> = half
                 .iter()
-                .map(|h| DEPTH_UM * 2.0 * h * scale / WIDTH_MM)
+                .map(|h| DEPTH_UM * 2.0 * h.max(0.0) * scale / WIDTH_MM)
                 .collect();
             text += &format!(", depth_um = {}", list(&depth));
         }
