@@ -76,7 +76,7 @@ def static_analysis(scenario: Scenario) -> LoadZone:
 
 
 def derived(scenario: Scenario) -> dict[str, Any]:
-    """What ``brinell check`` tells: frequencies, stiffnesses, time scales, the longest step.
+    """What ``brinell check`` prints: frequencies, stiffnesses, contact pressure, time scales, the longest step; ``warnings`` about what may not be meant.
 
     Examples
     --------

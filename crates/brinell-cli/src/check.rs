@@ -1,14 +1,17 @@
 //! `brinell check`.
 
 use crate::args::CheckArgs;
-use crate::failure::Failure;
+use crate::failure::{Failure, print_problems};
 use crate::files;
 use crate::say::{say, short, significant};
+use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::channel;
 use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::observe::passes::place;
-use brinell::scenario::Speed;
+use brinell::plausibility;
+use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures, static_rating};
+use brinell::scenario::{Bearing, Scenario, Speed};
 use brinell::simulate::RunError;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -19,10 +22,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let model = Model::new(s).map_err(|e| Failure::Run(RunError::Model(e)))?;
     let d = Derived::new(&model, s.simulation.accuracy);
     let b = &s.bearing;
-    say!("{}: the scenario is sound", s.name);
+    let warnings = plausibility::before(s, &model, &d.statics);
+    print_problems("", "", &warnings);
+    say!("{}: the scenario is valid", s.name);
     say!("");
     say!(
-        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle, clearance {} um on one side",
+        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle",
         b.preset
             .as_ref()
             .map_or(String::new(), |p| format!("{p}: ")),
@@ -31,10 +36,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         b.roller_diameter_mm,
         b.roller_length_mm,
         b.pitch_diameter_mm,
-        b.radial_clearance_um,
     );
+    say!("Clearance {}", clearance(b));
+    say!("Rating    {}", rating(s));
     let at = match s.operation.speed_rpm {
-        Speed::Constant(rpm) => format!("at {rpm} r/min"),
+        Speed::Constant(rpm) if rpm < 0.0 => format!("at {} r/min, clockwise", -rpm),
+        Speed::Constant(rpm) => format!("at {rpm} r/min, counter-clockwise"),
         Speed::Profile(_) => format!(
             "at the top speed, {} r/min",
             short(60.0 * d.top_speed / TAU, 5)
@@ -51,6 +58,21 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             let size = zone.shift[0].hypot(zone.shift[1]);
             say!("Static balance under the full load (mean over a pitch of the cage)");
             say!("  heaviest contact        {} N", short(zone.largest, 4));
+            let [inner, outer] = pressures(b, zone.largest).map(|p| short(1e-6 * p, 4));
+            say!(
+                "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
+                1e-6 * STATIC_LIMIT
+            );
+            for (k, defect) in model.defects.iter().enumerate() {
+                if let Some((left, pressure)) = pressure_beside(&model, b, k, zone.largest) {
+                    say!(
+                        "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",
+                        short(1e-6 * pressure, 4),
+                        short(1e3 * left, 3),
+                        place(defect)
+                    );
+                }
+            }
             say!(
                 "  load zone               {:.1} deg wide",
                 zone.extent.to_degrees()
@@ -78,16 +100,21 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         short(s.contact.exponent, 5)
     );
     say!(
-        "  at {} N           inner {}, outer {} N/m",
-        short(d.contact_force, 3),
+        "  {:<23} inner {}, outer {} N/m",
+        format!("at {} N", short(d.contact_force, 3)),
         short(d.contact_stiffness[0], 3),
         short(d.contact_stiffness[1], 3)
     );
     let (carried, load) = d.support_share;
     say!(
-        "  support over clearance  {} N of the {} N load",
+        "  support over clearance  {} N of the {} N of load{}",
         short(carried, 3),
-        short(load, 3)
+        short(load, 3),
+        if s.operation.gravity_m_per_s2 == [0.0; 2] {
+            ""
+        } else {
+            " and ring weight"
+        }
     );
     say!("");
     say!("Time scales");
@@ -136,7 +163,13 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     if args.assumptions {
         say!("Assumed, because nobody stated it:");
         for p in &assumed {
-            say!("  {} = {} {}  ({})", p.key, p.value, p.unit, p.reason());
+            say!(
+                "  {} = {} {}  ({})",
+                p.key,
+                rounded(&p.value),
+                p.unit,
+                p.reason()
+            );
         }
     } else {
         say!(
@@ -145,4 +178,52 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         );
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// On one side, on the diameter, and the classes that this is.
+fn clearance(b: &Bearing) -> String {
+    let diametral = 2.0 * b.radial_clearance_um;
+    let both = format!(
+        "{} um on one side, {} um on the diameter",
+        b.radial_clearance_um, diametral
+    );
+    let Some(bore) = bore_diameter_mm(b) else {
+        return both;
+    };
+    let classes: Vec<&str> = classes_of(bore, diametral)
+        .iter()
+        .map(|c| c.name())
+        .collect();
+    match classes.is_empty() {
+        true => format!("{both}; in no class of ISO 5753-1 for a bore of {bore} mm"),
+        false => format!(
+            "{both}; ISO 5753-1 {} for a bore of {bore} mm",
+            classes.join(" and ")
+        ),
+    }
+}
+
+/// The static load rating, and how far the load is from it.
+fn rating(s: &Scenario) -> String {
+    let rating = static_rating(&s.bearing);
+    let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
+    let factor = if load > 0.0 {
+        format!(", {} times the load", short(rating.load / load, 3))
+    } else {
+        String::new()
+    };
+    format!(
+        "C0 = {} kN{factor} ({})",
+        short(1e-3 * rating.load, 3),
+        rating.source.unwrap_or("estimate by the formula of ISO 76")
+    )
+}
+
+/// A value for a list: a number that takes more than eight digits is cut to six.
+fn rounded(value: &str) -> String {
+    let digits = value.bytes().filter(u8::is_ascii_digit).count();
+    match value.parse::<f64>() {
+        Ok(x) if digits > 8 => short(x, 6),
+        _ => value.to_owned(),
+    }
 }

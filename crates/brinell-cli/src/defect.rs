@@ -238,7 +238,8 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
 }
 
 /// One `[[defects]]` entry as TOML; what the scenario's checks say of it goes to standard error.
-fn print(s: &Scenario, defect: scenario::Defect, remarks: &[String]) {
+fn print(s: &Scenario, mut defect: scenario::Defect, remarks: &[String]) {
+    round(&mut defect);
     let alone = Scenario {
         defects: vec![defect],
         ..s.clone()
@@ -249,6 +250,36 @@ fn print(s: &Scenario, defect: scenario::Defect, remarks: &[String]) {
         }
     }
     print_entry(&alone, remarks);
+}
+
+/// Twelve digits of what was computed: the others are the round-off of sums and of changes of unit.
+fn round(defect: &mut scenario::Defect) {
+    let twelve = |x: &mut f64| *x = format!("{x:.11e}").parse().unwrap_or(*x);
+    twelve(&mut defect.depth_um);
+    twelve(&mut defect.center_deg);
+    match &mut defect.shape {
+        scenario::Shape::Rectangle {
+            length_mm,
+            width_mm,
+        } => {
+            twelve(length_mm);
+            twelve(width_mm);
+        }
+        scenario::Shape::Circle { diameter_mm } => twelve(diameter_mm),
+        scenario::Shape::Profile {
+            arc_mm,
+            width_mm,
+            depth_um,
+        } => {
+            arc_mm.iter_mut().for_each(twelve);
+            width_mm.iter_mut().for_each(twelve);
+            depth_um.iter_mut().flatten().for_each(twelve);
+        }
+        scenario::Shape::Outline { polygons_mm } => {
+            polygons_mm.iter_mut().flatten().flatten().for_each(twelve);
+        }
+        _ => {}
+    }
 }
 
 fn print_entry(alone: &Scenario, remarks: &[String]) {
@@ -428,16 +459,28 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
     say!(
         "L_s(x) in mm and h_s(x) in um, x = (2 s - from - to)/(to - from), coefficients of x^0, x^1, ..."
     );
+    // What is round-off beside the largest coefficient is 0.
     let list = |values: &[f64], unit: f64| {
-        let all: Vec<String> = values.iter().map(|c| format!("{:.6e}", unit * c)).collect();
+        let largest = values.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let all: Vec<String> = values
+            .iter()
+            .map(|c| {
+                format!(
+                    "{:.6e}",
+                    unit * if c.abs() < 1e-12 * largest { 0.0 } else { *c }
+                )
+            })
+            .collect();
         all.join(" ")
     };
+    // Never -0.
+    let mm = |x: f64| (1e9 * x).round() / 1e6 + 0.0;
     for (k, g) in fit.segments.iter().enumerate() {
         say!(
             "segment {}: s from {:.6} to {:.6} mm",
             k + 1,
-            1e3 * g.from,
-            1e3 * g.to
+            mm(g.from),
+            mm(g.to)
         );
         say!("  width {}", list(&g.width, 1e3));
         say!("  depth {}", list(&g.depth, 1e6));

@@ -49,8 +49,9 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
         BearingCommand::Show { name } => {
             let entry = find(name)?;
             say!("{}: {}", entry.name, entry.title);
-            let width = entry.values.iter().map(|v| v.key.len()).max().unwrap_or(0);
-            for value in &entry.values {
+            let all = || entry.facts.iter().chain(&entry.values);
+            let width = all().map(|v| v.key.len()).max().unwrap_or(0);
+            for value in all() {
                 let estimated = if value.estimated { "estimated: " } else { "" };
                 say!(
                     "  {:<width$}  {:>10}  {estimated}{}",

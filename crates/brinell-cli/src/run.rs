@@ -4,14 +4,15 @@ mod folder;
 mod many;
 
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
-use crate::failure::{Failure, INTERRUPTED};
+use crate::failure::{Failure, INTERRUPTED, print_problems};
 use crate::progress::Progress;
 use crate::recorder::Recorder;
-use crate::say::{say, short};
+use crate::say::{complain, say, short};
 use crate::{files, page};
 use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
+use brinell::plausibility;
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::statics::static_load_zone;
@@ -58,6 +59,14 @@ fn ready(args: &RunArgs, path: &Path) -> Result<(Loaded, Simulation), Failure> {
     };
     let loaded = files::scenario(&source, args.quiet)?;
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    if !args.quiet {
+        let model = simulation.model();
+        let warnings = plausibility::before(&loaded.scenario, model, &static_load_zone(model));
+        if args.scenarios.len() > 1 && !warnings.is_empty() {
+            complain!("{}:", path.display());
+        }
+        print_problems("", "", &warnings);
+    }
     Ok((loaded, simulation))
 }
 
@@ -368,6 +377,8 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             .momentum_imbalance
             .map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
+    let after = plausibility::after(&loaded.scenario, energy);
+    told.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
         told.push(format!("  wrote {}", path.display()));
     }

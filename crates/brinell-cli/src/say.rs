@@ -52,9 +52,10 @@ pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
     }
 }
 
-/// [`short`], with 0 for what is round-off beside `scale`.
+/// [`short`], with 0 for what is the solver's error beside `scale`.
 pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
-    const ROUND_OFF: f64 = 1e-12;
+    // The static balance leaves 1e-10 of the forces over.
+    const ROUND_OFF: f64 = 1e-9;
     short(
         if x.abs() < ROUND_OFF * scale.abs() {
             0.0

@@ -17,10 +17,14 @@ fn check_with(from: &str, to: &str) -> Call {
 
 #[test]
 fn regress_a_sound_scenario_exits_0_without_complaint() {
-    check_with("short", "sound")
+    check_with("duration_s = 0.02", "duration_s = 0.2")
         .exits(0)
-        .says(&["sound: the scenario is sound"])
+        .says(&["short: the scenario is valid"])
         .keeps_quiet();
+    check_with("short", "brief")
+        .exits(0)
+        .says(&["brief: the scenario is valid"])
+        .warns_of_the_short_run_alone();
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn prop_several_runs_give_the_bits_of_each_alone() {
     )
     .exits(0)
     .says(&["many/b: short: 0.02", "3 runs, 2 at a time, in"])
-    .keeps_quiet();
+    .warns_of_the_short_run_alone();
     for name in names {
         let (file, alone) = (format!("{name}.toml"), format!("alone/{name}"));
         brinell(folder.path(), &["run", &file, "-o", &alone, "-q"])

@@ -45,7 +45,9 @@ const CHANNELS: [&str; 20] = [
 fn regress_csv_has_the_documented_channels_and_number_of_rows() {
     let folder = folder_with(SHORT);
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv"];
-    let call = brinell(folder.path(), &args).exits(0).keeps_quiet();
+    let call = brinell(folder.path(), &args)
+        .exits(0)
+        .warns_of_the_short_run_alone();
     let output = folder.path().join("o");
     assert_eq!(
         files(&output),
@@ -105,7 +107,7 @@ fn prop_the_same_scenario_gives_the_same_bytes_and_its_written_form_the_same_sig
             "--plots",
             "svg,png",
         ];
-        brinell(here, &args).exits(0).keeps_quiet();
+        brinell(here, &args).exits(0).warns_of_the_short_run_alone();
     };
     run("s.toml", "a");
     run("s.toml", "b");
@@ -170,7 +172,12 @@ fn regress_summary_has_the_documented_members() {
     assert_eq!(s["status"], serde_json::json!({ "complete": true }));
     assert_eq!(s["simulated"]["samples"], 7681);
     assert_eq!(s["simulated"]["reached_s"], 0.3);
-    assert_eq!(s["warnings"], serde_json::json!([]));
+    // The law of the paper is fed by its damage; the same words on the terminal.
+    let warnings = s["warnings"].as_array().unwrap();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    let fed = warnings[0].as_str().unwrap();
+    assert!(fed.starts_with("parametric work: "), "{fed}");
+    assert!(call.out.contains(fed), "{}", call.out);
     let bpfo = s["defect_frequencies"]["hz"]["bpfo"].as_f64().unwrap();
     assert!((bpfo - 131.05).abs() < 0.01, "{bpfo}");
     assert_eq!(s["defects"][0]["frequency"]["name"], "BPFO");
@@ -287,7 +294,7 @@ fn regress_signal_formats_are_what_was_asked_for() {
     ] {
         let output = format!("o{}", formats.join(""));
         let args = [&["run", "s.toml", "--no-report", "-o", &output], formats].concat();
-        brinell(here, &args).exits(0).keeps_quiet();
+        brinell(here, &args).exits(0).warns_of_the_short_run_alone();
         let mut written = files(&here.join(&output));
         written.retain(|name| name.starts_with("signals"));
         assert_eq!(written, expected, "{formats:?}");

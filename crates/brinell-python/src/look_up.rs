@@ -52,6 +52,10 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let accuracy = scenario.loaded.scenario.simulation.accuracy;
     let d = py.detach(|| Derived::new(&model, accuracy));
     let (carried, load) = d.support_share;
+    let s = &scenario.loaded.scenario;
+    let pressures = brinell::pressure::pressures(&s.bearing, d.contact_force);
+    let warnings = py.detach(|| brinell::plausibility::before(s, &model, &d.statics));
+    let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let value = json!({
         "top_speed_rpm": d.top_speed * 60.0 / TAU,
         "frequencies_hz": table(&d.kinematics, d.top_speed / TAU),
@@ -68,6 +72,10 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
         "longest_step_s": d.longest_step,
         "support_over_clearance_n": carried,
         "load_n": load,
+        "inner_contact_pressure_mpa": 1e-6 * pressures[0],
+        "outer_contact_pressure_mpa": 1e-6 * pressures[1],
+        "static_load_rating_n": brinell::pressure::static_rating(&s.bearing).load,
+        "warnings": warnings,
     });
     json_to_python(py, &value)
 }

@@ -24,6 +24,8 @@ pub struct Report {
     pub version: String,
     /// Why the run ended early, where it did.
     pub partial: Option<String>,
+    /// What the reader should know before the numbers.
+    pub warnings: Vec<String>,
     /// Headline numbers.
     pub facts: Vec<Fact>,
     /// The measured acceleration.

@@ -6,7 +6,7 @@ use crate::chart::Domain;
 use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::Report;
 use crate::embedded::Chart;
-use crate::frame::{THINNED, alert, close, code, figure, none, open, section};
+use crate::frame::{THINNED, alert, close, code, figure, none, open, plain, section};
 use crate::load::load_distribution;
 use crate::number::significant;
 use crate::picture::escape;
@@ -30,7 +30,9 @@ pub fn html(report: &Report) -> String {
         report
             .partial
             .as_deref()
-            .map(|why| ("This run is partial.", why)),
+            .map(|why| ("This run is partial.", why))
+            .into_iter()
+            .chain(plain(&report.warnings)),
     );
     let mut sections: Vec<Section> = vec![
         ("waveform", "Waveform", waveform),

@@ -35,7 +35,8 @@ pub struct Derived {
     pub defect_passes: Vec<f64>,
     /// Longest step that the solver may take, s.
     pub longest_step: f64,
-    /// Load times clearance bound of section 12: the support's force over the clearance, N, and the load, N.
+    /// Load times clearance bound of section 12: the force of the loaded ring's support over the clearance, N, and what acts on that ring,
+    /// load and weight together, N.
     pub support_share: (f64, f64),
 }
 
@@ -74,9 +75,9 @@ impl Derived {
         let roller_angular = (between / m.roller).sqrt();
         let damping = model.inner_contact.damping + model.outer_contact.damping;
         let natural = |stiffness: f64, mass: f64| (stiffness / mass).sqrt() / TAU;
-        let (loaded, load) = match model.load.on {
-            LoadOn::OuterRing => (model.acting_outer_support(), model.load.full),
-            LoadOn::InnerRing => (model.inner_support, model.load.full),
+        let loaded = match model.load.on {
+            LoadOn::OuterRing => model.acting_outer_support(),
+            LoadOn::InnerRing => model.inner_support,
         };
         Self {
             top_speed,
@@ -99,7 +100,9 @@ impl Derived {
             longest_step: settings(model, accuracy).max_step,
             support_share: (
                 loaded.stiffness * g.clearance.max(0.0),
-                load[0].hypot(load[1]),
+                model
+                    .load
+                    .with_weight([m.inner_ring, m.outer_ring], model.gravity),
             ),
             statics,
         }

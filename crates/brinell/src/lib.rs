@@ -21,6 +21,8 @@ pub mod model;
 pub mod observe;
 pub mod operation;
 pub mod paper;
+pub mod plausibility;
+pub mod pressure;
 pub mod random;
 pub mod scenario;
 pub mod sensor;

@@ -94,6 +94,17 @@ impl Load {
             scenario::LoadOn::OuterRing => ([0.0; 2], [-f[0], -f[1]]),
         }
     }
+
+    /// Size of the full load and the weight together on the ring that the load acts on, N; masses (kg) of the inner and the outer ring,
+    /// gravity in m/s^2.
+    pub fn with_weight(&self, masses: [f64; 2], gravity: [f64; 2]) -> f64 {
+        let (inner, outer) = self.on_rings(1.0);
+        let (force, mass) = match self.on {
+            scenario::LoadOn::InnerRing => (inner, masses[0]),
+            scenario::LoadOn::OuterRing => (outer, masses[1]),
+        };
+        (force[0] + mass * gravity[0]).hypot(force[1] + mass * gravity[1])
+    }
 }
 
 #[cfg(test)]

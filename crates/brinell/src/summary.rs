@@ -6,6 +6,7 @@ use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
 use crate::observe::{Drift, Findings, passes};
+use crate::plausibility;
 use crate::scenario::{Accuracy, ModelKind, Speed};
 use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 use crate::simulate::{End, Outcome, Simulation};
@@ -142,6 +143,10 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
     if let Err(error) = parts.statics {
         all.push(error.to_string());
     }
+    let scenario = &parts.loaded.scenario;
+    let before = plausibility::before(scenario, parts.simulation.model(), parts.statics);
+    all.extend(before.iter().map(ToString::to_string));
+    all.extend(plausibility::after(scenario, &parts.outcome.energy));
     all
 }
 

@@ -33,6 +33,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
             End::Stopped => Some("the run was stopped before its duration".into()),
             End::Failed(error) => Some(error.to_string()),
         },
+        warnings: brinell::summary::warnings(parts),
         facts: facts(parts),
         waveform: waveform(parts),
         spectrum: spectrum(parts),

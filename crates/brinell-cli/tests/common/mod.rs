@@ -65,6 +65,20 @@ impl Call {
         assert_eq!(self.err, "");
         self
     }
+
+    /// Of [`SHORT`], which ends before it has settled: that on standard error, and nothing else.
+    #[track_caller]
+    pub(crate) fn warns_of_the_short_run_alone(self) -> Self {
+        let told = |line: &&str| {
+            let warning = "warning: simulation.duration_s = 0.02: too short to settle";
+            line.starts_with(warning)
+                || *line == "  allowed: >= 0.160 s"
+                || line.ends_with(".toml:")
+        };
+        let (told, rest): (Vec<&str>, Vec<&str>) = self.err.lines().partition(told);
+        assert!(!told.is_empty() && rest.is_empty(), "{self:#?}");
+        self
+    }
 }
 
 impl From<Output> for Call {

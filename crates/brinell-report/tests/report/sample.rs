@@ -132,6 +132,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         subtitle: text.into(),
         version: text.into(),
         partial: Some(text.into()),
+        warnings: vec![text.into()],
         undrawn_damage: (at(2) < 0.0).then(|| text.to_owned()),
         facts: vec![fact(), Fact::new(text, text, text, text)],
         waveform: Waveform {

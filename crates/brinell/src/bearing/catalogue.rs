@@ -13,9 +13,16 @@ pub struct Entry {
     pub name: String,
     /// One line: what it is, who makes it, which data set or paper knows it.
     pub title: String,
-    /// Its numbers, in the file's order.
+    /// Its numbers for the scenario, in the file's order.
     pub values: Vec<Value>,
+    /// Numbers that fill no key of the scenario: [`BORE`] and, where a maker's is known, [`STATIC_RATING`].
+    pub facts: Vec<Value>,
 }
+
+/// Bore diameter, mm.
+pub const BORE: &str = "bore_diameter_mm";
+/// Basic static radial load rating C0, N.
+pub const STATIC_RATING: &str = "static_load_rating_n";
 
 /// One number of a bearing, and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,11 +41,18 @@ impl Entry {
     /// A number by its key of `[bearing]`; `None` where the entry does not give it.
     pub fn number(&self, key: &str) -> Option<f64> {
         let named = |v: &&Value| v.key.strip_prefix("bearing.") == Some(key);
-        match self.values.iter().find(named)?.value {
-            Datum::Number(x) => Some(x),
-            Datum::Integer(n) => Some(n as f64),
-            Datum::Text(_) => None,
-        }
+        self.values.iter().find(named)?.value.number()
+    }
+
+    /// One of [`BORE`] and [`STATIC_RATING`].
+    pub fn fact(&self, key: &str) -> Option<f64> {
+        self.fact_of(key).map(|(value, _)| value)
+    }
+
+    /// The same with its source.
+    pub fn fact_of(&self, key: &str) -> Option<(f64, &str)> {
+        let fact = self.facts.iter().find(|v| v.key == key)?;
+        Some((fact.value.number()?, &fact.source))
     }
 
     /// What its kinematics follow from.
@@ -66,6 +80,16 @@ pub enum Datum {
     Integer(i64),
     /// A choice.
     Text(String),
+}
+
+impl Datum {
+    fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(x) => Some(*x),
+            Self::Integer(n) => Some(*n as f64),
+            Self::Text(_) => None,
+        }
+    }
 }
 
 static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
@@ -104,17 +128,20 @@ fn entry(name: String, table: toml::Value) -> Result<Entry, String> {
     let Some(toml::Value::String(title)) = table.remove("title") else {
         return Err(format!("{name} has no title"));
     };
-    let values = table
+    let values: Vec<Value> = table
         .into_iter()
         .map(|(key, cell)| {
             value(&key, cell)
                 .ok_or_else(|| format!("{name}: {key} is not {{ value, source, estimated }}"))
         })
         .collect::<Result<_, _>>()?;
+    // A scenario's key has its section in front.
+    let (values, facts) = values.into_iter().partition(|v| v.key.contains('.'));
     Ok(Entry {
         name,
         title,
         values,
+        facts,
     })
 }
 
@@ -237,17 +264,36 @@ mod tests {
                 };
                 assert!(fits, "{}: {key} = {:?}", entry.name, value.value);
             }
-            let mut keys: Vec<_> = entry.values.iter().map(|value| &value.key).collect();
+            assert!(
+                entry.fact(BORE).is_some_and(|bore| bore > 0.0),
+                "{}",
+                entry.name
+            );
+            for fact in &entry.facts {
+                assert!(
+                    [BORE, STATIC_RATING].contains(&fact.key.as_str()),
+                    "{}: {}",
+                    entry.name,
+                    fact.key
+                );
+            }
+            let all = entry.values.iter().chain(&entry.facts);
+            let mut keys: Vec<_> = all.map(|value| &value.key).collect();
             keys.sort();
             keys.dedup();
-            assert_eq!(keys.len(), entry.values.len(), "{}", entry.name);
+            assert_eq!(
+                keys.len(),
+                entry.values.len() + entry.facts.len(),
+                "{}",
+                entry.name
+            );
         }
     }
 
     #[test]
     fn prop_every_value_says_where_it_comes_from() {
         for entry in all() {
-            for value in &entry.values {
+            for value in entry.values.iter().chain(&entry.facts) {
                 assert!(
                     value.source.trim().len() > 10,
                     "{}: {} = {:?}",

@@ -188,13 +188,16 @@ impl Course {
             .sum()
     }
 
-    /// Largest value at a breakpoint or between, m; straight pieces only.
+    /// Largest value at a breakpoint or between, m; straight pieces, and parabolas that open upwards, as those of an envelope.
     pub fn largest(&self) -> f64 {
         let ends = self.pieces.iter().skip(1).map(|p| p.start);
         self.pieces
             .iter()
             .zip(ends.chain([self.lookup.last]))
-            .map(|(p, end)| p.c[0].max(p.c[0] + p.c[1] * (end - p.start)))
+            .map(|(p, end)| {
+                let x = end - p.start;
+                p.c[0].max(p.c[0] + x * (p.c[1] + x * p.c[2]))
+            })
             .fold(0.0, f64::max)
     }
 

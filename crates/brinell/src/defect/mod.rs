@@ -212,6 +212,16 @@ impl Defect {
         self.shape.own_depth(s).unwrap_or(self.depth)
     }
 
+    /// Depth of the damage, and depth to which a roller can sink into it that meets it with the relative radius `radius` (m): the largest of
+    /// h_s and of its envelope (section 3), m.
+    pub fn reach(&self, radius: f64) -> (f64, f64) {
+        let floor = self.shape.depths(self.depth);
+        (
+            Course::of_lines(&floor).largest(),
+            envelope(&floor, radius).largest(),
+        )
+    }
+
     /// What the damage leaves at the local angle u under a law that knows one width and one depth; `None` outside its arc.
     ///
     /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which comes up to 0

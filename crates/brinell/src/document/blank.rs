@@ -18,6 +18,7 @@ pub(crate) fn scenario() -> Scenario {
             rollers_per_row: 0,
             rows: 0,
             row_stagger_deg: NONE,
+            bore_diameter_mm: None,
             radial_clearance_um: NONE,
             outer_gap_um: NONE,
             inner_ring_mass_kg: NONE,

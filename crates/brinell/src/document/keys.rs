@@ -179,6 +179,15 @@ pub(crate) enum Fallback<T> {
         /// The formula in words.
         how: &'static str,
     },
+    /// Computed from another key that stands for this one; it outranks the catalogue bearing.
+    Instead {
+        /// The value.
+        value: T,
+        /// From what, in words.
+        how: &'static str,
+        /// True where that key leaves a range.
+        assumed: bool,
+    },
     /// A fixed value.
     Fixed {
         /// The value.

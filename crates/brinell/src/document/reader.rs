@@ -309,6 +309,16 @@ impl<'a> Reader<'a> {
                         .push(problem.allowed(T::range(spec)).unit(spec.unit));
                 }
             }
+            // What cannot be used comes of a key that is at fault itself, and reported.
+            Fallback::Instead { value, .. } if !value.fits(spec) => {}
+            Fallback::Instead {
+                value,
+                how,
+                assumed,
+            } => {
+                self.record(&path, spec, &value, Origin::Derived(how), assumed);
+                return Some(value);
+            }
             Fallback::Fixed {
                 value,
                 why,
@@ -327,6 +337,9 @@ impl Keys for Reader<'_> {
         let (path, entry) = self.name(&spec);
         let read = match entry {
             Some(entry) => self.read(&path, &spec, &entry.node),
+            None if matches!(fallback, Fallback::Instead { .. }) => {
+                self.fall_back(path, &spec, fallback)
+            }
             None => self
                 .catalogued(&path, &spec)
                 .or_else(|| self.fall_back(path, &spec, fallback)),

@@ -88,7 +88,9 @@ impl Keys for Schema {
                 doc.push_str("; required without a preset that states it");
             }
             Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
-            Fallback::Derived { how, .. } => doc.push_str(&format!("; default: {how}")),
+            Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => {
+                doc.push_str(&format!("; default: {how}"))
+            }
             Fallback::Fixed { value, why, .. } => {
                 // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
                 if let Ok(value) = serde_json::from_str::<Json>(&value.write()) {

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 
 use super::blank;
 use super::damage::defect;
-use super::keys::Fallback::{Catalogued, Needed, Required};
+use super::keys::Fallback::{self, Catalogued, Needed, Required};
 use super::keys::{Keys, assumed, derived, key, stated};
 use super::sensor::sensor;
+use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
@@ -112,14 +113,7 @@ fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
         derived(180.0 / b.rollers_per_row as f64, "half a roller pitch")
     };
     k.key(stagger, stagger_default, &mut b.row_stagger_deg);
-    k.key(
-        key(
-            "radial_clearance_um",
-            "C_r, gap on one side, half of ISO 5753's; negative is preload",
-        ),
-        assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
-        &mut b.radial_clearance_um,
-    );
+    clearance(k, b);
     k.key(
         key("outer_gap_um", "gap subtracted at the outer contact too").from(0.0),
         stated(0.0, "all clearance is at the inner contact"),
@@ -148,6 +142,56 @@ fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
         key("roller_mass_kg", "m").above(0.0),
         derived(roller, "steel cylinder"),
         &mut b.roller_mass_kg,
+    );
+}
+
+/// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is given.
+fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
+    k.optional(
+        key(
+            "bore_diameter_mm",
+            "bore, for clearance_class; left out, the preset's",
+        )
+        .above(0.0),
+        &mut b.bore_diameter_mm,
+    );
+    let (mut diametral, mut class): (Option<f64>, Option<ClearanceClass>) = (None, None);
+    k.optional(
+        key(
+            "diametral_clearance_um",
+            "radial internal clearance of ISO 5753, twice radial_clearance_um; in place of it",
+        ),
+        &mut diametral,
+    );
+    k.optional(
+        key(
+            "clearance_class",
+            "class of ISO 5753-1 for the bore, its middle is used; in place of radial_clearance_um",
+        ),
+        &mut class,
+    );
+    let default = match (diametral, class) {
+        (Some(diametral), _) => Fallback::Instead {
+            value: 0.5 * diametral,
+            how: "half of bearing.diametral_clearance_um",
+            assumed: false,
+        },
+        (None, Some(class)) => Fallback::Instead {
+            value: bore_diameter_mm(b)
+                .and_then(|bore| class.one_sided_middle(bore))
+                .unwrap_or(f64::NAN),
+            how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
+            assumed: true,
+        },
+        (None, None) => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
+    };
+    k.key(
+        key(
+            "radial_clearance_um",
+            "C_r, gap on one side, half of ISO 5753's; negative is preload",
+        ),
+        default,
+        &mut b.radial_clearance_um,
     );
 }
 
@@ -182,7 +226,7 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     k.key(
         key("pocket_clearance_mm", "C_p, to each side").from(0.0),
-        derived(0.015 * d, "1.5 % of the roller diameter"),
+        derived(15.0 * d / 1000.0, "1.5 % of the roller diameter"),
         &mut c.pocket_clearance_mm,
     );
     k.key(
@@ -340,7 +384,7 @@ fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
     k.key(
         key(
             "speed_rpm",
-            "inner ring, counter-clockwise; a number other than 0, or points [[t_s, rpm], ...]",
+            "inner ring, counter-clockwise, negative is clockwise; a number other than 0, or points [[t_s, rpm], ...]",
         ),
         Required,
         &mut o.speed_rpm,

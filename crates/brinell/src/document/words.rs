@@ -1,6 +1,7 @@
 //! The words that keys with a closed choice accept.
 
 use super::leaf::Choice;
+use crate::bearing::clearance::ClearanceClass;
 use crate::scenario::*;
 
 /// Gives a closed choice its words: value, word, meaning.
@@ -13,6 +14,14 @@ macro_rules! words {
     };
 }
 pub(crate) use words;
+
+words! { ClearanceClass:
+    CN = "CN", "normal";
+    C2 = "C2", "less than CN";
+    C3 = "C3", "more than CN";
+    C4 = "C4", "more than C3";
+    C5 = "C5", "more than C4";
+}
 
 words! { Guidance:
     OuterRing = "outer-ring", "a land on the outer ring";

@@ -8,8 +8,11 @@ use crate::channel::Frame;
 use crate::model::{Layout, Model};
 use crate::scenario::{ModelKind, Surface};
 use crate::signal::blocks::MOST_FREEDOM;
-use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter, student_t_quantile};
+use crate::signal::{Averages, Estimate, Interval, LineFrequency, Scatter};
 use std::f64::consts::TAU;
+
+/// Share of a run, at its beginning, that hardly moves a frequency found under Hann's window.
+const TAPERED: f64 = 0.2;
 
 /// Of one defect.
 #[derive(Debug, Clone)]
@@ -93,19 +96,17 @@ impl PassRates {
 
     /// The interval of a frequency found in the envelope: of its noise, and of slip's wander about the mean rate.
     ///
-    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the scatter of the motion's own
-    /// mean gives S, and the frequency is an average over [`LineFrequency::span`]. Degrees of freedom by Welch and Satterthwaite, those of
+    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the motion gives S, and the
+    /// frequency is an average over [`LineFrequency::span`]. Hann's window gives the beginning little weight, so cages that still settle
+    /// there do not count as wander. Degrees of freedom by Welch and Satterthwaite, those of
     /// the noise counting as many. `None` where the run is too short to tell.
     pub fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
         let noise = found.noise * found.noise;
         let (wander, freedom) = match self.rates.get(defect) {
             None => (0.0, 1.0),
             Some(rate) => {
-                let interval = rate.averages.estimate()?.interval?;
-                let quantile = student_t_quantile(0.975, interval.freedom);
-                let error = 0.5 * (interval.high - interval.low) / quantile;
-                let stretched = error * error * rate.averages.weight() / found.span;
-                (stretched, f64::from(interval.freedom))
+                let (density, freedom) = rate.averages.density(TAPERED)?;
+                (density / found.span, f64::from(freedom))
             }
         };
         let share = wander / (wander + noise);

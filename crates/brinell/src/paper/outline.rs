@@ -101,7 +101,8 @@ impl Outline {
         if self == Self::Depth {
             let depth: Vec<f64> = half
                 .iter()
-                .map(|h| DEPTH_UM * 2.0 * h.max(0.0) * scale / WIDTH_MM)
+                // The printed digits of the first arc begin at -2e-5 mm.
+                .map(|h| (DEPTH_UM * 2.0 * h * scale / WIDTH_MM).max(0.0))
                 .collect();
             text += &format!(", depth_um = {}", list(&depth));
         }

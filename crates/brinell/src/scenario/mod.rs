@@ -61,7 +61,10 @@ pub struct Bearing {
     pub rows: usize,
     /// Angle by which row i lags row i - 1, degrees.
     pub row_stagger_deg: f64,
-    /// C_r, radial gap on one side (half of ISO 5753's diametral value), um; negative is preload.
+    /// Bore, mm: for classes of clearance. `None`: that of the preset.
+    pub bore_diameter_mm: Option<f64>,
+    /// C_r, radial gap on one side (half of ISO 5753's diametral value), um; negative is preload. A file may give the diametral value or a
+    /// class instead.
     pub radial_clearance_um: f64,
     /// Gap subtracted at the outer contact too, um.
     pub outer_gap_um: f64,

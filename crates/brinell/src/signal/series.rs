@@ -136,11 +136,6 @@ impl Averages {
         }
     }
 
-    /// Weights of all whole revolutions, or without one, of what has been seen.
-    pub fn weight(&self) -> f64 {
-        self.all().weight
-    }
-
     /// The average over whole revolutions, or without one, over what has been seen, and its interval; `None` of nothing.
     pub fn estimate(&self) -> Option<Estimate> {
         let all = self.all();
@@ -155,6 +150,18 @@ impl Averages {
         let each = weight / revolutions * self.series.per_block as f64;
         let blocks = self.series.closed.iter();
         blocks.map(|b| (b.sum - mean * b.weight) / each).collect()
+    }
+
+    /// Spectral density of the average at frequency zero (two-sided, in its unit squared times that of the weight), from all blocks but the
+    /// first share `skipped` of them, with its degrees of freedom; `None` of a series too short to tell.
+    pub fn density(&self, skipped: f64) -> Option<(f64, u32)> {
+        let all = self.all();
+        let influence = self.influence(all.sum / all.weight, all.weight);
+        let rest = &influence[(skipped * influence.len() as f64) as usize..];
+        let found = scatter(rest)?;
+        let revolutions = rest.len() as u64 * self.series.per_block;
+        let weight = all.weight * revolutions as f64 / self.series.revolutions() as f64;
+        Some((found.error * found.error * weight, found.freedom))
     }
 
     /// By how much the average began above its later value, where that is more than its scatter explains; see [`drift`].

@@ -3,7 +3,7 @@
 use super::{NoBalance, Problem, solve};
 use crate::defect::wrap;
 use crate::model::Model;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Load distribution of the static balance: rollers of all rows at several positions of the cage.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,8 +12,12 @@ pub struct StaticLoadZone {
     pub points: Vec<(usize, f64, f64, f64)>,
     /// Largest Q_out, N.
     pub largest: f64,
-    /// Extent of the zone where the inner raceway carries, rad; 0 where none does.
+    /// Extent of the zone where the inner raceway carries, rad; 0 where none does, a full turn where every roller carries everywhere.
     pub extent: f64,
+    /// Where it begins and ends, rad, counted from its middle [`Self::middle`].
+    pub ends: (f64, f64),
+    /// Direction in which the inner ring is displaced in the outer one, rad.
+    pub middle: f64,
     /// Mean ring offset, inner less outer, m.
     pub shift: [f64; 2],
     /// Mean stiffness of the bearing between its rings, N/m.
@@ -35,6 +39,8 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
         points: Vec::with_capacity(PHASES * l.rollers()),
         largest: 0.0,
         extent: 0.0,
+        ends: (0.0, 0.0),
+        middle: 0.0,
         shift: [0.0; 2],
         stiffness: [[0.0; 2]; 2],
     };
@@ -64,15 +70,18 @@ pub fn static_load_zone(model: &Model) -> Result<StaticLoadZone, NoBalance> {
             }
         }
     }
-    let middle = zone.shift[1].atan2(zone.shift[0]);
-    let (mut first, mut last) = (0.0_f64, 0.0_f64);
-    for &(_, angle, inner, _) in &zone.points {
-        if inner > 0.0 {
-            let from_middle = wrap(angle - middle);
-            first = first.min(from_middle);
-            last = last.max(from_middle);
+    zone.middle = zone.shift[1].atan2(zone.shift[0]);
+    if zone.points.iter().all(|point| point.2 > 0.0) {
+        zone.ends = (-PI, PI);
+    } else {
+        for &(_, angle, inner, _) in &zone.points {
+            if inner > 0.0 {
+                let from_middle = wrap(angle - zone.middle);
+                zone.ends.0 = zone.ends.0.min(from_middle);
+                zone.ends.1 = zone.ends.1.max(from_middle);
+            }
         }
     }
-    zone.extent = last - first;
+    zone.extent = zone.ends.1 - zone.ends.0;
     Ok(zone)
 }

@@ -316,6 +316,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     rollers_per_row: z,
                     rows,
                     row_stagger_deg: -x[0],
+                    bore_diameter_mm: None,
                     radial_clearance_um: d * x[1] / 1e9,
                     outer_gap_um: d * x[2] / 1e9,
                     inner_ring_mass_kg: x[3],

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Checker, short};
+use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
 const GEOMETRY_TOLERANCE: f64 = 0.02;
@@ -17,29 +18,37 @@ const PITCH: &str = "bearing.pitch_diameter_mm";
 const ROLLER: &str = "bearing.roller_diameter_mm";
 const COUNT: &str = "bearing.rollers_per_row";
 const CLEARANCE: &str = "bearing.radial_clearance_um";
+const DIAMETRAL: &str = "bearing.diametral_clearance_um";
+const CLASS: &str = "bearing.clearance_class";
+const BORE: &str = "bearing.bore_diameter_mm";
+/// One-sided clearance (um) below which a value other than 0 is taken for mm: less than a raceway's own roundness error.
+const SMALLEST_CLEARANCE: f64 = 0.2;
 const CAGE_INNER: &str = "cage.inner_diameter_mm";
 const CAGE_OUTER: &str = "cage.outer_diameter_mm";
 const POCKET: &str = "cage.pocket_clearance_mm";
 
 impl Checker<'_> {
     pub(super) fn bearing(&mut self) {
+        self.ways_to_clearance();
         let b = &self.s.bearing;
         let (inner, outer) = (b.inner_raceway_diameter_mm, b.outer_raceway_diameter_mm);
         let (pitch, d) = (b.pitch_diameter_mm, b.roller_diameter_mm);
         let clearance_mm = 1e-3 * (b.radial_clearance_um.abs() + b.outer_gap_um);
         if clearance_mm > LARGEST_CLEARANCE * d {
+            let (key, factor) = self.clearance_key();
             self.error(
-                CLEARANCE,
+                key,
                 format!(
                     "clearance and outer gap together are {} mm, out of proportion to a roller of {} mm",
                     short(clearance_mm),
                     short(d)
                 ),
-                format!("-{0} to {0}", short(1e3 * LARGEST_CLEARANCE * d)),
+                format!("-{0} to {0}", short(factor * 1e3 * LARGEST_CLEARANCE * d)),
                 &["bearing.outer_gap_um", ROLLER],
             );
             return;
         }
+        self.clearance_unit();
         let tolerance = (GEOMETRY_TOLERANCE * d).max(CLEARANCES * clearance_mm);
         let room = 0.5 * (outer - inner);
         if outer <= inner {
@@ -111,6 +120,78 @@ impl Checker<'_> {
                 ),
                 format!("< {}", short(0.5 * (spacing - d))),
                 &[COUNT, PITCH, ROLLER],
+            );
+        }
+    }
+
+    /// The key that gives the clearance, and how many times the one-sided clearance its value is.
+    fn clearance_key(&self) -> (&'static str, f64) {
+        if self.finder.is_given(DIAMETRAL) {
+            (DIAMETRAL, 2.0)
+        } else {
+            (CLEARANCE, 1.0)
+        }
+    }
+
+    /// Whether the clearance is given in one way, and a class with its bore.
+    fn ways_to_clearance(&mut self) {
+        let ways: Vec<&str> = [CLEARANCE, DIAMETRAL, CLASS]
+            .into_iter()
+            .filter(|key| self.finder.is_given(key))
+            .collect();
+        if let [others @ .., last] = &ways[..]
+            && !others.is_empty()
+        {
+            self.error(
+                last,
+                "the clearance is given twice".into(),
+                "one of radial_clearance_um, diametral_clearance_um and clearance_class".into(),
+                others,
+            );
+            return;
+        }
+        let bore = bore_diameter_mm(&self.s.bearing);
+        let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(bore).is_some());
+        if ways == [CLASS] && !known {
+            let (key, message) = match bore {
+                None => (
+                    CLASS,
+                    "a class needs the bore: give bearing.bore_diameter_mm, or a preset",
+                ),
+                Some(_) => (BORE, "ISO 5753-1 has no class for this bore"),
+            };
+            let allowed = "a bore of up to 1000 mm".to_owned();
+            self.error(key, message.into(), allowed, &[CLASS]);
+        }
+    }
+
+    /// Whether the unit of the clearance can be right.
+    fn clearance_unit(&mut self) {
+        let b = &self.s.bearing;
+        let (key, factor) = self.clearance_key();
+        let (one_sided, bore) = (b.radial_clearance_um, bore_diameter_mm(b));
+        let largest = bore.and_then(|bore| ClearanceClass::C5.limits(bore));
+        if one_sided != 0.0 && one_sided.abs() < SMALLEST_CLEARANCE {
+            self.warn(
+                key,
+                "very small for a clearance: in mm instead of um?".into(),
+                format!(">= {}, or 0", short(factor * SMALLEST_CLEARANCE)),
+                &[],
+            );
+        }
+        if let (Some(bore), Some([_, most])) = (bore, largest)
+            && 2.0 * one_sided > most
+        {
+            self.warn(
+                key,
+                format!(
+                    "{} um on the diameter is more than ISO 5753-1 has for a bore of {} mm; its largest class, C5, ends at {} um",
+                    short(2.0 * one_sided),
+                    short(bore),
+                    short(most)
+                ),
+                format!("<= {}", short(0.5 * factor * most)),
+                &[],
             );
         }
     }

@@ -38,6 +38,11 @@ impl<'a> Finder<'a> {
         self.found.get(key)?.place.clone()
     }
 
+    /// Whether the file or an override gives the key.
+    fn is_given(&self, key: &str) -> bool {
+        self.found.contains_key(key)
+    }
+
     fn value(&self, key: &str) -> Option<String> {
         let found = self.found.get(key).map(|found| found.text.clone());
         found.or_else(|| self.provenance.get(key).map(|entry| entry.value.clone()))

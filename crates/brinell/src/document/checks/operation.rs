@@ -2,6 +2,7 @@
 
 use super::{Checker, short};
 use crate::bearing::kinematics::{Geometry, Kinematics};
+use crate::operation::Load;
 use crate::scenario::{LoadOn, ModelKind, Speed};
 use std::f64::consts::PI;
 
@@ -66,6 +67,18 @@ impl Checker<'_> {
     pub(super) fn support(&mut self) {
         let s = self.s;
         let load = s.operation.load_n[0].hypot(s.operation.load_n[1]);
+        let masses = [s.bearing.inner_ring_mass_kg, s.bearing.outer_ring_mass_kg];
+        let full = Load {
+            full: s.operation.load_n,
+            on: s.operation.load_on,
+            ramp: 0.0,
+        };
+        let carried = full.with_weight(masses, s.operation.gravity_m_per_s2);
+        let weight = if s.operation.gravity_m_per_s2 == [0.0; 2] {
+            ""
+        } else {
+            ", the ring's weight included"
+        };
         let (loaded, held, stiffness, other) = match s.operation.load_on {
             LoadOn::OuterRing => (
                 "support.outer_stiffness_n_per_m",
@@ -84,15 +97,15 @@ impl Checker<'_> {
         let full = s.simulation.model == ModelKind::Full;
         let reference_inner = s.operation.load_on == LoadOn::InnerRing;
         let gap = 1e-6 * (s.bearing.radial_clearance_um + s.bearing.outer_gap_um);
-        if (full || reference_inner) && load > 0.0 && gap > 0.0 && stiffness * gap >= load {
+        if (full || reference_inner) && carried > 0.0 && gap > 0.0 && stiffness * gap >= carried {
             self.warn(
                 loaded,
                 format!(
-                    "the support can carry the whole load: k C_r = {} N against {} N, so the rollers may stay unloaded",
+                    "the support can carry the whole load: k C_r = {} N against {} N{weight}, so the rollers may stay unloaded",
                     short(stiffness * gap),
-                    short(load)
+                    short(carried)
                 ),
-                format!("< {:.3e}", load / gap),
+                format!("< {:.3e}", carried / gap),
                 &["bearing.radial_clearance_um", LOAD],
             );
         }

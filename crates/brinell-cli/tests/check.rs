@@ -1,0 +1,114 @@
+//! What `brinell check` says of a scenario, and that `brinell run` repeats its warnings.
+
+mod common;
+
+use common::{Call, SHORT, brinell};
+use std::fs;
+use tempfile::tempdir;
+
+/// `check` of SHORT, long enough to settle, with settings.
+fn check(settings: &[&str]) -> Call {
+    let folder = tempdir().unwrap();
+    let text = SHORT.replace("duration_s = 0.02", "duration_s = 0.2");
+    fs::write(folder.path().join("s.toml"), text).unwrap();
+    let mut args = vec!["check", "s.toml"];
+    settings.iter().for_each(|s| args.extend(["--set", s]));
+    brinell(folder.path(), &args)
+}
+
+#[test]
+fn lit_check_shows_clearance_rating_and_pressure() {
+    let call = check(&["operation.load_n=[3650, 0]"]).exits(0).says(&[
+        "Clearance 16.25 um on one side, 32.5 um on the diameter; ISO 5753-1 CN for a bore of 30 mm",
+        "Rating    C0 = 36.5 kN, 10.0 times the load (SKF General catalogue",
+        "MPa at the inner raceway, ",
+        "static limit 4000 MPa",
+        "MPa at most on the 4.80 mm of contact left on the outer raceway",
+    ]);
+    // C0 presses the heaviest roller with 4000 MPa where the load zone is half a turn; clearance makes it narrower.
+    let line = call.out.lines().find(|l| l.contains("contact pressure"));
+    let inner: f64 = line
+        .and_then(|l| l.split_whitespace().nth(2))
+        .and_then(|x| x.parse().ok())
+        .unwrap();
+    assert!((4000.0 / 10f64.sqrt()..1700.0).contains(&inner), "{inner}");
+    check(&["bearing.clearance_class=C3"])
+        .exits(0)
+        .says(&["Clearance 23.75 um on one side, 47.5 um on the diameter; ISO 5753-1 C3 for"]);
+    check(&["bearing.rollers_per_row=12"])
+        .exits(0)
+        .says(&["(estimate by the formula of ISO 76)"]);
+}
+
+#[test]
+fn regress_check_prints_numbers_that_can_be_read() {
+    let call = check(&[
+        "operation.load_n=[0, -2500]",
+        "bearing.radial_clearance_um=-10",
+    ])
+    .exits(0)
+    .says(&["load zone               360.0 deg wide"]);
+    let after = |name: &str| {
+        let line = call.out.lines().find(|l| l.trim_start().starts_with(name));
+        line.unwrap_or_else(|| panic!("{name}: {}", call.out))
+            .to_owned()
+    };
+    // What the solver leaves over is no displacement.
+    let shift = after("inner ring from outer");
+    assert!(shift.contains("(0, -"), "{shift}");
+    assert!(
+        after("bearing stiffness").ends_with("xy 0 N/m"),
+        "{}",
+        call.out
+    );
+    // Values stand in one column.
+    let starts: Vec<usize> = ["healthy contacts", "at ", "support over"]
+        .iter()
+        .map(|name| {
+            let line = after(name);
+            // Two spaces, a name of up to 23 characters, a space.
+            line.len() - line[25..].trim_start().len()
+        })
+        .collect();
+    assert_eq!(starts, [26, 26, 26], "{}", call.out);
+    check(&["operation.speed_rpm=-1500"])
+        .exits(0)
+        .says(&["in pure rolling, at 1500 r/min, clockwise"])
+        .keeps_quiet();
+}
+
+#[test]
+fn regress_check_and_run_warn_alike() {
+    for (setting, words) in [
+        ("defects.0.center_deg=180", "outside the load zone"),
+        (
+            "operation.load_n=[90000, 0]",
+            "static load rating C0 = 36.5 kN",
+        ),
+        ("bearing.radial_clearance_um=0.02", "in mm instead of um?"),
+        ("operation.load_n=[2, 0]", "gravity is left out"),
+        ("defects.0.depth_um=2000", "\"envelope\""),
+    ] {
+        check(&[setting]).exits(0).complains(&["warning", words]);
+    }
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), SHORT).unwrap();
+    let args = [
+        "run",
+        "s.toml",
+        "-o",
+        "o",
+        "--signals",
+        "none",
+        "--set",
+        "defects.0.center_deg=180",
+    ];
+    brinell(folder.path(), &args)
+        .exits(0)
+        .complains(&["outside the load zone", "too short to settle"]);
+    let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
+    let page = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
+    for text in [summary, page] {
+        assert!(text.contains("outside the load zone") && text.contains("too short to settle"));
+    }
+}

@@ -1,0 +1,346 @@
+//! What an engineer would ask about a scenario that can run: whether the damage is loaded, the steel bears the load, the run is long enough.
+//!
+//! These are warnings, not errors. [`before`] needs the model and its static balance, and takes milliseconds; `brinell check` and
+//! `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a scenario file alone can say is in
+//! [`crate::document`].
+
+use crate::defect::{SIDES, Side, relative_radius, wrap};
+use crate::document::{Problem, Severity, toml_float, unit_of_key};
+use crate::model::Model;
+use crate::operation::Rotation;
+use crate::pressure::{STATIC_LIMIT, pressures, static_rating};
+use crate::scenario::{ModelKind, RollerPath, Scenario, Speed, Surface};
+use crate::simulate::EnergyAudit;
+use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
+use std::f64::consts::TAU;
+
+/// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
+pub const PARAMETRIC_SHARE: f64 = 0.1;
+/// Share of the load beyond which a weight that is left out is worth a warning.
+const WEIGHT_SHARE: f64 = 0.1;
+/// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
+const REACHED_SHARE: f64 = 0.9;
+/// Standard gravity, m/s^2.
+const GRAVITY: f64 = 9.80665;
+
+const LOAD: &str = "operation.load_n";
+
+/// Warnings of a scenario that makes a model; `statics` is its static load zone.
+pub fn before(
+    scenario: &Scenario,
+    model: &Model,
+    statics: &Result<StaticLoadZone, NoBalance>,
+) -> Vec<Problem> {
+    let mut warnings = Vec::new();
+    warnings.extend(no_load(scenario, model));
+    warnings.extend(weight_left_out(scenario, model));
+    if let Ok(zone) = statics {
+        warnings.extend(overload(scenario, zone));
+    }
+    warnings.extend(outside_the_load_zone(scenario, model));
+    warnings.extend(out_of_reach(scenario, model));
+    warnings.extend(too_short(scenario, model));
+    warnings
+}
+
+/// Warnings of a run that is over.
+pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
+    parametric(scenario, energy).into_iter().collect()
+}
+
+fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
+    Problem::new(Severity::Warning, key, message)
+        .value(value)
+        .allowed(allowed)
+        .unit(unit_of_key(key))
+}
+
+/// A number in a message.
+fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let exponent = x.abs().log10().floor() as i32;
+    if !(-4..6).contains(&exponent) {
+        return format!("{x:.2e}");
+    }
+    let decimals = (2 - exponent).max(0) as usize;
+    format!("{x:.decimals$}")
+}
+
+fn list([x, y]: [f64; 2]) -> String {
+    format!("[{}, {}]", toml_float(x), toml_float(y))
+}
+
+/// Weight of everything that moves, N.
+fn weight(model: &Model) -> f64 {
+    let (m, l) = (&model.inertia, &model.layout);
+    let mass = m.inner_ring + m.outer_ring + m.cage * l.rows as f64 + m.roller * l.rollers() as f64;
+    GRAVITY * mass
+}
+
+fn no_load(scenario: &Scenario, model: &Model) -> Option<Problem> {
+    let o = &scenario.operation;
+    if o.load_n != [0.0; 2] || o.gravity_m_per_s2 != [0.0; 2] {
+        return None;
+    }
+    let speed = model.rolling_orbit_speed(model.rotation.max_speed());
+    let force = model.inertia.roller * model.geometry.pitch_radius * speed.powi(2);
+    Some(warning(
+        LOAD,
+        list(o.load_n),
+        format!(
+            "there is neither load nor weight: the centrifugal force of {} N a roller is all that presses the contacts",
+            short(force)
+        ),
+        "a load, or operation.gravity_m_per_s2",
+    ))
+}
+
+fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
+    let o = &scenario.operation;
+    let (load, weight) = (o.load_n[0].hypot(o.load_n[1]), weight(model));
+    let counts = o.gravity_m_per_s2 == [0.0; 2] && load > 0.0 && weight > WEIGHT_SHARE * load;
+    counts.then(|| {
+        warning(
+            "operation.gravity_m_per_s2",
+            list(o.gravity_m_per_s2),
+            format!(
+                "the moving parts weigh {} N, {:.0} % of the load of {} N, and gravity is left out",
+                short(weight),
+                100.0 * weight / load,
+                short(load)
+            ),
+            "[0.0, -9.81] for a horizontal shaft",
+        )
+    })
+}
+
+/// Beyond the static load rating, or beyond the pressure that it stands for.
+fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
+    let o = &scenario.operation;
+    let mut warnings = Vec::new();
+    let load = o.load_n[0].hypot(o.load_n[1]);
+    let rating = static_rating(&scenario.bearing);
+    if let Some(source) = rating.source
+        && load > rating.load
+    {
+        warnings.push(warning(
+            LOAD,
+            list(o.load_n),
+            format!(
+                "the load of {} kN exceeds the static load rating C0 = {} kN ({source})",
+                short(1e-3 * load),
+                short(1e-3 * rating.load)
+            ),
+            format!("a load of up to {}", short(rating.load)),
+        ));
+    }
+    let pressures = pressures(&scenario.bearing, zone.largest);
+    let (ring, highest) = if pressures[0] >= pressures[1] {
+        ("inner", pressures[0])
+    } else {
+        ("outer", pressures[1])
+    };
+    if highest > STATIC_LIMIT {
+        warnings.push(warning(
+            LOAD,
+            list(o.load_n),
+            format!(
+                "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest roller's {} kN, beyond the static limit of {:.0} MPa \
+                 (ISO 76): raceways and rollers would keep dents, and the model is elastic",
+                1e-6 * highest,
+                short(1e-3 * zone.largest),
+                1e-6 * STATIC_LIMIT
+            ),
+            "",
+        ));
+    }
+    warnings
+}
+
+/// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the load zone.
+fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+    let fixed = |surface: &Surface| *surface == Surface::OuterRaceway;
+    if !model.defects.iter().any(|d| fixed(&d.surface)) {
+        return Vec::new();
+    }
+    // Of the healthy bearing: damage takes the load off the rollers on it.
+    let healthy = Scenario {
+        defects: Vec::new(),
+        ..scenario.clone()
+    };
+    let Ok(healthy) = Model::new(&healthy) else {
+        return Vec::new();
+    };
+    let Ok(zone) = static_load_zone(&healthy) else {
+        return Vec::new();
+    };
+    let mut warnings = Vec::new();
+    for (k, defect) in model.defects.iter().enumerate() {
+        let (first, last) = defect.shape.arc();
+        // From the middle of the zone to the middle of the damage.
+        let half = 0.5 * (last - first) / defect.radius;
+        let middle = defect.center + 0.5 * (first + last) / defect.radius;
+        let away = wrap(middle - zone.middle);
+        let loaded = away + half >= zone.ends.0 && away - half <= zone.ends.1 && zone.extent > 0.0;
+        if !fixed(&defect.surface) || loaded {
+            continue;
+        }
+        let degrees = |x: f64| wrap(x).to_degrees();
+        let (words, allowed) = if zone.extent > 0.0 {
+            let (from, to) = (
+                degrees(zone.middle + zone.ends.0),
+                degrees(zone.middle + zone.ends.1),
+            );
+            (
+                format!(
+                    "this damage lies outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
+                    zone.extent.to_degrees(),
+                    degrees(zone.middle)
+                ),
+                format!("{from:.0} to {to:.0}, counter-clockwise"),
+            )
+        } else {
+            (
+                "no roller is loaded at rest: there is no load zone for this damage to lie in"
+                    .into(),
+                String::new(),
+            )
+        };
+        warnings.push(warning(
+            &format!("defects.{k}.center_deg"),
+            toml_float(scenario.defects[k].center_deg),
+            words,
+            allowed,
+        ));
+    }
+    warnings
+}
+
+/// A floor that the roller's radius keeps it from, felt all the same with `roller_path = "point"`.
+fn out_of_reach(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+    if scenario.contact.roller_path != RollerPath::Point {
+        return Vec::new();
+    }
+    let mut warnings = Vec::new();
+    for (k, defect) in model.defects.iter().enumerate() {
+        let met = SIDES.into_iter().filter(|s| defect.ground(*s).is_some());
+        let worst = met
+            .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
+            .min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let Some((side, (deep, reached))) = worst else {
+            continue;
+        };
+        if reached >= REACHED_SHARE * deep {
+            continue;
+        }
+        let ring = match side {
+            Side::Inner => "inner",
+            Side::Outer => "outer",
+        };
+        warnings.push(warning(
+            "contact.roller_path",
+            "\"point\"".into(),
+            format!(
+                "defects.{k} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
+                 floor all the same",
+                short(1e6 * deep),
+                short(1e6 * reached)
+            ),
+            "\"envelope\"",
+        ));
+    }
+    warnings
+}
+
+/// A run that ends before every roller has passed the load zone once after the start.
+fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
+    let (duration, ramp) = (scenario.simulation.duration_s, model.load.ramp);
+    // A turn of the shaft before the statistics begin, and then one of the cage; in turns of the shaft.
+    let cage = 1.0 / model.kinematics(TAU).ftf;
+    let needed = 1.0 + cage;
+    let rotation = match &scenario.operation.speed_rpm {
+        Speed::Constant(_) => model.rotation.clone(),
+        // Turns count whatever their direction.
+        Speed::Profile(points) => {
+            let size = points.iter().map(|p| [p[0], p[1].abs()]).collect();
+            Rotation::new(&Speed::Profile(size))
+        }
+    };
+    let turns = |t: f64| rotation.at(t).1.abs() / TAU;
+    let turned = if duration > ramp {
+        turns(duration) - turns(ramp)
+    } else {
+        0.0
+    };
+    if turned >= needed {
+        return None;
+    }
+    let allowed = match &scenario.operation.speed_rpm {
+        Speed::Constant(rpm) => format!(">= {}", short(1.005 * (ramp + needed * 60.0 / rpm.abs()))),
+        Speed::Profile(_) => String::new(),
+    };
+    let ramp = if ramp > 0.0 {
+        format!("the load's ramp of {} s, ", short(ramp))
+    } else {
+        String::new()
+    };
+    Some(warning(
+        "simulation.duration_s",
+        toml_float(duration),
+        format!(
+            "too short to settle: {ramp}a turn of the shaft and a turn of the cage ({} of the shaft) are the least before every roller has passed \
+             the load zone once; statistics of this run are those of its start",
+            short(cage)
+        ),
+        allowed,
+    ))
+}
+
+fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+    let (work, dissipated) = (energy.parametric, energy.flows.contact);
+    // A bearing whose contacts dissipate nothing may still be fed.
+    if work.abs() <= PARAMETRIC_SHARE * dissipated.abs() || work == 0.0 {
+        return None;
+    }
+    let joule = |x: f64| match x.abs() {
+        size if size >= 1.0 => format!("{} J", short(x)),
+        size if size >= 1e-3 => format!("{} mJ", short(1e3 * x)),
+        _ => format!("{} uJ", short(1e6 * x)),
+    };
+    let done = if work > 0.0 {
+        "put energy into"
+    } else {
+        "took energy out of"
+    };
+    let share = if dissipated <= 0.0 {
+        "while contact damping dissipates nothing".to_owned()
+    } else if work.abs() < 10.0 * dissipated {
+        let percent = 100.0 * work.abs() / dissipated;
+        format!(
+            "{percent:.0} % of the {} that contact damping dissipates",
+            joule(dissipated)
+        )
+    } else {
+        format!(
+            "{:.0} times the {} that contact damping dissipates",
+            work.abs() / dissipated,
+            joule(dissipated)
+        )
+    };
+    let remedy = match scenario.simulation.model {
+        ModelKind::Full => {
+            "Energy is conserved with contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\""
+        }
+        ModelKind::Reference => {
+            "Energy is conserved in simulation.model = \"full\" alone, with contact.law = \"sliced\", contact.roller_path = \"envelope\" and \
+             contact.edge_reaction = \"conservative\""
+        }
+    };
+    Some(format!(
+        "parametric work: the changing stiffness of damaged contacts {done} the bearing, {}, {share}; no body supplies it, so amplitudes depend \
+         on the contact law. {remedy}",
+        joule(work.abs())
+    ))
+}

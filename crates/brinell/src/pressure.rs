@@ -1,0 +1,167 @@
+//! Hertz's pressure of a roller's line contact, and the static load rating that rests on it.
+//!
+//! Both are for reading, not for motion: the contact law of [`crate::contact`] knows forces and deformations alone. SI.
+
+use crate::bearing::catalogue;
+use crate::contact::remaining_share;
+use crate::defect::{Side, relative_radius};
+use crate::model::Model;
+use crate::scenario::Bearing;
+use std::f64::consts::PI;
+
+/// Young's modulus of rolling bearing steel, Pa.
+pub const YOUNGS_MODULUS: f64 = 206e9;
+/// Poisson's ratio of steel.
+pub const POISSONS_RATIO: f64 = 0.3;
+/// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the raceway together keep a
+/// permanent deformation of about 1/10000 of the roller's diameter.
+pub const STATIC_LIMIT: f64 = 4.0e9;
+
+/// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w = Q/L and
+/// E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway (m).
+///
+/// With E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing Analysis, chapter on
+/// contact stress). The pressure is even along L: it knows neither edge stress nor crowning nor tilt. It is elastic, so a value far above
+/// [`STATIC_LIMIT`] says that the steel yields, not how hard it is pressed.
+pub fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
+    let modulus = 0.5 * YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
+    (modulus * force.max(0.0) / length / (PI * radius)).sqrt()
+}
+
+/// Largest pressure under `force` (N) at the inner and at the outer raceway of the undamaged bearing, Pa.
+pub fn pressures(bearing: &Bearing, force: f64) -> [f64; 2] {
+    [Side::Inner, Side::Outer].map(|side| {
+        let length = 1e-3 * bearing.roller_length_mm;
+        line_pressure(force, length, relative_radius(bearing, side))
+    })
+}
+
+/// Pressure on what a defect leaves of a contact at its widest place, under `force` (N) on that contact: the length left (m) and the
+/// pressure (Pa), the larger one of the sides that it meets. `None` where nothing is left, or where the roller is pressed down to the
+/// damage's floor, which then carries its share.
+pub fn pressure_beside(
+    model: &Model,
+    bearing: &Bearing,
+    defect: usize,
+    force: f64,
+) -> Option<(f64, f64)> {
+    let defect = &model.defects[defect];
+    let (first, last) = defect.shape.arc();
+    // The widest place on a grid finer than any outline is drawn.
+    const PLACES: u32 = 400;
+    let widest = (0..=PLACES)
+        .map(|k| first + (last - first) * f64::from(k) / f64::from(PLACES))
+        .max_by(|a, b| {
+            defect
+                .damaged_length(*a)
+                .total_cmp(&defect.damaged_length(*b))
+        })?;
+    let left = defect.roller_length - defect.damaged_length(widest);
+    if left <= 1e-9 * defect.roller_length {
+        return None;
+    }
+    let share = remaining_share(defect.roller_length, defect.roller_length - left);
+    [Side::Inner, Side::Outer]
+        .into_iter()
+        .filter(|side| defect.ground(*side).is_some())
+        .map(|side| {
+            let sunk = model.contact(side).deflection(force / share);
+            let pressure = line_pressure(force, left, relative_radius(bearing, side));
+            (sunk <= defect.depth_at(widest)).then_some((left, pressure))
+        })
+        .collect::<Option<Vec<_>>>()?
+        .into_iter()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Basic static radial load rating C0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticRating {
+    /// C0, N.
+    pub load: f64,
+    /// Where the catalogue has it from; `None` for the estimate of ISO 76.
+    pub source: Option<&'static str>,
+}
+
+/// C0 of a bearing: the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula for cylindrical
+/// rollers, C0 = 44 (1 - d/D_m) i Z L d in N and mm. A maker's rating may differ from that by his own factors.
+pub fn static_rating(bearing: &Bearing) -> StaticRating {
+    let b = bearing;
+    let catalogued = b.preset.as_deref().and_then(catalogue::find);
+    let same = |entry: &&catalogue::Entry| {
+        [
+            ("roller_diameter_mm", b.roller_diameter_mm),
+            ("roller_length_mm", b.roller_length_mm),
+            ("pitch_diameter_mm", b.pitch_diameter_mm),
+            ("rollers_per_row", b.rollers_per_row as f64),
+            ("rows", b.rows as f64),
+        ]
+        .iter()
+        .all(|(key, value)| entry.number(key) == Some(*value))
+    };
+    let printed = catalogued
+        .filter(same)
+        .and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
+    if let Some((load, source)) = printed {
+        return StaticRating {
+            load,
+            source: Some(source),
+        };
+    }
+    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
+    StaticRating {
+        load: 44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d,
+        source: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::read;
+
+    fn preset(name: &str) -> Bearing {
+        let text = format!(
+            "[bearing]\npreset = \"{name}\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n"
+        );
+        read(&text, &[]).unwrap().scenario.bearing
+    }
+
+    #[test]
+    fn lit_pressure_of_harris() {
+        // Harris: half width b = 3.35e-3 sqrt(Q/(L Sigma-rho)) mm and pressure 2 Q/(pi L b), for steel; 3.35e-3 has three figures.
+        let (force, length, r, raceway) = (1000.0_f64, 8.8e-3, 4.5e-3, 18.75e-3);
+        let curvature = 1.0 / r + 1.0 / raceway;
+        let half_width = 3.35e-3 * (force / (8.8 * 1e-3 * curvature)).sqrt();
+        let harris = 2.0 * force / (PI * 8.8 * half_width);
+        let ours = 1e-6 * line_pressure(force, length, 1.0 / curvature);
+        assert!(
+            (ours / harris - 1.0).abs() < 2e-3,
+            "{ours} against {harris}"
+        );
+    }
+
+    #[test]
+    fn lit_iso_76_load_gives_iso_76_pressure() {
+        // ISO 76: C0 is the load whose heaviest roller, 5 C0/(i Z) with a small clearance, is pressed with 4000 MPa at the inner raceway.
+        for name in ["NU204", "NU205", "NU2205", "NU206"] {
+            let b = preset(name);
+            let rating = static_rating(&b);
+            let source = rating.source.expect("the catalogue has it");
+            assert!(source.contains("SKF"), "{source}");
+            let heaviest = 5.0 * rating.load / (b.rows * b.rollers_per_row) as f64;
+            let inner = pressures(&b, heaviest)[0];
+            assert!((inner / STATIC_LIMIT - 1.0).abs() < 0.02, "{name}: {inner}");
+        }
+    }
+
+    #[test]
+    fn analytic_rating_of_changed_rollers_is_the_estimate() {
+        let mut b = preset("NU206");
+        b.rollers_per_row = 12;
+        let estimate = static_rating(&b);
+        let by_hand = 44.0 * (1.0 - 9.0 / 46.5) * 12.0 * 8.8 * 9.0;
+        assert_eq!(estimate.source, None);
+        assert!((estimate.load / by_hand - 1.0).abs() < 1e-12);
+    }
+}

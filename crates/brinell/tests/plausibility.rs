@@ -1,0 +1,348 @@
+//! Warnings about scenarios that run and mean little, and about the energy of runs.
+
+mod common;
+
+use brinell::document::{Loaded, read};
+use brinell::model::Model;
+use brinell::plausibility::{after, before};
+use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
+use brinell::scenario::Scenario;
+use brinell::statics::static_load_zone;
+use common::simulate;
+
+/// The rectangle of `examples/`, half a second long.
+const BASE: &str = "\
+[bearing]
+preset = \"NN3007\"
+[operation]
+speed_rpm = 1800.0
+load_n = [300.0, 0.0]
+[[defects]]
+on = \"outer-raceway\"
+center_deg = 0.0
+depth_um = 20.0
+shape = { rectangle = { length_mm = 3.0, width_mm = 4.0 } }
+[simulation]
+duration_s = 0.5
+";
+
+fn base(settings: &[(&str, &str)]) -> Loaded {
+    let settings: Vec<_> = settings
+        .iter()
+        .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
+        .collect();
+    read(BASE, &settings).unwrap_or_else(|problems| panic!("{settings:?}: {problems:?}"))
+}
+
+fn warnings(s: &Scenario) -> Vec<String> {
+    let model = Model::new(s).unwrap();
+    let told = before(s, &model, &static_load_zone(&model));
+    told.iter().map(ToString::to_string).collect()
+}
+
+/// The one warning of a changed scenario.
+fn warning(settings: &[(&str, &str)]) -> String {
+    let mut all = warnings(&base(settings).scenario);
+    assert_eq!(all.len(), 1, "{settings:?}: {all:#?}");
+    all.remove(0)
+}
+
+fn silent(settings: &[(&str, &str)]) {
+    assert_eq!(
+        warnings(&base(settings).scenario),
+        Vec::<String>::new(),
+        "{settings:?}"
+    );
+}
+
+#[test]
+fn regress_a_sensible_scenario_earns_no_word() {
+    silent(&[]);
+    silent(&[("operation.speed_rpm", "-1800")]);
+    silent(&[("contact.roller_path", "envelope")]);
+}
+
+#[test]
+fn prop_damage_outside_the_load_zone_is_said_of_the_outer_raceway_alone() {
+    // The zone of 300 N and 10 um is about 76 degrees wide, around 0 degrees.
+    for (center, outside) in [
+        ("0", false),
+        ("30", false),
+        ("-40", false),
+        ("60", true),
+        ("-60", true),
+        ("180", true),
+        ("340", false),
+    ] {
+        let settings = [("defects.0.center_deg", center)];
+        if outside {
+            let told = warning(&settings);
+            assert!(
+                told.contains("defects.0.center_deg")
+                    && told.contains("outside the load zone, which is")
+                    && told.contains("allowed: -"),
+                "{told}"
+            );
+        } else {
+            silent(&settings);
+        }
+        silent(&[settings[0], ("defects.0.on", "inner-raceway")]);
+    }
+    // A preloaded bearing is loaded all around.
+    silent(&[
+        ("defects.0.center_deg", "180"),
+        ("bearing.radial_clearance_um", "-10"),
+    ]);
+    // Clearance 0: half of the circumference.
+    silent(&[
+        ("defects.0.center_deg", "80"),
+        ("bearing.radial_clearance_um", "0"),
+    ]);
+    // A pit that takes all load off the rollers on it lies in the zone all the same.
+    let pit = "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }";
+    silent(&[("defects.0.shape", pit)]);
+    // With the load the other way, the zone is on the other side.
+    let told = warning(&[("operation.load_n", "[0, -300]")]);
+    assert!(told.contains("around -90 deg"), "{told}");
+}
+
+#[test]
+fn analytic_a_preloaded_zone_is_a_full_turn() {
+    let s = base(&[("bearing.radial_clearance_um", "-10")]).scenario;
+    let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
+    assert_eq!(zone.extent, std::f64::consts::TAU);
+}
+
+#[test]
+fn prop_pressure_and_rating_are_held_against_the_load() {
+    let nu206 = |load: &str| {
+        let text = format!(
+            "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 1500\nload_n = [0, {load}]\nload_on = \"inner-ring\"\n"
+        );
+        let s = read(&text, &[]).unwrap().scenario;
+        let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
+        (pressures(&s.bearing, zone.largest), warnings(&s))
+    };
+    let (quarter, none) = nu206("-9000");
+    assert!(none.is_empty() && quarter[0] < STATIC_LIMIT, "{none:?}");
+    assert!(
+        quarter[0] > quarter[1],
+        "the inner contact is the sharper one"
+    );
+    let (over, told) = nu206("-80000");
+    assert!(over[0] > STATIC_LIMIT);
+    assert_eq!(told.len(), 2, "{told:#?}");
+    assert!(told[0].contains("C0 = 36.5 kN (SKF"), "{}", told[0]);
+    assert!(
+        told[1].contains("at the inner raceway") && told[1].contains("4000 MPa"),
+        "{}",
+        told[1]
+    );
+    // Hertz: the pressure grows with the root of the force.
+    let s = base(&[]).scenario;
+    let [one, four] = [100.0, 400.0].map(|force| pressures(&s.bearing, force)[0]);
+    assert!((four / one - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
+    let s = base(&[]).scenario;
+    let model = Model::new(&s).unwrap();
+    let (left, pressure) = pressure_beside(&model, &s.bearing, 0, 50.0).unwrap();
+    assert!((left - 2e-3).abs() < 1e-12);
+    // A third of the length carries all: the root of three times the pressure.
+    let whole = pressures(&s.bearing, 50.0)[1];
+    assert!((pressure / whole - 3f64.sqrt()).abs() < 1e-9);
+    for shape in [
+        // Nothing is left.
+        (
+            "defects.0.shape",
+            "{ rectangle = { length_mm = 3.0, width_mm = 6.0 } }",
+        ),
+        // The roller is pressed down to the floor.
+        ("defects.0.depth_um", "0.1"),
+    ] {
+        let s = base(&[shape]).scenario;
+        let model = Model::new(&s).unwrap();
+        assert_eq!(pressure_beside(&model, &s.bearing, 0, 50.0), None);
+    }
+}
+
+#[test]
+fn prop_no_load_and_weight_left_out_are_said() {
+    let told = warning(&[("operation.load_n", "[0, 0]"), ("defects", "[]")]);
+    assert!(told.contains("neither load nor weight"), "{told}");
+    silent(&[
+        ("operation.load_n", "[0, 0]"),
+        ("operation.gravity_m_per_s2", "[0, -9.81]"),
+        ("defects", "[]"),
+    ]);
+    // Rings, two cages and 38 rollers: 0.259 kg, 2.54 N.
+    let told = warning(&[("operation.load_n", "[10, 0]"), ("defects", "[]")]);
+    assert!(told.contains("weigh 2.54 N, 25 % of the load"), "{told}");
+    silent(&[("operation.load_n", "[26, 0]"), ("defects", "[]")]);
+}
+
+#[test]
+fn analytic_weight_alone_is_held_against_the_support() {
+    // 0.0791 kg: 0.776 N on the outer ring; the support takes 10 N before the clearance is closed.
+    let loaded = base(&[
+        ("operation.load_n", "[0, 0]"),
+        ("operation.gravity_m_per_s2", "[0, -9.81]"),
+    ]);
+    let told: Vec<_> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains("k C_r = 10 N against 0.776 N, the ring's weight included"),
+        "{}",
+        told[0]
+    );
+}
+
+#[test]
+fn analytic_a_floor_out_of_reach_is_said_with_the_depth_that_is_reached() {
+    // On the outer raceway 1/R_eq = 1/3 - 1/27.5 per mm: a pit of length l lets the roller sink l^2/(8 R_eq).
+    let radius = 1.0 / (1.0 / 3.0 - 1.0 / 27.5);
+    for (length, depth) in [(5.0_f64, 2000.0), (0.5, 20.0), (1.0, 20.0), (3.0, 20.0)] {
+        let reach = 1e3 * length * length / (8.0 * radius);
+        let shape = format!("{{ rectangle = {{ length_mm = {length}, width_mm = 6.0 }} }}");
+        let depth_um = depth.to_string();
+        let settings = [
+            ("defects.0.shape", shape.as_str()),
+            ("defects.0.depth_um", depth_um.as_str()),
+        ];
+        if reach < 0.9 * depth {
+            let told = warning(&settings);
+            let figures = format!(
+                "sink {:.*} um",
+                (2 - reach.log10().floor() as i32).max(0) as usize,
+                reach
+            );
+            assert!(
+                told.contains(&figures) && told.contains("\"envelope\""),
+                "{told} {figures}"
+            );
+            silent(&[
+                settings[0],
+                settings[1],
+                ("contact.roller_path", "envelope"),
+            ]);
+        } else {
+            silent(&settings);
+        }
+    }
+    // A roller's damage meets both raceways; the inner one lets it sink less far: R_eq = 2.63 mm there, so 47 against 37 um.
+    let on = [
+        ("defects.0.on", "roller"),
+        ("defects.0.roller", "1"),
+        (
+            "defects.0.shape",
+            "{ rectangle = { length_mm = 1.0, width_mm = 4.0 } }",
+        ),
+    ];
+    silent(&on);
+    let told = warning(&[on[0], on[1], on[2], ("defects.0.depth_um", "42")]);
+    assert!(told.contains("at the outer raceway"), "{told}");
+}
+
+#[test]
+fn analytic_a_run_must_outlast_its_start() {
+    // A turn of the shaft is 1/30 s, of the cage 43/98 of the speed: 0.02 + 1/30 + 98/43/30 = 0.1293 s.
+    let duration = |text: &'static str| [("simulation.duration_s", text)];
+    silent(&duration("0.13"));
+    let told = warning(&duration("0.129"));
+    assert!(
+        told.contains("too short to settle: the load's ramp of 0.0200 s")
+            && told.contains("allowed: >= 0.130 s"),
+        "{told}"
+    );
+    warning(&duration("0.01"));
+    // From the static balance there is no ramp.
+    silent(&[
+        ("simulation.duration_s", "0.11"),
+        ("simulation.start", "equilibrium"),
+    ]);
+    // A run-up to 1800 r/min in 0.4 s makes 6 turns.
+    let up = ("operation.speed_rpm", "[[0, 0], [0.4, 1800]]");
+    silent(&[up, ("simulation.duration_s", "0.4")]);
+    warning(&[up, ("simulation.duration_s", "0.2")]);
+    let down = ("operation.speed_rpm", "[[0, 0], [0.4, -1800]]");
+    silent(&[down, ("simulation.duration_s", "0.4")]);
+}
+
+#[test]
+fn prop_energy_from_nowhere_is_said_with_what_conserves_it() {
+    // 0.06 s of the pit that a review found: 2 mm deep over the whole width, 5 mm long.
+    let pit = [
+        (
+            "defects.0.shape",
+            "{ rectangle = { length_mm = 5.0, width_mm = 6.0 } }",
+        ),
+        ("defects.0.depth_um", "2000"),
+        ("simulation.duration_s", "0.06"),
+    ];
+    let s = base(&pit).scenario;
+    let (_, outcome) = simulate(&s);
+    let told = after(&s, &outcome.energy);
+    assert_eq!(told.len(), 1, "{told:?}");
+    for words in [
+        "parametric work",
+        "put energy into the bearing",
+        "no body supplies it",
+        "contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\"",
+    ] {
+        assert!(told[0].contains(words), "no {words} in {}", told[0]);
+    }
+    // The settings that it names are valid, and have none.
+    let conserving = [
+        pit[0],
+        pit[1],
+        pit[2],
+        ("contact.law", "sliced"),
+        ("contact.roller_path", "envelope"),
+        ("contact.edge_reaction", "conservative"),
+    ];
+    let s = base(&conserving).scenario;
+    let (_, outcome) = simulate(&s);
+    assert_eq!(outcome.energy.parametric, 0.0);
+    assert!(after(&s, &outcome.energy).is_empty());
+    // A healthy bearing has none either.
+    let s = base(&[("defects", "[]"), ("simulation.duration_s", "0.02")]).scenario;
+    let (_, outcome) = simulate(&s);
+    assert!(after(&s, &outcome.energy).is_empty());
+}
+
+#[test]
+fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
+    let s = base(&[]).scenario;
+    let mut energy = brinell::simulate::EnergyAudit::default();
+    energy.flows.contact = 4.0;
+    for (work, words) in [
+        (0.399, None),
+        (-0.399, None),
+        (
+            0.401,
+            Some("put energy into the bearing, 401 mJ, 10 % of the 4.00 J"),
+        ),
+        (
+            -0.5,
+            Some("took energy out of the bearing, 500 mJ, 12 % of the 4.00 J"),
+        ),
+        (80.0, Some("80.0 J, 20 times the 4.00 J")),
+    ] {
+        energy.parametric = work;
+        let told = after(&s, &energy).join("\n");
+        match words {
+            Some(words) => assert!(told.contains(words), "{work}: {told}"),
+            None => assert_eq!(told, "", "{work}"),
+        }
+    }
+    let mut lumped = s.clone();
+    lumped.simulation.model = brinell::scenario::ModelKind::Reference;
+    energy.parametric = 1.0;
+    let told = after(&lumped, &energy).join("\n");
+    assert!(
+        told.contains("in simulation.model = \"full\" alone"),
+        "{told}"
+    );
+}
