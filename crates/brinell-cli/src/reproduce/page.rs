@@ -63,7 +63,7 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
             Value::Text(format!("{} of {}", dynamics.0, dynamics.1)),
             "",
             format!(
-                "{} of {} more follow from the shapes that go in, {} of {} from speed and geometry",
+                "{} of {} more follow from the shapes that go in, {} of {} from kinematics and slip",
                 shapes.0, shapes.1, kinematics.0, kinematics.1
             ),
         ),

@@ -88,7 +88,7 @@ pub enum Basis {
     Dynamics,
     /// The shapes that go in, before anything moves.
     Shapes,
-    /// Geometry and speed: pure rolling would give the same.
+    /// Geometry, speed and the cage's slip.
     Kinematics,
 }
 
@@ -98,7 +98,7 @@ impl Basis {
         match self {
             Self::Dynamics => "dynamics",
             Self::Shapes => "shapes alone",
-            Self::Kinematics => "kinematics alone",
+            Self::Kinematics => "kinematics and slip",
         }
     }
 }

@@ -343,6 +343,12 @@ impl Sensitivity {
         self.variants.iter().filter_map(of).collect()
     }
 
+    /// A number of a case under an assumption.
+    pub(super) fn value(&self, variant: &str, case: &str, name: &str) -> Option<f64> {
+        let tried = self.variants.iter().find(|t| t.variant.id == variant)?;
+        tried.numbers.get(case, name).map(|n| n.value)
+    }
+
     /// Smallest and largest ratio of a number in two cases, both of the steady part, over the assumptions under which that is what is read.
     pub(super) fn ratios(&self, of: &str, to: &str, name: &str) -> Option<(f64, f64)> {
         let steady = self
