@@ -7,7 +7,7 @@ use common::{brinell, files, json, same, with_blocks};
 use std::fs;
 use tempfile::TempDir;
 
-/// Two scenarios of four turns of the shaft.
+/// Two scenarios of nine turns of the shaft, so that indicators have intervals.
 fn folder() -> TempDir {
     let folder = with_blocks("actual.toml");
     let text = fs::read_to_string(folder.path().join("actual.toml")).unwrap();

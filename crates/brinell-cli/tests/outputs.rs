@@ -161,7 +161,7 @@ fn regress_summary_has_the_documented_members() {
     let call = brinell(here, &args).exits(0).keeps_quiet();
     assert!(
         call.out
-            .contains(") in the envelope; pure rolling 131.05 Hz"),
+            .contains(" Hz in the envelope; pure rolling 131.05 Hz"),
         "{}",
         call.out
     );
@@ -338,6 +338,7 @@ fn columns(here: &Path, record: &str) -> (Vec<String>, String) {
         "-o",
         "o",
         "--no-report",
+        "--overwrite",
         "--signals",
         "csv",
         "--set",

@@ -145,7 +145,7 @@ pub(crate) fn with_blocks(name: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let text = SHORT
         .replace("speed_rpm = 1500.0", "speed_rpm = 3000.0")
-        .replace("duration_s = 0.02", "duration_s = 0.1");
+        .replace("duration_s = 0.02", "duration_s = 0.18");
     std::fs::write(folder.path().join(name), text).expect("it is written");
     folder
 }

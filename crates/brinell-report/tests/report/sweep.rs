@@ -46,7 +46,7 @@ fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
     ];
     let (page, svg) = page(plot(points, &[]));
     for words in [
-        "Dots: mean over blocks",
+        "Dots: averages over whole revolutions",
         "Rings: a value",
         "Crosses on the axis",
     ] {
