@@ -336,6 +336,7 @@ fn joined(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<Border> {
 
 /// Borders of the half z >= 0 of the paper's irregular shape, whose first s is `first` (m). The six arcs are printed to four digits and do not quite
 /// meet: straight borders join them.
+#[expect(clippy::approx_constant, reason = "the paper's printed digits")]
 fn li2023_borders(first: f64, scale: f64) -> Vec<Border> {
     const MM: f64 = 1e-3;
     let mut start = first;

@@ -60,7 +60,7 @@ impl PassRates {
             slot: l.slot(
                 d.row,
                 match d.surface {
-                    Surface::Roller(k) => k as usize,
+                    Surface::Roller(k) => k,
                     _ => 0,
                 },
             ),

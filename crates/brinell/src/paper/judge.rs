@@ -17,6 +17,9 @@ pub struct Found {
     pub unit: &'static str,
 }
 
+/// Verdicts of statements, each with what decided it.
+pub type Decided = Vec<(Verdict, Vec<Found>)>;
+
 /// A claim held against numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
@@ -25,9 +28,9 @@ pub struct Judged {
     /// The same from its own statements alone, without another reading.
     pub plain: Verdict,
     /// Of each statement, with what decided it.
-    pub statements: Vec<(Verdict, Vec<Found>)>,
+    pub statements: Decided,
     /// Of the other reading as a whole, and of each of its statements.
-    pub otherwise: Option<(Verdict, Vec<(Verdict, Vec<Found>)>)>,
+    pub otherwise: Option<(Verdict, Decided)>,
 }
 
 impl Judged {
@@ -48,7 +51,7 @@ impl Judged {
 pub fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
     let all = |statements: &[Statement]| {
         let decided = statements.iter().map(|s| decide(&s.check, numbers));
-        let decided: Vec<(Verdict, Vec<Found>)> = decided.collect();
+        let decided: Decided = decided.collect();
         let verdicts: Vec<Verdict> = decided.iter().map(|s| s.0).collect();
         (Verdict::of_all(&verdicts), decided)
     };

@@ -24,7 +24,7 @@ pub use cases::{
 };
 pub use claim::{Basis, Check, Claim, Otherwise, Statement};
 pub use claims::claims;
-pub use judge::{Found, Judged, judge};
+pub use judge::{Decided, Found, Judged, judge};
 pub use numbers::{Number, Numbers, entry_drop};
 pub use outline::Outline;
 pub use ranges::{RANGES, READ_AS, RECORDS, Range, Values};
