@@ -15,7 +15,7 @@
 //! A function g of averages has, to first order, the scatter of the average of its influence values z_i = sum_j (dg/dmu_j)(v_ij - mu_j),
 //! one for each block i with block averages v_ij (the infinitesimal jackknife; B. Efron, "The jackknife, the bootstrap and other
 //! resampling plans", SIAM 1982, chapter 6). The series z_i is correlated, because a cage turns in about 2.3 revolutions of the shaft;
-//! [`scatter`](super::scatter) measures the standard error of its average in spite of that. Quantities that are positive by definition
+//! [`scatter`](super::scatter()) measures the standard error of its average in spite of that. Quantities that are positive by definition
 //! are taken on a logarithmic scale, g = ln of the indicator: their interval is value / f to value * f and never reaches zero.
 //! Mean and skewness are taken as they are: value +- half width. Either way the value lies within its interval.
 

@@ -86,7 +86,7 @@ impl Merge for Sum {
     }
 }
 
-/// The average of a quantity over the whole revolutions of a run, with its 95 % interval (see [`scatter`](super::scatter)).
+/// The average of a quantity over the whole revolutions of a run, with its 95 % interval (see [`scatter`](super::scatter())).
 #[derive(Debug, Clone)]
 pub struct Averages {
     series: Series<Sum>,
