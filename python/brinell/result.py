@@ -161,7 +161,8 @@ class Result:
         Examples
         --------
         >>> import brinell
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.5})
+        >>> film = {"simulation.duration_s": 0.5, "cage.guidance_film": "quasi-static"}
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), film)
         >>> brinell.simulate(scenario).analyze().damage[0]
         'outer_race'
         """
