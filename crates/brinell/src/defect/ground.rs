@@ -45,11 +45,6 @@ pub(super) fn slice_borders(k: usize, slices: usize, length: f64) -> [f64; 2] {
     [border(k), border(k + 1)]
 }
 
-/// Axial position z_k of the middle of slice k (from 0) of n_s across a roller of length L, m.
-pub fn slice_position(k: usize, slices: usize, length: f64) -> f64 {
-    (2 * k as i64 + 1 - slices as i64) as f64 / (2.0 * slices as f64) * length
-}
-
 /// What damage covers of the slices, and how deep.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Cover {

@@ -26,7 +26,7 @@ pub use acting::{
 pub use course::{Course, Line};
 pub use envelope::envelope;
 pub use grid::Grid;
-pub use ground::{Ground, Rules, relative_radius, slice_position};
+pub use ground::{Ground, Rules, relative_radius};
 pub use outline::{Fault, Outline, faults};
 pub use profile::Profile;
 pub use random::spall;

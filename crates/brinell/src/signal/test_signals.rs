@@ -51,3 +51,12 @@ impl ImpactTrain {
         x
     }
 }
+
+/// Asserts that a value is there and within `relative` of the expected one.
+pub(crate) fn close(value: Option<f64>, expected: f64, relative: f64) {
+    let value = value.expect("defined");
+    assert!(
+        (value - expected).abs() <= relative * expected.abs(),
+        "{value} for {expected}"
+    );
+}

@@ -1,18 +1,10 @@
-use super::super::test_signals::{Noise, cosine, integer_sequence};
+use super::super::test_signals::{Noise, close, cosine, integer_sequence};
 use super::*;
 
 fn moments(x: &[f64]) -> Moments {
     let mut moments = Moments::new();
     x.iter().for_each(|&v| moments.push(v));
     moments
-}
-
-fn close(value: Option<f64>, expected: f64, relative: f64) {
-    let value = value.expect("defined");
-    assert!(
-        (value - expected).abs() <= relative * expected.abs(),
-        "{value} for {expected}"
-    );
 }
 
 #[test]

@@ -1,13 +1,5 @@
-use super::super::test_signals::Noise;
+use super::super::test_signals::{Noise, close};
 use super::*;
-
-fn close(value: Option<f64>, expected: f64, relative: f64) {
-    let value = value.expect("defined");
-    assert!(
-        (value - expected).abs() <= relative * expected.abs(),
-        "{value} for {expected}"
-    );
-}
 
 #[test]
 fn xval_scipy_student_t() {
