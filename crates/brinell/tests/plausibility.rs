@@ -246,6 +246,22 @@ fn analytic_a_floor_out_of_reach_is_said_with_the_depth_that_is_reached() {
 }
 
 #[test]
+fn prop_wide_slices_along_an_envelope_are_said_of_slanted_edges_alone() {
+    let circle = ("defects.0.shape", "{ circle = { diameter_mm = 4.0 } }");
+    let sliced = ("contact.law", "sliced");
+    let envelope = ("contact.roller_path", "envelope");
+    let told = warning(&[circle, sliced, envelope]);
+    assert!(
+        told.contains("contact.slices = 30") && told.contains("allowed: >= 100"),
+        "{told}"
+    );
+    silent(&[circle, sliced, envelope, ("contact.slices", "100")]);
+    silent(&[sliced, envelope]);
+    silent(&[circle, sliced]);
+    silent(&[circle, envelope]);
+}
+
+#[test]
 fn analytic_a_run_must_outlast_its_start() {
     // A turn of the shaft is 1/30 s, of the cage 43/98 of the speed: 0.02 + 1/30 + 98/43/30 = 0.1293 s.
     let duration = |text: &'static str| [("simulation.duration_s", text)];
