@@ -61,7 +61,7 @@ class Plan:
     >>> data.verify()
     []
     >>> data.to_polars()["measured_ax"].list.len().to_list()
-    [513, 513, 513, 513]
+    [512, 512, 512, 512]
     """
 
     __slots__ = ("_native", "path")
@@ -164,6 +164,12 @@ class DataSet:
         """Files of runs that are there, in order."""
         return sorted((self.folder / "runs").glob("part-*.parquet"))
 
+    def _there(self) -> list[Path]:
+        files = self.files
+        if not files:
+            raise _brinell.ReadError(f"{self.folder}: no data set is here (runs/part-*.parquet is missing)")
+        return files
+
     @property
     def about(self) -> dict[str, Any]:
         """``dataset.json``: geometry, units, licence, columns, checksums. There once all files are."""
@@ -181,14 +187,14 @@ class DataSet:
     def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
         """A row a run, signals as lists; read the columns that are needed."""
         pl = tables.need("polars")
-        frame: polars.DataFrame = pl.read_parquet(self.files, columns=None if columns is None else list(columns))
+        frame: polars.DataFrame = pl.read_parquet(self._there(), columns=None if columns is None else list(columns))
         return frame
 
     def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """A row a run, signals as arrays; needs pyarrow."""
         pd = tables.need("pandas")
         chosen = None if columns is None else list(columns)
-        frame: pandas.DataFrame = pd.concat([pd.read_parquet(file, columns=chosen) for file in self.files], ignore_index=True)
+        frame: pandas.DataFrame = pd.concat([pd.read_parquet(file, columns=chosen) for file in self._there()], ignore_index=True)
         return frame
 
     def __repr__(self) -> str:

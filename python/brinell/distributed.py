@@ -1,24 +1,29 @@
 """A plan on a cluster: Dask distributed or Ray. The files have the bytes that one machine makes.
 
 The unit of work is a file of the data set (``runs_per_file`` runs). A worker makes it in a scratch folder of its own and sends it; this process writes it
-into the data set's folder, its checksum held against the worker's. Workers need brinell of the same version, and nothing else: plan, base scenario and
-files of damage travel with the work. A worker that dies loses the file that it was at, which another one then makes. What is in the folder stays, so the
+into the data set's folder, its checksum held against the worker's. Workers need brinell of the same version and a processor with the same kernel, and nothing else: plan, base scenario and
+files of damage travel with the work, and so do version and kernel, which a worker holds against its own before it computes. A worker that dies loses the file that it was at, which another one then makes. What is in the folder stays, so the
 same call goes on where one stopped.
 
-Processors matter: brinell uses AVX-512 where there is AVX-512, and the last bits differ from those of AVX2. A cluster of one kind of processor gives
-the bytes of one machine of that kind.
+Processors matter: brinell uses AVX-512 where there is AVX-512, and the last bits differ from those of AVX2. `BRINELL_KERNEL=avx2` for every worker and
+this process makes a mixed cluster give the bytes of one machine.
+
+Dask and Ray run whatever reaches their scheduler: use them on a private network, or with Dask's TLS or Ray's token authentication.
 """
 
 from __future__ import annotations
 
 import atexit
+import itertools
 import os
+import re
 import shutil
+import socket
 import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, Protocol
 
 from brinell import _brinell, tables
@@ -29,9 +34,16 @@ if TYPE_CHECKING:
 
 __all__ = ["on_dask", "on_ray"]
 
-#: Name of the plan file, and every file by its path from a common folder.
-_Parcel = tuple[str, tuple[tuple[str, bytes], ...]]
+#: Version and kernel that the work is for, name of the plan file, and every file by its path from a common folder.
+_Parcel = tuple[str, str, str, tuple[tuple[str, bytes], ...]]
 _Files = dict[str, bytes]
+
+#: What a worker's file may be called.
+_ARRIVING = re.compile(r"(runs|held_out)/part-\d{5,}\.parquet|work/(campaign|part-\d{5,})\.json")
+#: What a worker writes and nobody fetches: of a data set of one file the descriptions of the whole.
+_STAYING = re.compile(r"dataset\.json|croissant\.json|README\.md|held_out/_plan\.json|work/part-\d{5,}/.*")
+#: Temporary folders, by the process that made them.
+_TEMPORARY = re.compile(r"brinell-(?:plan|part)-(\d+)-.*")
 
 
 def _parcel(plan: Plan) -> _Parcel:
@@ -39,7 +51,49 @@ def _parcel(plan: Plan) -> _Parcel:
     paths = [os.path.abspath(path) for path in plan._native.files()]
     root = os.path.commonpath([os.path.dirname(path) for path in paths])
     files = {os.path.relpath(path, root).replace(os.sep, "/"): Path(path).read_bytes() for path in paths}
-    return os.path.relpath(paths[0], root).replace(os.sep, "/"), tuple(files.items())
+    name = os.path.relpath(paths[0], root).replace(os.sep, "/")
+    return _brinell.__version__, _brinell.kernel(), name, tuple(files.items())
+
+
+def _below(folder: Path, path: str) -> Path:
+    """A path that came over the network, below a folder."""
+    parts = PurePosixPath(path).parts
+    if not parts or path.startswith("/") or any(part in ("..", ".") or ":" in part or "\\" in part for part in parts):
+        raise ValueError(f"{path!r}: not a path below the folder that it is for")
+    return folder.joinpath(*parts)
+
+
+def _alike(version: str, kernel: str) -> None:
+    """That this process makes the bytes that are wanted."""
+    where = f"worker {socket.gethostname()}, process {os.getpid()}"
+    if version != _brinell.__version__:
+        raise RuntimeError(f"{where} has brinell {_brinell.__version__}, and the work is for {version}: install that version on every worker")
+    if kernel != _brinell.kernel():
+        raise RuntimeError(
+            f"{where} computes with {_brinell.kernel()}, and the work is for {kernel}: set BRINELL_KERNEL to one kernel that all processors have, "
+            "such as avx2, for every worker and for the process that sends the work"
+        )
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _tidy() -> None:
+    """Removes temporary folders of workers of this machine that were killed."""
+    # Elsewhere signal 0 is no question but an end.
+    if os.name != "posix":
+        return
+    for path in Path(tempfile.gettempdir()).glob("brinell-p*"):
+        made = _TEMPORARY.fullmatch(path.name)
+        if made and not _is_alive(int(made[1])):
+            shutil.rmtree(path, ignore_errors=True)
 
 
 #: The plan that this process was last at, and the lock of threads that come for it.
@@ -57,23 +111,26 @@ def _unpacked(parcel: _Parcel) -> Plan:
 
 
 def _opened(parcel: _Parcel) -> Plan:
-    name, files = parcel
-    folder = tempfile.mkdtemp(prefix="brinell-plan-")
+    version, kernel, name, files = parcel
+    _alike(version, kernel)
+    _tidy()
+    folder = tempfile.mkdtemp(prefix=f"brinell-plan-{os.getpid()}-")
     # Files of damage are read again for each run.
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     for path, content in files:
-        (Path(folder) / path).parent.mkdir(parents=True, exist_ok=True)
-        (Path(folder) / path).write_bytes(content)
-    return Plan(Path(folder) / name, check=False)
+        place = _below(Path(folder), path)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content)
+    return Plan(_below(Path(folder), name), check=False)
 
 
 def _make(parcel: _Parcel, part: int) -> _Files:
     """One file of the data set with its facts, by path; on a worker."""
     plan = _unpacked(parcel)
-    with tempfile.TemporaryDirectory(prefix="brinell-part-") as scratch:
+    with tempfile.TemporaryDirectory(prefix=f"brinell-part-{os.getpid()}-") as scratch:
         plan._native.make(scratch, (part + 1, plan.parts), 1, None)
-        paths = [path for path in Path(scratch).rglob("*") if path.is_file()]
-        return {path.relative_to(scratch).as_posix(): path.read_bytes() for path in paths}
+        paths = {path.relative_to(scratch).as_posix(): path for path in Path(scratch).rglob("*") if path.is_file()}
+        return {name: path.read_bytes() for name, path in paths.items() if not _STAYING.fullmatch(name)}
 
 
 class _Engine(Protocol):
@@ -102,8 +159,10 @@ def _drive(
     """Everything that is missing, through the engine."""
     data = DataSet(folder)
     incoming = data.folder / "work" / "incoming"
+    # Whose folder it is, before anything arrives.
+    plan._native.claim(data.folder)
     # What arrived before this process's last end.
-    _join(data, incoming)
+    put_aside = _join(data, incoming)
     there = {path.name for path in data.files}
     parts = [part for part in range(plan.parts) if f"part-{part:05}.parquet" not in there]
     over = plan.runs - sum(map(plan.runs_of, parts))
@@ -124,7 +183,7 @@ def _drive(
                 engine.submit(following)
                 under_way += 1
             if len(list(incoming.iterdir())) >= _WAITING:
-                _join(data, incoming)
+                put_aside += _join(data, incoming)
             over += plan.runs_of(part)
             if progress is not None:
                 progress(over, plan.runs)
@@ -132,7 +191,10 @@ def _drive(
         engine.cancel()
         raise
     finally:
-        _join(data, incoming)
+        put_aside += _join(data, incoming)
+    if put_aside:
+        told = "\n".join(put_aside)
+        raise ValueError(f"files that came and could not be joined; the same call makes them again:\n{told}")
     return data
 
 
@@ -141,19 +203,41 @@ def _put(place: Path, files: _Files) -> None:
     beside = place.with_name(place.name + ".partial")
     shutil.rmtree(beside, ignore_errors=True)
     for path, content in files.items():
+        if not _ARRIVING.fullmatch(path):
+            raise ValueError(f"a worker sent {path!r}, which is no file of a data set")
         (beside / path).parent.mkdir(parents=True, exist_ok=True)
         (beside / path).write_bytes(content)
     shutil.rmtree(place, ignore_errors=True)
     beside.rename(place)
 
 
-def _join(data: DataSet, incoming: Path) -> None:
+def _join(data: DataSet, incoming: Path) -> list[str]:
+    """Joins what arrived to the data set. What cannot be joined is put aside, and told."""
     incoming.mkdir(parents=True, exist_ok=True)
     whole = sorted(path for path in incoming.iterdir() if path.suffix != ".partial")
-    if whole:
-        _brinell.merge(whole, data.folder)
+    aside = []
+    try:
+        if whole:
+            _brinell.merge(whole, data.folder)
+    except ValueError:
+        # One by one, to find which.
+        for path in whole:
+            try:
+                _brinell.merge([path], data.folder)
+            except ValueError as error:
+                place = _free(data.folder / "work" / "put_aside" / path.name)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                path.rename(place)
+                aside.append(f"  {place}: {error}")
     for path in incoming.iterdir():
         shutil.rmtree(path, ignore_errors=True)
+    return aside
+
+
+def _free(path: Path) -> Path:
+    """The path, or one like it where nothing is yet."""
+    names = (path.with_name(f"{path.name}-{k}") for k in itertools.count(2))
+    return next(place for place in itertools.chain([path], names) if not place.exists())
 
 
 class _Dask:

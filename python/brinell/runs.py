@@ -2,26 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeVar, overload
 
 from brinell import _brinell
 from brinell.result import Result
-from brinell.scenario import Scenario
+from brinell.scenario import Runnable, Scenario, given
 
 __all__ = ["simulate", "simulate_many"]
 
 T = TypeVar("T")
-Runnable = Scenario | str | os.PathLike[str]
-
-
-def _scenario(of: Runnable) -> Scenario:
-    if isinstance(of, Scenario):
-        return of
-    if isinstance(of, (str, os.PathLike)):
-        return Scenario.from_file(of)
-    raise TypeError(f"{type(of).__name__}: expected a Scenario or the path of a scenario file")
 
 
 def _told(error: Exception, scenario: Scenario) -> Exception:
@@ -66,7 +56,7 @@ def simulate(
     >>> result.complete, result.rate_hz
     (True, 25600.0)
     """
-    chosen = _scenario(scenario)
+    chosen = given(scenario)
     if settings:
         chosen = chosen.replace(settings)
     try:
@@ -142,7 +132,7 @@ def simulate_many(
     """
     if errors not in ("raise", "return"):
         raise ValueError(f'errors = "{errors}": not known\n  allowed: raise, return')
-    chosen = [_scenario(scenario) for scenario in scenarios]
+    chosen = [given(scenario) for scenario in scenarios]
     results: list[Any] = [None] * len(chosen)
     over = 0
 

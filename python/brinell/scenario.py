@@ -242,6 +242,18 @@ class Scenario:
         return _restored, self._native.state()
 
 
+Runnable = Scenario | str | os.PathLike[str]
+
+
+def given(of: Runnable) -> Scenario:
+    """A scenario, or that of a file."""
+    if isinstance(of, Scenario):
+        return of
+    if isinstance(of, (str, os.PathLike)):
+        return Scenario.from_file(of)
+    raise TypeError(f"{type(of).__name__}: expected a Scenario or the path of a scenario file")
+
+
 def _restored(*state: Any) -> Scenario:
     # Its warnings were told where it was made.
     return Scenario._of(_brinell.Scenario.restore(*state), quiet=True)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Scenario
+from brinell.scenario import Runnable, Scenario, given
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -51,12 +51,12 @@ class LoadZone:
         return f"<brinell.LoadZone: up to {self.largest_contact_force_n:.4g} N over {self.extent_deg:.4g} degrees>"
 
 
-def static_analysis(scenario: Scenario) -> LoadZone:
+def static_analysis(scenario: Runnable) -> LoadZone:
     """Load distribution, ring shift and stiffness under the full load, as the cage turns through a pitch.
 
     Parameters
     ----------
-    scenario : Scenario
+    scenario : Scenario or path
         Damage counts as it lies.
 
     Raises
@@ -72,10 +72,10 @@ def static_analysis(scenario: Scenario) -> LoadZone:
     >>> zone.extent_deg < 180.0 < zone.largest_contact_force_n
     True
     """
-    return LoadZone(**_brinell.statics(scenario._native))
+    return LoadZone(**_brinell.statics(given(scenario)._native))
 
 
-def derived(scenario: Scenario) -> dict[str, Any]:
+def derived(scenario: Runnable) -> dict[str, Any]:
     """What ``brinell check`` prints: frequencies, stiffnesses, contact pressure, time scales, the longest step; ``warnings`` about what may not be meant.
 
     Examples
@@ -85,7 +85,7 @@ def derived(scenario: Scenario) -> dict[str, Any]:
     >>> values["longest_step_s"] < values["roller_period_s"]
     True
     """
-    return _brinell.derived(scenario._native)
+    return _brinell.derived(given(scenario)._native)
 
 
 def frequencies(bearing: str | Scenario, speed_rpm: float | None = None) -> dict[str, float]:

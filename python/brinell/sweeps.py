@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Scenario
+from brinell.scenario import Runnable, given
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -95,7 +95,7 @@ class Table:
 
 
 def sweep(
-    scenario: Scenario,
+    scenario: Runnable,
     vary: Mapping[str, Sequence[Any]] | None = None,
     *,
     together: Sequence[Mapping[str, Sequence[Any]]] = (),
@@ -106,7 +106,7 @@ def sweep(
 
     Parameters
     ----------
-    scenario : Scenario
+    scenario : Scenario or path
         What the settings change.
     vary : mapping of str to sequence
         Values by dotted path; the last key changes fastest.
@@ -148,7 +148,7 @@ def sweep(
             told = ", ".join(f"{key} has {len(values)}" for key, values in zip(keys, lists, strict=True))
             raise ValueError(f"keys that vary together have equally many values; {told}")
         axes.append((keys, [list(setting) for setting in zip(*lists, strict=True)]))
-    places, reasons, numbers = _brinell.sweep(scenario._native, axes, jobs, progress)
+    places, reasons, numbers = _brinell.sweep(given(scenario)._native, axes, jobs, progress)
     columns: dict[str, npt.NDArray[Any]] = {}
     for number, (keys, settings) in enumerate(axes):
         for at, key in enumerate(keys):

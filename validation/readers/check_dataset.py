@@ -1,10 +1,14 @@
-"""A data set of `brinell dataset`, read by pandas and pyarrow: python check_dataset.py FOLDER"""
+"""A data set of `brinell dataset`, read by pandas, pyarrow, fastparquet, Hugging Face datasets and mlcroissant: python check_dataset.py FOLDER"""
 
 import hashlib
 import json
 import pathlib
 import sys
+import tempfile
 
+import datasets
+import fastparquet
+import mlcroissant
 import numpy as np
 import pandas as pd
 import pyarrow as pa
@@ -30,13 +34,18 @@ for column in about["columns"]:
     assert same, (column, found)
 
 runs = pd.read_parquet(folder / "runs")
-assert runs.run.tolist() == list(range(about["runs"]["total"]))
+assert sorted(runs.run) == list(range(about["runs"]["total"]))
+# Each file's runs are for one thing, and the files are in the order of the splits.
+for entry in about["files"]:
+    part = pd.read_parquet(folder / entry["path"], columns=["run", "split"])
+    assert (part.split == entry["split"]).all() and part.run.is_monotonic_increasing
+assert {s["name"]: s["runs"] for s in about["splits"]} == runs.split.value_counts().to_dict()
 held = runs.split == "held-out"
 labels = pd.read_parquet(folder / "held_out")
 assert labels.run.tolist() == runs.run[held].tolist() and 0 < held.sum() < len(runs)
 assert runs["class"][held].isna().all() and runs["class"][~held].notna().all()
 for _, run in runs.iterrows():
-    expected = round(run.duration_s * run.sample_rate_hz) + 1
+    expected = round(run.duration_s * run.sample_rate_hz)
     for signal in ["measured_ax", "measured_ay"]:
         x = run[signal]
         assert x.dtype == np.float32 and x.shape == (expected,) and np.isfinite(x).all() and x.std() > 0
@@ -48,4 +57,15 @@ for _, run in whole.iterrows():
     assert len(run.entry_t_s) == len(run.entry_force_n) == len(run.entry_side)
 some = pq.read_table(folder / "runs", columns=["operation.speed_rpm", "measured_ax"])
 assert some.column_names == ["operation.speed_rpm", "measured_ax"] and some.num_rows == len(runs)
+for entry in about["files"]:
+    whole_file = fastparquet.ParquetFile(str(folder / entry["path"])).to_pandas()
+    assert len(whole_file) == entry["rows"] and len(whole_file.measured_ax[0]) == 1280
+with tempfile.TemporaryDirectory() as cache:
+    loaded = datasets.load_dataset(str(folder), cache_dir=cache)
+    names = {"held-out": "held_out"}
+    assert {name: split.num_rows for name, split in loaded.items()} == {names.get(s["name"], s["name"]): s["runs"] for s in about["splits"]}
+    assert len(loaded["train"][0]["measured_ax"]) == 1280
+card = mlcroissant.Dataset(jsonld=str(folder / "croissant.json"))
+assert not card.metadata.issues.errors
+assert sorted(record["run/run"] for record in card.records("run")) == sorted(runs.run)
 print(f"{folder}: {len(runs)} runs, {held.sum()} of them with labels apart, as dataset.json says")

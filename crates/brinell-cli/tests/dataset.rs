@@ -34,6 +34,8 @@ depth_um = { log = [5, 20] }
 shape.random = { length_mm = { uniform = [1, 3] }, width_mm = 4 }
 "#;
 
+const SECRET: &str = "9f86d081884c7d659a2feaa0c55ad015";
+
 fn folder_with(plan: &str) -> TempDir {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("base.toml"), SHORT).unwrap();
@@ -201,12 +203,10 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     )
     .exits(0);
     let again = brinell_io::read_parquet(folder.path().join("again/signals.parquet")).unwrap();
-    let expected: Vec<f64> = again
-        .column("measured_ax")
-        .unwrap()
-        .iter()
-        .map(|x| f64::from(*x as f32))
-        .collect();
+    let whole = again.column("measured_ax").unwrap();
+    // All but the sample at the run's end: 0.02 s at 25.6 kHz are 512.
+    assert_eq!(whole.len(), 513);
+    let expected: Vec<f64> = whole[..512].iter().map(|x| f64::from(*x as f32)).collect();
     assert_eq!(list(row, "measured_ax").unwrap(), expected);
     let about = json(&folder.path().join("out/dataset.json"));
     assert_eq!(about["licence"], "CC0-1.0");
@@ -292,6 +292,37 @@ fn prop_a_row_in_pieces_is_run_again() {
 }
 
 #[test]
+fn prop_what_was_changed_after_it_was_written_is_told() {
+    let folder = folder_with(PLAN);
+    let out = folder.path().join("out");
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let sidecar = fs::read_to_string(out.join("dataset.json")).unwrap();
+    for (was, is) in [("CC0-1.0", "MIT"), ("\"healthy\"", "\"outer2\"")] {
+        fs::write(out.join("dataset.json"), sidecar.replacen(was, is, 1)).unwrap();
+        brinell(folder.path(), &["dataset", "verify", "out"])
+            .exits(1)
+            .complains(&["dataset.json: its checksum is another than when it was written"]);
+    }
+    fs::write(out.join("dataset.json"), &sidecar).unwrap();
+    // A file that was cut short is found by whoever goes on.
+    let file = out.join("runs/part-00001.parquet");
+    let whole = fs::read(&file).unwrap();
+    fs::write(&file, &whole[..whole.len() / 2]).unwrap();
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "runs/part-00001.parquet: ",
+        "one of them is damaged; remove both",
+    ]);
+    fs::remove_file(&file).unwrap();
+    fs::remove_file(out.join("work/part-00001.json")).unwrap();
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    assert!(fs::read(&file).unwrap() == whole);
+    assert_eq!(
+        fs::read_to_string(out.join("dataset.json")).unwrap(),
+        sidecar
+    );
+}
+
+#[test]
 fn prop_a_failed_run_is_a_row_with_its_reason() {
     // Values that make no scenario, in two runs of six.
     let plan = PLAN.replace("runs = 7", "runs = 6").replace(
@@ -349,16 +380,32 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
 
 #[test]
 fn prop_held_out_labels_lie_apart() {
-    let folder = folder_with(&PLAN.replace("runs = 7", "runs = 12\nheld_out = 0.5"));
+    let folder = folder_with(&PLAN.replace(
+        "runs = 7",
+        &format!("runs = 12\nheld_out = 0.5\nsecret = \"{SECRET}\""),
+    ));
     make(folder.path(), &["-o", "out"])
         .exits(0)
         .says(&["labels of "]);
     let out = folder.path().join("out");
     let secret = ["class", "label", "settings", "scenario", "reason"];
     let mut apart = 0;
-    for part in 0..4 {
+    let about = json(&out.join("dataset.json"));
+    let parts = about["files"].as_array().unwrap();
+    for (part, file) in parts.iter().enumerate() {
         let open = rows(&out.join(format!("runs/part-0000{part}.parquet")));
-        let held = rows(&out.join(format!("held_out/part-0000{part}.parquet")));
+        let labels = out.join(format!("held_out/part-0000{part}.parquet"));
+        // Runs of a file are for one thing.
+        assert_eq!(labels.exists(), file["split"] == "held-out");
+        assert!(
+            open.iter()
+                .all(|row| text(row, "split").as_deref() == file["split"].as_str())
+        );
+        let held = if labels.exists() {
+            rows(&labels)
+        } else {
+            Vec::new()
+        };
         let mut held = held.iter();
         for row in &open {
             let is_held = text(row, "split").as_deref() == Some("held-out");
@@ -375,7 +422,7 @@ fn prop_held_out_labels_lie_apart() {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
             // What a sensor knows stays.
-            assert_eq!(list(row, "measured_ax").unwrap().len(), 513);
+            assert_eq!(list(row, "measured_ax").unwrap().len(), 512);
             assert!(matches!(cell(row, "operation.speed_rpm"), Field::Double(_)));
             assert!(matches!(cell(row, "bpfo_hz"), Field::Double(_)));
             if is_held {
@@ -388,9 +435,18 @@ fn prop_held_out_labels_lie_apart() {
         assert!(held.next().is_none());
     }
     assert!((1..12).contains(&apart), "{apart}");
-    // Nor does the sidecar give them away: plan and seed would.
-    let sidecar = fs::read_to_string(out.join("dataset.json")).unwrap();
-    assert!(!sidecar.contains("\"seed\"") && !sidecar.contains("depth_um = {"));
+    // Nor does anything else that is published give them away: plan and secret would.
+    for name in files(&out)
+        .iter()
+        .filter(|name| !name.starts_with("held_out") && !name.starts_with("work"))
+    {
+        let bytes = fs::read(out.join(name)).unwrap();
+        let has = |words: &str| bytes.windows(words.len()).any(|w| w == words.as_bytes());
+        assert!(
+            !has(SECRET) && !has("depth_um = {") && !has("\"seed\""),
+            "{name}"
+        );
+    }
     assert!(
         fs::read_to_string(out.join("held_out/_plan.json"))
             .unwrap()
@@ -405,11 +461,19 @@ fn prop_held_out_labels_lie_apart() {
         .map(|c| c["open_runs"].as_u64().unwrap());
     assert_eq!(counted.sum::<u64>(), 12 - apart);
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
-    // All labels may be elsewhere, and not one file of them.
-    fs::remove_file(out.join("held_out/part-00001.parquet")).unwrap();
+    // What the labels are made from is checked as well; and one file of labels may not be missing where others are here.
+    let secret = fs::read(out.join("held_out/_plan.json")).unwrap();
+    fs::write(out.join("held_out/_plan.json"), "").unwrap();
     brinell(folder.path(), &["dataset", "verify", "out"])
         .exits(1)
-        .complains(&["held_out/part-00001.parquet is missing, and others are here"]);
+        .complains(&["held_out/_plan.json: its checksum is another than when it was written"]);
+    fs::write(out.join("held_out/_plan.json"), secret).unwrap();
+    let last = format!("held_out/part-0000{}.parquet", parts.len() - 1);
+    fs::remove_file(out.join(&last)).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&[&format!("{last} is missing, and others are here")]);
+    // All labels may be elsewhere.
     fs::remove_dir_all(out.join("held_out")).unwrap();
     brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
 }

@@ -2,9 +2,10 @@
 
 use crate::columns::{DataColumn, columns};
 use crate::error::DatasetError;
+use crate::folder::Folder;
 use crate::refusal::refused;
 use brinell::campaign::{digest, fingerprint};
-use brinell::design::{Draw, Draws, Plan, Survey, place_in_plan, unsaid};
+use brinell::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
@@ -13,7 +14,9 @@ use brinell_io::{Column, read_text};
 use std::collections::HashSet;
 use std::fs::File;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 /// Runs that are looked at before any runs; of longer plans every second, third, ... one.
 const SURVEYED: usize = 100_000;
@@ -23,6 +26,7 @@ const ASKED: usize = 64;
 /// A plan that can be run.
 pub struct Campaign {
     sources: Sources,
+    files: Files,
     identity: String,
     signals: Vec<Column>,
     columns: Vec<DataColumn>,
@@ -34,6 +38,30 @@ struct Sources {
     draws: Draws,
     plan: Document,
     base: Document,
+}
+
+/// Which runs lie in which file: those of one part together, each part in files of its own, in the runs' order.
+struct Files {
+    runs: Vec<usize>,
+    /// Of each file: what its runs are for, and which of `runs` they are.
+    files: Vec<(Part, Range<usize>)>,
+}
+
+impl Files {
+    fn new(draws: &Draws) -> Self {
+        let each = draws.plan().runs_per_file;
+        let (mut runs, mut files) = (Vec::with_capacity(draws.runs()), Vec::new());
+        for part in Part::ALL {
+            let mut from = runs.len();
+            runs.extend((0..draws.runs()).filter(|run| draws.part(*run) == part));
+            while from < runs.len() {
+                let to = (from + each).min(runs.len());
+                files.push((part, from..to));
+                from = to;
+            }
+        }
+        Self { runs, files }
+    }
 }
 
 /// A file that was read.
@@ -150,18 +178,30 @@ impl Campaign {
 
     /// Files of the data set.
     pub fn parts(&self) -> usize {
-        self.draws().runs().div_ceil(self.plan().runs_per_file)
+        self.files.files.len()
     }
 
     /// Runs of a file, by index.
-    pub fn runs_of(&self, part: usize) -> std::ops::Range<usize> {
-        let each = self.plan().runs_per_file;
-        part * each..((part + 1) * each).min(self.draws().runs())
+    pub fn runs_of(&self, part: usize) -> &[usize] {
+        &self.files.runs[self.files.files[part].1.clone()]
     }
 
-    /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one.
-    pub fn survey(&self) -> Survey {
-        survey(self.draws(), &self.sources.base.text)
+    /// What a file's runs are for.
+    pub fn split_of(&self, part: usize) -> Part {
+        self.files.files[part].0
+    }
+
+    /// Makes a folder this data set's, or finds that it is.
+    ///
+    /// # Errors
+    /// Where it holds another one, or one of another version.
+    pub fn claim(&self, folder: impl AsRef<Path>) -> Result<(), DatasetError> {
+        Folder::new(folder.as_ref()).claim(self)
+    }
+
+    /// Looks at what the runs draw: all of them, or of more than 100000 every second, third, ... one; once `stop` is set, at no further ones.
+    pub fn survey(&self, stop: &AtomicBool) -> Survey {
+        survey(self.draws(), &self.sources.base.text, stop)
     }
 
     /// What the plan's author should know, by what a survey found.
@@ -273,7 +313,7 @@ impl Sources {
                 )));
             }
             // Said of all runs, where that can be: which keys, and of how many runs.
-            let survey = survey(draws, &self.base.text);
+            let survey = survey(draws, &self.base.text, &AtomicBool::new(false));
             refused(draws, &self.plan, &survey)?;
             return Err(failure.unwrap_or_else(|| {
                 DatasetError::Refused("no run of the plan makes a scenario".into())
@@ -288,6 +328,7 @@ impl Sources {
         }
         Ok(Campaign {
             columns: columns(draws, &signals),
+            files: Files::new(draws),
             identity: digest(&meaning.join("\n")),
             signals,
             first,
@@ -328,9 +369,9 @@ impl Sources {
     }
 }
 
-fn survey(draws: &Draws, base: &str) -> Survey {
+fn survey(draws: &Draws, base: &str, stop: &AtomicBool) -> Survey {
     let step = NonZeroUsize::new(draws.runs().div_ceil(SURVEYED)).unwrap_or(NonZeroUsize::MIN);
-    Survey::of(draws, base, step, many::threads(usize::MAX))
+    Survey::of(draws, base, step, many::threads(usize::MAX), stop)
 }
 
 /// A problem of the plan as a whole, at the line of its key.

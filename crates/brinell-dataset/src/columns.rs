@@ -22,7 +22,7 @@ pub(crate) const HEAD: [Fixed; 3] = [
         "split",
         "1",
         Kind::Words,
-        "open, or held-out where the labels lie apart",
+        "train, validation or test; open where the plan does not divide; held-out where the labels lie apart",
     ),
     ("status", "1", Kind::Words, "complete or failed"),
 ];
@@ -39,7 +39,7 @@ pub(crate) const KNOWN: [Fixed; 11] = [
         "duration_s",
         "s",
         Kind::Number,
-        "simulated time; sample k is at k / sample_rate_hz",
+        "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
     ),
     (
         "bearing",

@@ -16,6 +16,9 @@ pub(crate) const NAME: &str = "brinell.dataset";
 /// Key of a file's metadata: number of the file, from 0.
 pub(crate) const PART: &str = "brinell.part";
 
+/// Plan and base of a data set with held-out labels, from its folder.
+pub(crate) const SECRET_PATH: &str = "held_out/_plan.json";
+
 /// A data set's folder.
 #[derive(Debug, Clone)]
 pub(crate) struct Folder {
@@ -43,7 +46,7 @@ impl Folder {
 
     /// What belongs to the labels: plan and base, from which anybody could make them. Readers of a folder of Parquet pass over names with `_`.
     pub(crate) fn secret(&self) -> PathBuf {
-        self.root.join("held_out").join("_plan.json")
+        self.root.join(SECRET_PATH)
     }
 
     pub(crate) fn campaign(&self) -> PathBuf {
@@ -165,16 +168,20 @@ impl Folder {
     }
 
     /// What is known of a file that is finished; `None` where it is not. A file without a checksum is read for one.
+    ///
+    /// # Errors
+    /// Where a file has not the length that it was written with, or what is known of it was changed.
     pub(crate) fn finished(&self, part: usize) -> Result<Option<Value>, DatasetError> {
         let path = self.part(part);
         if !path.exists() {
             return Ok(None);
         }
-        let told = std::fs::read(self.facts(part))
+        let told: Option<Value> = std::fs::read(self.facts(part))
             .ok()
             .and_then(|b| serde_json::from_slice(&b).ok());
-        if told.is_some() {
-            return Ok(told);
+        if let Some(facts) = told {
+            self.are_lengths(part, &facts)?;
+            return Ok(Some(facts));
         }
         let held_out = self.held_out(part);
         let facts = json!({
@@ -183,6 +190,31 @@ impl Folder {
         });
         self.write_facts(part, &facts)?;
         Ok(Some(facts))
+    }
+
+    /// That the files of a part have the lengths that were written.
+    fn are_lengths(&self, part: usize, facts: &Value) -> Result<(), DatasetError> {
+        let labels = facts["held_out"].is_object();
+        let files = [
+            (self.part(part), &facts["runs"], true),
+            (self.held_out(part), &facts["held_out"], labels),
+        ];
+        for (path, told, _) in files.into_iter().filter(|(_, _, there)| *there) {
+            // Labels may have been taken elsewhere.
+            let Ok(found) = std::fs::metadata(&path) else {
+                continue;
+            };
+            if Some(found.len()) != told["bytes"].as_u64() {
+                return Err(DatasetError::Refused(format!(
+                    "{}: {} bytes, and {} says {}: one of them is damaged; remove both, and the same command makes them again",
+                    path.display(),
+                    found.len(),
+                    self.facts(part).display(),
+                    told["bytes"]
+                )));
+            }
+        }
+        Ok(())
     }
 
     pub(crate) fn write_facts(&self, part: usize, facts: &Value) -> Result<(), DatasetError> {

@@ -11,9 +11,11 @@
 //! | `runs/part-00000.parquet`, ... | one row a run, in their order |
 //! | `held_out/part-00000.parquet`, ... | labels of the runs whose labels the plan holds out |
 //! | `dataset.json` | geometry, units, rate, licence, columns, checksums; written when all files are there |
+//! | `README.md`, `croissant.json` | the data set's card, as Hugging Face and other tools read it |
 //! | `work/` | which campaign it is, a checksum for each file, finished runs of unfinished files |
 
 mod campaign;
+mod card;
 mod columns;
 mod error;
 mod folder;

@@ -5,6 +5,7 @@ use crate::columns::DataColumn;
 use crate::error::DatasetError;
 use crate::folder::{CAMPAIGN, FAILED, Folder, NAME, PART, facts_of};
 use crate::row::is_failed;
+use brinell::design::Part;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
 use serde_json::{Map, Value, json};
 
@@ -81,7 +82,7 @@ pub(crate) fn write(
     let read = |run: usize| read_row_file(folder.row(part, run), &records);
     // Read twice rather than held: how many failed stands in the footer, which a writer is given at its beginning.
     let mut failed = 0;
-    for run in campaign.runs_of(part) {
+    for run in campaign.runs_of(part).iter().copied() {
         match read(run) {
             Some(cells) => failed += u64::from(is_failed(&cells)),
             None => {
@@ -109,7 +110,7 @@ pub(crate) fn write(
     let apart: Vec<usize> = (0..all.len())
         .filter(|k| all[*k].record.column.name == "run" || all[*k].tells)
         .collect();
-    let mut labels = match campaign.plan().holds_out() {
+    let mut labels = match campaign.split_of(part) == Part::HeldOut {
         true => {
             let columns: Vec<&DataColumn> = apart.iter().map(|k| all[*k]).collect();
             Some(start(folder.held_out(part), &columns)?)
@@ -117,12 +118,10 @@ pub(crate) fn write(
         false => None,
     };
     for run in campaign.runs_of(part) {
-        let Some(mut cells) = read(run) else {
+        let Some(mut cells) = read(*run) else {
             return Ok(None);
         };
-        if let Some(labels) = &mut labels
-            && campaign.draws().is_held_out(run)
-        {
+        if let Some(labels) = &mut labels {
             labels.push(apart.iter().map(|k| cells[*k].clone()).collect())?;
             for (cell, column) in cells.iter_mut().zip(&all) {
                 if column.tells {

@@ -86,6 +86,7 @@ impl Draft {
             return Err(Short::Stopped);
         }
         work(scenario, &simulation, &outcome, cells);
+        cells.insert("samples", Cell::Whole(truth.kept as i64));
         if let End::Failed(error) = &outcome.end {
             return Err(Short::Failed(one_line(&error.to_string())));
         }
@@ -104,18 +105,13 @@ impl Draft {
         } = self;
         let draws = campaign.draws();
         let class = draws.class(run);
-        let split = if draws.is_held_out(run) {
-            "held-out"
-        } else {
-            "open"
-        };
         let status = if failed.is_some() {
             "failed"
         } else {
             "complete"
         };
         cells.insert("run", Cell::Whole(run as i64));
-        cells.insert("split", words(split));
+        cells.insert("split", words(draws.part(run).word()));
         cells.insert("status", words(status));
         cells.insert("class", words(&campaign.plan().classes[class].name));
         cells.insert("label", Cell::Whole(class as i64));
@@ -272,7 +268,6 @@ fn work(scenario: &Scenario, simulation: &Simulation, outcome: &Outcome, cells: 
     let w = &outcome.work;
     let rate = simulation.sample_rate();
     for (name, count) in [
-        ("samples", outcome.rows),
         ("solver_steps", w.solver.steps),
         ("solver_rejections", w.solver.rejections),
         (

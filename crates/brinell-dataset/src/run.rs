@@ -155,7 +155,7 @@ pub fn run(
             listener.before(runs.len());
             clear(&folder, *part);
         } else {
-            jobs.extend(runs.map(|run| (*part, run)));
+            jobs.extend(runs.iter().map(|run| (*part, *run)));
         }
     }
     let work = Work {
@@ -259,9 +259,10 @@ impl Work<'_> {
             let broken = self
                 .campaign
                 .runs_of(part)
-                .filter(|run| !self.folder.row(part, *run).exists());
+                .iter()
+                .filter(|run| !self.folder.row(part, **run).exists());
             for run in broken.collect::<Vec<_>>() {
-                if !self.make(part, run)? {
+                if !self.make(part, *run)? {
                     return Ok(());
                 }
             }

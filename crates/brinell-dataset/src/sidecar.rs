@@ -1,14 +1,21 @@
 //! `dataset.json`: what the files are, for those who have nothing but the folder.
 
 use crate::campaign::Campaign;
+use crate::card;
 use crate::error::DatasetError;
-use crate::folder::{Folder, file_name, make};
+use crate::folder::{Folder, SECRET_PATH, file_name, make};
+use brinell::campaign::digest;
+use brinell::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell_io::{IoError, Kind, atomic_write};
 use serde_json::{Map, Value, json};
+use std::path::Path;
 
 /// Changes with the meaning of columns and keys.
-const SCHEMA: &str = "brinell-dataset-1";
+const SCHEMA: &str = "brinell-dataset-2";
+
+/// Key of the checksum.
+const CHECKSUM: &str = "checksum";
 
 /// Everything that is known before a run: what `work/campaign.json` holds.
 pub(crate) fn about(campaign: &Campaign) -> Value {
@@ -54,6 +61,7 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
         "runs": draws.runs(),
         "runs_per_file": plan.runs_per_file,
         "files": campaign.parts(),
+        "splits": splits(campaign),
         "classes": classes.collect::<Vec<_>>(),
         "design": plan.design.word(),
         "rate": {
@@ -85,6 +93,39 @@ pub(crate) fn about(campaign: &Campaign) -> Value {
     };
     about[place] = sources;
     about
+}
+
+/// Of each split, in the order of the files: its runs and files.
+fn splits(campaign: &Campaign) -> Vec<Value> {
+    let mut splits: Vec<(Part, usize, usize)> = Vec::new();
+    for file in 0..campaign.parts() {
+        let (part, runs) = (campaign.split_of(file), campaign.runs_of(file).len());
+        match splits.last_mut() {
+            Some((last, of, files)) if *last == part => (*of, *files) = (*of + runs, *files + 1),
+            _ => splits.push((part, runs, 1)),
+        }
+    }
+    let splits = splits.into_iter();
+    splits
+        .map(|(part, runs, files)| json!({ "name": part.word(), "runs": runs, "files": files }))
+        .collect()
+}
+
+/// Split and rows of each file, in order, as a data set's description has them.
+pub(crate) fn files_of(about: &Value) -> Vec<(String, u64)> {
+    let each = about["runs_per_file"].as_u64().unwrap_or(1).max(1);
+    let mut files = Vec::new();
+    for split in about["splits"].as_array().into_iter().flatten() {
+        let (name, mut left) = (
+            split["name"].as_str().unwrap_or("?"),
+            split["runs"].as_u64().unwrap_or(0),
+        );
+        while left > 0 {
+            files.push((name.to_owned(), left.min(each)));
+            left -= left.min(each);
+        }
+    }
+    files
 }
 
 fn key(p: &Provenance, varies: bool) -> Value {
@@ -125,21 +166,24 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     let Value::Object(mut about) = about else {
         return Ok(false);
     };
-    let parts = about["files"].as_u64().unwrap_or(0) as usize;
     let (mut files, mut labels, mut failed) = (Vec::new(), Vec::new(), 0);
-    for part in 0..parts {
+    for (part, (split, _)) in files_of(&about.clone().into()).iter().enumerate() {
         let Some(facts) = folder.finished(part)? else {
             return Ok(false);
         };
         failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
-        files.push(listed("runs", part, &facts["runs"]));
+        let mut entry = listed("runs", part, &facts["runs"]);
+        entry["split"] = split.as_str().into();
+        files.push(entry);
         if facts["held_out"].is_object() {
             labels.push(listed("held_out", part, &facts["held_out"]));
         }
     }
+    let mut plan = Value::Null;
     if let Some(secret) = about.remove("secret") {
         make(&folder.root.join("held_out"))?;
-        put(&folder.secret(), &secret)?;
+        put(&folder.secret(), &written(&secret))?;
+        plan = json!({ "path": SECRET_PATH, "sha256": digest(&written(&secret)) });
     }
     let sources = about.remove("sources");
     let runs = about["runs"].as_u64().unwrap_or(0);
@@ -151,6 +195,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     if !labels.is_empty() {
         about.insert("held_out".into(), json!({
             "files": labels,
+            "plan": plan,
             "meaning": "labels, truth and plan of the runs with split = held-out: keep this folder to yourself, and join by the column `run`",
         }));
     } else {
@@ -159,8 +204,28 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     if let Some(sources) = sources {
         about.insert("sources".into(), sources);
     }
-    put(&folder.sidecar(), &about.into())?;
+    let about = Value::from(about);
+    card::write(&folder.root, &about)?;
+    put(&folder.sidecar(), &written(&signed(about)))?;
     Ok(true)
+}
+
+/// With a checksum of all the rest.
+fn signed(mut about: Value) -> Value {
+    about[CHECKSUM] =
+        json!({ "of": "this file without this key", "sha256": digest(&written(&about)) });
+    about
+}
+
+/// Whether a description is as it was written; `None` where it does not say.
+pub(crate) fn is_whole(about: &Value) -> Option<bool> {
+    let mut rest = about.clone();
+    let told = rest.as_object_mut()?.shift_remove(CHECKSUM)?;
+    Some(told["sha256"].as_str() == Some(digest(&written(&rest)).as_str()))
+}
+
+pub(crate) fn written(value: &Value) -> String {
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 fn listed(place: &str, part: usize, facts: &Value) -> Value {
@@ -174,12 +239,12 @@ fn listed(place: &str, part: usize, facts: &Value) -> Value {
     entry.into()
 }
 
-fn put(path: &std::path::Path, value: &Value) -> Result<(), DatasetError> {
-    let text = serde_json::to_string_pretty(value).unwrap_or_default() + "\n";
+/// Writes a file; what is there with the same content stays.
+pub(crate) fn put(path: &Path, text: &str) -> Result<(), DatasetError> {
     if std::fs::read(path).is_ok_and(|there| there == text.as_bytes()) {
         return Ok(());
     }
-    match atomic_write(path, text) {
+    match atomic_write(path, text.to_owned()) {
         // Another shard that ended at the same time writes the same.
         Err(IoError::Busy { .. }) | Ok(()) => Ok(()),
         Err(error) => Err(error.into()),

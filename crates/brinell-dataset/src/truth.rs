@@ -31,6 +31,10 @@ pub(crate) struct Truth<'a> {
     pub(crate) outer: Vec<(f64, f64)>,
     pub(crate) samples: u64,
     pub(crate) largest: f64,
+    /// Samples of the signals: sample_rate_hz * duration_s, half a second at 25 600 Hz being 12 800. The sample at the end of the run would be the
+    /// first of what follows.
+    keep: u64,
+    pub(crate) kept: u64,
     /// Of each signal: its place in a row, where the run has it.
     places: Vec<Option<usize>>,
     pub(crate) signals: Vec<Vec<f32>>,
@@ -51,8 +55,10 @@ impl<'a> Truth<'a> {
                 .position(|c| c.name == signal.name)
         };
         let places: Vec<Option<usize>> = signals.iter().map(place).collect();
+        let whole = (scenario.simulation.duration_s * simulation.sample_rate()).round();
+        let keep = simulation.samples().min(whole.max(1.0) as u64);
         let room = |place: &Option<usize>| match place {
-            Some(_) => Vec::with_capacity(simulation.samples() as usize),
+            Some(_) => Vec::with_capacity(keep as usize),
             None => Vec::new(),
         };
         Self {
@@ -66,6 +72,8 @@ impl<'a> Truth<'a> {
             outer: vec![(0.0, 0.0); layout.rollers()],
             samples: 0,
             largest: 0.0,
+            keep,
+            kept: 0,
             signals: places.iter().map(room).collect(),
             places,
         }
@@ -108,7 +116,11 @@ impl Observer for Truth<'_> {
         }
     }
 
-    fn row(&mut self, _: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+        if index >= self.keep {
+            return ControlFlow::Continue(());
+        }
+        self.kept += 1;
         for (signal, place) in self.signals.iter_mut().zip(&self.places) {
             if let Some(place) = place {
                 signal.push(row[*place] as f32);

@@ -1,7 +1,8 @@
 //! A data set's folder held against what it says of itself.
 
 use crate::error::DatasetError;
-use crate::folder::{CAMPAIGN, Folder, PART, file_name};
+use crate::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name};
+use crate::sidecar::{files_of, is_whole};
 use brinell_io::{keys, record_facts, sha256_of};
 use serde_json::Value;
 use std::path::Path;
@@ -56,6 +57,10 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         found
             .problems
             .push("dataset.json is of another campaign or version than work/campaign.json".into());
+    } else if is_whole(&sidecar) != Some(true) {
+        found
+            .problems
+            .push("dataset.json: its checksum is another than when it was written".into());
     }
     let columns: Vec<&str> = about["columns"]
         .as_array()
@@ -63,11 +68,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         .flatten()
         .filter_map(|c| c["name"].as_str())
         .collect();
-    let runs = about["runs"]
-        .as_u64()
-        .or(about["runs"]["total"].as_u64())
-        .unwrap_or(0);
-    let each = about["runs_per_file"].as_u64().unwrap_or(1).max(1);
+    let files = files_of(&about);
     for part in 0..found.of {
         let path = folder.part(part);
         let name = format!("runs/{}", file_name(part));
@@ -111,7 +112,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
             facts.columns != columns,
             "other columns than the data set's",
         );
-        let expected = each.min(runs.saturating_sub(part as u64 * each));
+        let expected = files.get(part).map_or(0, |(_, rows)| *rows);
         say(
             facts.rows != expected,
             &format!("{} rows instead of {expected}", facts.rows),
@@ -145,22 +146,29 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
                 .push(format!("runs/{name}: no file of this data set"));
         }
     }
-    // The labels may have been taken elsewhere, all of them: those that are here are checked.
-    let labels: Vec<&Value> = sidecar["held_out"]["files"]
-        .as_array()
-        .into_iter()
-        .flatten()
+    // The labels may have been taken elsewhere, all of them: those that are here are checked, and what they are made from.
+    let held_out = &sidecar["held_out"];
+    let listed = held_out["files"].as_array().into_iter().flatten();
+    let apart: Vec<(&str, &Value)> = listed
+        .chain([&held_out["plan"]])
+        .filter_map(|entry| Some((entry["path"].as_str()?, &entry["sha256"])))
         .collect();
-    let are_here = (0..labels.len()).any(|part| folder.held_out(part).exists());
-    for (part, told) in labels.into_iter().enumerate().filter(|_| are_here) {
-        let (path, name) = (folder.held_out(part), file_name(part));
-        if !path.exists() {
+    let there = |path: &str| folder.root.join(path).exists();
+    let are_here = apart.iter().any(|(path, _)| there(path));
+    for (path, told) in apart.into_iter().filter(|_| are_here) {
+        if !there(path) {
+            let labels = path != SECRET_PATH;
+            let remedy = if labels {
+                "remove the file of that name in runs/ as well, and both are made again"
+            } else {
+                "the plan's own command writes it again"
+            };
+            found
+                .problems
+                .push(format!("{path} is missing, and others are here: {remedy}"));
+        } else if Some(sha256_of(&folder.root.join(path))?.as_str()) != told.as_str() {
             found.problems.push(format!(
-                "held_out/{name} is missing, and others are here: remove runs/{name} as well, and both are made again"
-            ));
-        } else if Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str() {
-            found.problems.push(format!(
-                "held_out/{name}: its checksum is another than when it was written"
+                "{path}: its checksum is another than when it was written"
             ));
         }
     }

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -62,20 +63,45 @@ impl RunListener for Stop<'_> {
 
 #[pymethods]
 impl Campaign {
-    /// Of a plan file; with `check`, every run is tried first.
+    /// Of a plan file; with `check`, every run is tried first. Ctrl-C is heard, and what is under way then ends on its own.
     #[staticmethod]
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
-        py.detach(|| {
-            let campaign = dataset::Campaign::open(&path)?;
-            let mut warnings = Vec::new();
-            if check {
-                let survey = campaign.survey();
-                campaign.sound(&survey)?;
-                warnings = campaign.warnings(&survey);
+        let (ended, over) = channel();
+        let stop = Arc::new(AtomicBool::new(false));
+        let theirs = Arc::clone(&stop);
+        std::thread::spawn(move || {
+            let open = || {
+                let campaign = dataset::Campaign::open(&path)?;
+                let mut warnings = Vec::new();
+                if check {
+                    let survey = campaign.survey(&theirs);
+                    campaign.sound(&survey)?;
+                    warnings = campaign.warnings(&survey);
+                }
+                Ok(Self(campaign, warnings))
+            };
+            // Nobody waits after Ctrl-C.
+            let _ = ended.send(open());
+        });
+        loop {
+            match py.detach(|| over.recv_timeout(BEAT)) {
+                Ok(opened) => return opened.map_err(|error| failed(py, error)),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(bad_value("the thread that read the plan ended"));
+                }
             }
-            Ok(Self(campaign, warnings))
-        })
-        .map_err(|error| failed(py, error))
+            if let Err(signal) = py.check_signals() {
+                stop.store(true, Ordering::Relaxed);
+                return Err(signal);
+            }
+        }
+    }
+
+    /// Makes a folder this plan's, or finds that it is.
+    fn claim(&self, py: Python, folder: PathBuf) -> PyResult<()> {
+        py.detach(|| self.0.claim(folder))
+            .map_err(|error| failed(py, error))
     }
 
     /// What its author should know, where runs were tried.
@@ -160,7 +186,7 @@ impl Campaign {
         py: Python<'py>,
         folder: PathBuf,
         shard: (usize, usize),
-        jobs: Option<usize>,
+        jobs: Option<isize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (index, of) = shard;
@@ -233,6 +259,13 @@ fn named(value: &serde_json::Value, under: bool, names: &mut Vec<String>) {
         }
         _ => {}
     }
+}
+
+/// Which instructions this process computes with.
+#[pyfunction]
+pub(crate) fn kernel() -> PyResult<&'static str> {
+    let kernel = brinell::kernel::Kernel::chosen().map_err(bad_value)?;
+    Ok(kernel.name())
 }
 
 /// Joins folders in which shares ran apart; what is still to do, where something is.

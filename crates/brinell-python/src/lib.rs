@@ -19,7 +19,7 @@ mod _brinell {
     use super::*;
 
     #[pymodule_export]
-    use dataset::{Campaign, merge, verify};
+    use dataset::{Campaign, kernel, merge, verify};
     #[pymodule_export]
     use look_up::{derived, frequencies, statics};
     #[pymodule_export]

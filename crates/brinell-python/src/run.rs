@@ -145,12 +145,16 @@ pub(crate) fn simulate(
 }
 
 /// Runs at a time, of `count` in all: as asked for, or one a core.
-pub(crate) fn threads(jobs: Option<usize>, count: usize) -> PyResult<NonZeroUsize> {
+pub(crate) fn threads(jobs: Option<isize>, count: usize) -> PyResult<NonZeroUsize> {
     let Some(jobs) = jobs else {
         return Ok(brinell::many::threads(count));
     };
-    NonZeroUsize::new(jobs)
-        .ok_or_else(|| bad_value("jobs = 0: runs at a time\n  allowed: 1 or more"))
+    let jobs_or_none = usize::try_from(jobs).ok().and_then(NonZeroUsize::new);
+    jobs_or_none.ok_or_else(|| {
+        bad_value(format!(
+            "jobs = {jobs}: runs at a time\n  allowed: 1 or more"
+        ))
+    })
 }
 
 /// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with Python's lock. Signals
@@ -158,7 +162,7 @@ pub(crate) fn threads(jobs: Option<usize>, count: usize) -> PyResult<NonZeroUsiz
 pub(crate) fn over_threads<T: Send>(
     py: Python<'_>,
     count: usize,
-    jobs: Option<usize>,
+    jobs: Option<isize>,
     job: impl Fn(usize, &AtomicBool) -> T + Sync,
     mut deliver: impl FnMut(Python<'_>, usize, T) -> PyResult<()> + Send,
 ) -> PyResult<()> {
@@ -202,7 +206,7 @@ pub(crate) fn over_threads<T: Send>(
 pub(crate) fn simulate_many(
     py: Python<'_>,
     scenarios: Vec<Py<Scenario>>,
-    jobs: Option<usize>,
+    jobs: Option<isize>,
     deliver: Py<PyAny>,
 ) -> PyResult<()> {
     over_threads(

@@ -21,7 +21,7 @@ pub(crate) fn sweep<'py>(
     py: Python<'py>,
     scenario: &Scenario,
     axes: Vec<(Vec<String>, Vec<Vec<Bound<'py, PyAny>>>)>,
-    jobs: Option<usize>,
+    jobs: Option<isize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>)> {
     // Said once, and not of every point.

@@ -1,8 +1,10 @@
 //! Plans of data sets: that runs draw what their distributions say, each its own and always the same, and that bad plans are told.
 
-use brinell::design::{Draws, OutOfRange, Plan, Survey};
+use brinell::design::{Draws, OutOfRange, Part, Plan, Survey};
 use brinell::document::Problem;
+use brinell::random::mix;
 use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
 
 const BASE: &str = r#"name = "base"
 [bearing]
@@ -34,6 +36,9 @@ on = "outer-raceway"
 depth_um = { log = [1, 100] }
 shape.random = { length_mm = { uniform = [0.5, 4] }, width_mm = 3 }
 "#;
+
+/// Of plans that hold labels out.
+const SECRET: &str = "secret = \"9f86d081884c7d659a2feaa0c55ad015\"";
 
 fn draws(plan: &str) -> Draws {
     Draws::new(Plan::read(plan).unwrap_or_else(|p| panic!("{p:?}")))
@@ -258,6 +263,7 @@ fn analytic_values_beyond_a_keys_range_are_counted() {
             BASE,
             one,
             NonZeroUsize::new(threads).unwrap(),
+            &AtomicBool::new(false),
         )
     };
     let found = survey("refuse", 1);
@@ -298,7 +304,10 @@ fn analytic_values_beyond_a_keys_range_are_counted() {
 
 #[test]
 fn prop_held_out_runs_are_the_share_asked_for_and_always_the_same() {
-    let plan = PLAN.replace("runs = 60", "runs = 5000\nheld_out = 0.2");
+    let plan = PLAN.replace(
+        "runs = 60",
+        &format!("runs = 5000\nheld_out = 0.2\n{SECRET}"),
+    );
     let (one, again) = (draws(&plan), draws(&plan));
     let held: Vec<usize> = (0..5000).filter(|run| one.is_held_out(*run)).collect();
     assert!((held.len() as i32 - 1000).abs() < 130, "{}", held.len());
@@ -310,7 +319,10 @@ fn prop_held_out_runs_are_the_share_asked_for_and_always_the_same() {
 fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
     const RUNS: usize = 6000;
     let plan = format!("design = 'latin-hypercube'\n{PLAN}")
-        .replace("runs = 60", &format!("runs = {RUNS}\nheld_out = 0.5"))
+        .replace(
+            "runs = 60",
+            &format!("runs = {RUNS}\nheld_out = 0.5\n{SECRET}"),
+        )
         .replace("share = 2", "share = 1");
     let draws = draws(&plan);
     let (held, open): (Vec<usize>, Vec<usize>) = (0..RUNS).partition(|run| draws.is_held_out(*run));
@@ -346,10 +358,180 @@ fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
             "at random, two fall into one slice"
         );
     }
-    // Small seeds can be tried one by one.
-    assert!(draws.notes()[0].starts_with("seed = 5: whoever has the open runs can try such seeds"));
-    let large = Plan::read(&plan.replace("seed = 5", "seed = 839204756102938")).unwrap();
-    assert!(Draws::new(large).unwrap().notes().is_empty());
+}
+
+/// x of mix(x).
+fn unmix(z: u64) -> u64 {
+    // Odd factors have inverses modulo 2^64 (Newton's iteration); x ^ (x >> k) is undone k bits at a time.
+    let inverse = |odd: u64| {
+        (0..6).fold(odd, |x, _| {
+            x.wrapping_mul(2_u64.wrapping_sub(odd.wrapping_mul(x)))
+        })
+    };
+    let unshift = |z: u64, k: u32| (0..64 / k + 1).fold(z, |x, _| z ^ (x >> k));
+    let z = unshift(z, 31).wrapping_mul(inverse(0x94D0_49BB_1331_11EB));
+    let z = unshift(z, 27).wrapping_mul(inverse(0xBF58_476D_1CE4_E5B9));
+    unshift(z, 30).wrapping_sub(0x9E37_79B9_7F4A_7C15)
+}
+
+fn word(key: &str) -> u64 {
+    let bytes = key.bytes();
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
+}
+
+#[test]
+fn prop_who_has_the_open_runs_and_the_plan_but_not_the_secret_has_no_label() {
+    const RUNS: usize = 4000;
+    const KEY: &str = "defects.0.shape.random.seed";
+    let with = |secret: &str| {
+        PLAN.replace("seed = 5", "seed = 918273645546372")
+            .replace(
+                "runs = 60",
+                &format!("runs = {RUNS}\nheld_out = 0.5\nsecret = \"{secret}\""),
+            )
+            .replace("share = 2", "share = 1")
+    };
+    let truth = draws(&with("9f86d081884c7d659a2feaa0c55ad015"));
+    let seed_of = |run: usize| -> Option<u64> {
+        let settings = truth.first(BASE, run).unwrap().settings;
+        settings
+            .into_iter()
+            .find(|(key, _)| key == KEY)?
+            .1
+            .parse()
+            .ok()
+    };
+    let open: Vec<usize> = (0..RUNS).filter(|run| !truth.is_held_out(*run)).collect();
+    // The seeds of two open runs tell the plan's: their stream can be turned back.
+    let seeds: Vec<(usize, u64)> = open
+        .iter()
+        .filter_map(|run| Some((*run, seed_of(*run)?)))
+        .take(2)
+        .collect();
+    let plans_seed =
+        |run: usize, bits: u64| unmix(unmix(unmix(unmix(bits) ^ mix(word(KEY))) ^ mix(run as u64)));
+    let candidates =
+        |(run, seed): (usize, u64)| (0..1 << 11).map(move |low| plans_seed(run, seed << 11 | low));
+    let first: std::collections::HashSet<u64> = candidates(seeds[0]).collect();
+    let both: Vec<u64> = candidates(seeds[1])
+        .filter(|seed| first.contains(seed))
+        .collect();
+    assert_eq!(
+        both,
+        [918_273_645_546_372],
+        "the attack no longer finds what it should"
+    );
+    // It tells nothing of what is held out: neither by the same stream, nor by a plan that differs in the secret alone.
+    let bits = |words: &[u64]| words.iter().fold(0, |state, word| mix(state ^ mix(*word)));
+    let unit =
+        |what: &str, run: usize| bits(&[both[0], word(what), run as u64]) as f64 / 2_f64.powi(64);
+    let other = draws(&with("9f86d081884c7d659a2feaa0c55ad016"));
+    let held: Vec<usize> = (0..RUNS).filter(|run| truth.is_held_out(*run)).collect();
+    let guesses: [(&str, &dyn Fn(usize) -> bool); 4] = [
+        ("class, same stream", &|run| {
+            usize::from(unit("class", run) >= 0.5) == truth.class(run)
+        }),
+        ("which, same stream", &|run| unit("held_out", run) < 0.5),
+        ("class, other secret", &|run| {
+            other.class(run) == truth.class(run)
+        }),
+        ("which, other secret", &|run| other.is_held_out(run)),
+    ];
+    for (guess, is_right) in guesses {
+        let right = held.iter().filter(|run| is_right(**run)).count() as f64;
+        let off = right - 0.5 * held.len() as f64;
+        assert!(
+            off.abs() < 4.0 * (0.25 * held.len() as f64).sqrt(),
+            "{guess}: {right} of {}",
+            held.len()
+        );
+    }
+    // Nor are values and seeds those of the open stream.
+    let shared = held.iter().filter_map(|run| Some((*run, seed_of(*run)?)));
+    for (run, seed) in shared.take(100) {
+        assert_ne!(
+            seed,
+            bits(&[both[0], run as u64, word(KEY)]) >> 11,
+            "run {run}"
+        );
+    }
+    let same = held.iter().filter(|run| {
+        truth.first(BASE, **run).unwrap().values == other.first(BASE, **run).unwrap().values
+    });
+    assert_eq!(same.count(), 0);
+}
+
+#[test]
+fn regress_a_weak_secret_is_refused() {
+    for secret in [
+        "",
+        "secret = \"12345\"",
+        "secret = \"00000000000000000000000000000001\"",
+    ] {
+        let told =
+            refusals(&PLAN.replace("runs = 60", &format!("runs = 60\nheld_out = 0.5\n{secret}")));
+        assert!(
+            told[0].contains("secret") && told[0].contains("openssl rand -hex 16"),
+            "{told:?}"
+        );
+    }
+}
+
+#[test]
+fn prop_splits_share_no_conditions_and_have_their_shares() {
+    let plan = PLAN.replace("runs = 60", "runs = 2000").replace(
+        "{ normal = [500, 100], within = [300, 700] }",
+        "{ uniform = [300, 700] }",
+    );
+    let split = |more: &str| {
+        draws(&plan.replace(
+            "[vary]",
+            &format!("[split]\nvalidation = 0.1\ntest = 0.2\n{more}\n[vary]"),
+        ))
+    };
+    let count = |draws: &Draws, part| {
+        (0..2000).filter(|run| draws.part(*run) == part).count() as f64 / 2000.0
+    };
+    let divided = split("");
+    // 64 groups of two keys in eight bands each.
+    for (part, share) in [
+        (Part::Validation, 0.1),
+        (Part::Test, 0.2),
+        (Part::Train, 0.7),
+    ] {
+        assert!((count(&divided, part) - share).abs() < 0.03, "{part:?}");
+    }
+    let [speed, load] =
+        ["operation.speed_rpm", "operation.load_n.0"].map(|key| numbers(&divided, key));
+    // Bands of equal probability are here bands of equal width.
+    let band = |run: usize| ((speed[run] - 1000.0) / 250.0) as usize;
+    let group = |run: usize| (band(run), ((load[run] - 300.0) / 50.0) as usize);
+    let mut of_group = std::collections::HashMap::new();
+    for run in 0..2000 {
+        let part = *of_group.entry(group(run)).or_insert(divided.part(run));
+        assert_eq!(part, divided.part(run), "run {run}");
+    }
+    assert_eq!(of_group.len(), 64);
+    // By one key, whole bands go one way.
+    let by = split("by = [\"operation.speed_rpm\"]");
+    let mut of_band = std::collections::HashMap::new();
+    for run in 0..2000 {
+        let part = *of_band.entry(band(run)).or_insert(by.part(run));
+        assert_eq!(part, by.part(run), "run {run}");
+    }
+    // Each run by itself, and what cannot be.
+    assert!((count(&split("by = []"), Part::Test) - 0.2).abs() < 0.001);
+    let refused = |more: &str| refusals(&plan.replace("[vary]", &format!("{more}\n[vary]")));
+    assert!(
+        refused("[split]\ntest = 0.2\nby = [\"lubricant.viscosity_pa_s\"]")[0]
+            .contains("[vary] draws no such key")
+    );
+    assert!(
+        refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with")
+    );
+    assert!(refused("out_of_range = \"redraw\"\n[split]\ntest = 0.5")[0].contains("drawn again"));
 }
 
 #[test]

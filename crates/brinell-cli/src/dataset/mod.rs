@@ -68,7 +68,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     // A folder that was begun has seen this plan looked over.
     let begun = folder.join("work").join("campaign.json").exists();
     if args.dry_run || !begun {
-        let survey = campaign.survey();
+        let survey = campaign.survey(&AtomicBool::new(false));
         plan::tell(&campaign, &survey, runs, threads, args);
         campaign.sound(&survey)?;
     }

@@ -3,15 +3,14 @@
 use super::distribution::{Distribution, KINDS, Value};
 use super::plan::{Design, OutOfRange, Plan};
 use super::sequence::{Sequence, Sobol};
-use super::stream::{bits, seed, unit, word};
+use super::split::{self, Part};
+use super::stream::{Secret, bits, seed, unit, word};
 use super::turns::{APART, Place, places};
 use crate::document::reading::{Node, Toml, parse, quote};
 use crate::document::{Loaded, Problem, read};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
-/// Seeds below this one are tried in an afternoon.
-const GUESSED: u64 = 1 << 40;
 
 /// A seed that every run has one of its own of.
 struct Seeded {
@@ -79,8 +78,11 @@ struct Drawn {
 /// The runs of a plan.
 pub struct Draws {
     plan: Plan,
+    /// Where labels are held out.
+    secret: Option<Secret>,
     classes: Vec<Drawn>,
     places: Vec<Place>,
+    parts: Vec<Part>,
     parameters: Vec<Parameter>,
 }
 
@@ -90,7 +92,8 @@ impl Draws {
     /// # Errors
     /// Where the plan cannot be: fewer runs than combinations of its grids, more distributions than a Sobol sequence has dimensions.
     pub fn new(plan: Plan) -> Result<Self, Vec<Problem>> {
-        let places = places(&plan);
+        let secret = Secret::of(&plan.secret).filter(|_| plan.holds_out());
+        let places = places(&plan, secret.as_ref());
         let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for (c, class) in plan.classes.iter().enumerate() {
             let mine = || places.iter().filter(|place| place.class as usize == c);
@@ -166,16 +169,19 @@ impl Draws {
                 combinations,
             });
         }
-        if problems.is_empty() {
-            Ok(Self {
-                plan,
-                classes,
-                places,
-                parameters,
-            })
-        } else {
-            Err(problems)
+        if !problems.is_empty() {
+            return Err(problems);
         }
+        let mut draws = Self {
+            plan,
+            secret,
+            classes,
+            places,
+            parts: Vec::new(),
+            parameters,
+        };
+        draws.parts = split::parts(&draws)?;
+        Ok(draws)
     }
 
     /// The plan.
@@ -213,7 +219,32 @@ impl Draws {
         self.places[run].number == APART
     }
 
-    /// What the author should know: grids whose combinations come unequally often, held-out labels behind a seed that can be guessed.
+    /// What a run is for.
+    pub fn part(&self, run: usize) -> Part {
+        self.parts[run]
+    }
+
+    /// Under which conditions run `run` runs: of each key its value, or in which of so many bands of equal probability it lies where it is drawn from a
+    /// continuous distribution.
+    pub(super) fn conditions(&self, run: usize, keys: &[String], bands: f64) -> Vec<String> {
+        let class = &self.classes[self.class(run)];
+        let values = self.values(run, 0);
+        let axes = class.axes.iter().zip(values).enumerate();
+        axes.filter(|(_, (axis, _))| keys.contains(&self.parameters[axis.parameter].key))
+            .map(|(k, (axis, value))| match axis.distribution {
+                Distribution::Uniform { .. }
+                | Distribution::Log { .. }
+                | Distribution::Normal { .. } => {
+                    format!("{:.0}", (bands * self.unit(run, k, 0)).floor())
+                }
+                Distribution::Whole { .. }
+                | Distribution::Choice { .. }
+                | Distribution::Grid { .. } => value.toml,
+            })
+            .collect()
+    }
+
+    /// What the author should know: grids whose combinations come unequally often.
     pub fn notes(&self) -> Vec<String> {
         let uneven = |(class, drawn): (&super::Class, &Drawn)| {
             (drawn.open % drawn.combinations != 0).then(|| {
@@ -224,24 +255,51 @@ impl Draws {
             })
         };
         let classes = self.plan.classes.iter().zip(&self.classes);
-        let mut notes: Vec<String> = classes.filter_map(uneven).collect();
-        if self.plan.holds_out() && self.plan.seed < GUESSED {
-            notes.push(format!(
-                "seed = {}: whoever has the open runs can try such seeds until one fits, and then has the labels that are held out; a number of \
-                 15 digits drawn at random is safer",
-                self.plan.seed
-            ));
+        classes.filter_map(uneven).collect()
+    }
+
+    /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.
+    fn own_bits(&self, run: usize, words: &[u64]) -> u64 {
+        let run_and: Vec<u64> = std::iter::once(run as u64)
+            .chain(words.iter().copied())
+            .collect();
+        match &self.secret {
+            Some(secret) if self.is_held_out(run) => secret.bits(&run_and),
+            _ => bits(&[&[self.plan.seed], &*run_and].concat()),
         }
-        notes
+    }
+
+    /// Place of a run's first draw along an axis of its class, in [0, 1).
+    fn unit(&self, run: usize, axis: usize, attempt: u64) -> f64 {
+        let Place { class, number } = self.places[run];
+        let class = &self.classes[class as usize];
+        let own = word(&self.parameters[class.axes[axis].parameter].key);
+        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
+        if attempt == 0
+            && number != APART
+            && let Some(place) = class.sequence.place(number as usize, axis)
+        {
+            return place;
+        }
+        unit(self.own_bits(run, &[attempt, own]))
     }
 
     /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
     fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
+        let class = &self.classes[self.class(run)];
+        let of_grid = self.of_grid(run);
+        let value = |(k, axis): (usize, &Axis)| match (&axis.distribution, &of_grid) {
+            (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[k]].clone(),
+            _ => axis.distribution.value(self.unit(run, k, attempt)),
+        };
+        class.axes.iter().enumerate().map(value).collect()
+    }
+
+    /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run, whatever the attempt.
+    /// `None` where its labels are held out.
+    fn of_grid(&self, run: usize) -> Option<Vec<usize>> {
         let Place { class, number } = self.places[run];
         let class = &self.classes[class as usize];
-        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
-        let apart = number == APART;
-        // Grids are walked through in order, the last one changing from run to run; whatever the attempt.
         let mut rest = number as usize % class.combinations;
         let mut of_grid = vec![0; class.axes.len()];
         for (k, axis) in class.axes.iter().enumerate().rev() {
@@ -250,19 +308,7 @@ impl Draws {
                 rest /= values.len();
             }
         }
-        let value = |(k, axis): (usize, &Axis)| {
-            if let (Distribution::Grid { values }, false) = (&axis.distribution, apart) {
-                return values[of_grid[k]].clone();
-            }
-            let key = &self.parameters[axis.parameter].key;
-            let own = [self.plan.seed, run as u64, attempt, word(key)];
-            axis.distribution.value(if attempt > 0 || apart {
-                unit(bits(&own))
-            } else {
-                class.sequence.place(number as usize, k, &own)
-            })
-        };
-        class.axes.iter().enumerate().map(value).collect()
+        (number != APART).then_some(of_grid)
     }
 
     /// What run `run` draws at its `attempt`-th time, over the base scenario's text.
@@ -311,7 +357,7 @@ impl Draws {
             for holder in holders {
                 let key = format!("{holder}.{name}");
                 if !self.sets(self.class(run), &key) {
-                    let own = seed(bits(&[self.plan.seed, run as u64, word(&key)]));
+                    let own = seed(self.own_bits(run, &[word(&key)]));
                     seeds.push((key, own.to_string()));
                 }
             }

@@ -8,6 +8,7 @@ mod distribution;
 mod draws;
 mod plan;
 mod sequence;
+mod split;
 mod stream;
 mod survey;
 mod template;
@@ -15,6 +16,7 @@ mod turns;
 
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
-pub use plan::{Class, Design, OutOfRange, Plan};
+pub use plan::{Class, Design, OutOfRange, Plan, Split};
 pub use sequence::Sobol;
+pub use split::Part;
 pub use survey::{Misses, Survey, place_in_plan, unsaid};

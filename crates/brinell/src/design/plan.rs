@@ -1,5 +1,6 @@
 //! The plan file: keys, ranges, defaults, and what no single key can say.
 
+use super::stream::Secret;
 use super::template::Template;
 use crate::document::reading::{Choice, Fallback, Finder, Keys, Reader, key, parse, stated, words};
 use crate::document::{Problem, Severity, locate};
@@ -62,6 +63,18 @@ pub struct Class {
     pub(super) defects: Option<Template>,
 }
 
+/// How runs whose labels are open are divided for training, validation and test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Split {
+    /// Share for validation.
+    pub validation: f64,
+    /// Share for the test.
+    pub test: f64,
+    /// Keys that make groups: runs that are alike in all of them stay together. `None`: every drawn key of bearing and operation; empty: each run
+    /// is a group.
+    pub by: Option<Vec<String>>,
+}
+
 /// A campaign of runs, as its file says it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
@@ -83,6 +96,10 @@ pub struct Plan {
     pub licence: String,
     /// Share of the runs whose labels lie apart.
     pub held_out: f64,
+    /// What decides which runs these are and everything that they draw: hexadecimal digits drawn at random; empty where nothing is held out.
+    pub secret: String,
+    /// How the runs whose labels are open are divided; `None`: not at all.
+    pub split: Option<Split>,
     /// Channels to keep, as `simulation.record` names them.
     pub signals: Vec<String>,
     /// Keys that vary in every class.
@@ -133,6 +150,8 @@ impl Plan {
             runs_per_file: 0,
             licence: String::new(),
             held_out: 0.0,
+            secret: String::new(),
+            split: None,
             signals: Vec::new(),
             vary: Template::empty(),
             classes: Vec::new(),
@@ -162,6 +181,37 @@ impl Plan {
                 "expected a section [vary]".into(),
                 "keys of a scenario",
             );
+        }
+        if self.holds_out() && Secret::of(&self.secret).is_none() {
+            // The value is not repeated: terminals keep what they show.
+            add(
+                "secret",
+                "",
+                "held_out needs a secret that nobody can guess; whoever has it has the labels"
+                    .into(),
+                "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
+            );
+        }
+        if let Some(split) = &self.split {
+            if split.validation + split.test >= 1.0 {
+                add(
+                    "split",
+                    "",
+                    format!(
+                        "validation and test take {} of the runs, and leave none to train with",
+                        split.validation + split.test
+                    ),
+                    "validation + test < 1",
+                );
+            }
+            if self.out_of_range == OutOfRange::Redraw {
+                add(
+                    "split",
+                    "",
+                    "a run that is drawn again leaves its group of conditions".into(),
+                    "out_of_range = \"refuse\" or \"fail\" where runs are split",
+                );
+            }
         }
         if self.signals.is_empty() {
             add(
@@ -304,6 +354,50 @@ fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
         stated(0.0, "labels beside the signals"),
         &mut p.held_out,
     );
+    k.key(
+        key(
+            "secret",
+            "hexadecimal digits drawn at random, which decide what is held out and everything about it",
+        ),
+        stated(String::new(), "nothing is held out"),
+        &mut p.secret,
+    );
+    let mut split = (None, None, None);
+    k.section(
+        key(
+            "split",
+            "how the open runs are divided, by groups of conditions",
+        ),
+        |k| {
+            k.optional(
+                key("validation", "share of the open runs for validation")
+                    .from(0.0)
+                    .to(1.0),
+                &mut split.0,
+            );
+            k.optional(
+                key("test", "share of the open runs for the test")
+                    .from(0.0)
+                    .to(1.0),
+                &mut split.1,
+            );
+            k.optional(
+                key(
+                    "by",
+                    "keys of [vary]: runs that are alike in all of them stay together",
+                ),
+                &mut split.2,
+            );
+        },
+    );
+    let (validation, test, by) = split;
+    if validation.is_some() || test.is_some() || by.is_some() {
+        p.split = Some(Split {
+            validation: validation.unwrap_or(0.0),
+            test: test.unwrap_or(0.0),
+            by,
+        });
+    }
     let measured = ["measured_ax", "measured_ay"].map(String::from).to_vec();
     k.key(
         key("signals", "channels to keep; * matches any characters"),

@@ -1,6 +1,6 @@
 //! Places in the unit cube that runs draw their values at: at random, in a Latin hypercube, along a Sobol sequence.
 
-use super::stream::{bits, unit};
+use super::stream::bits;
 use crate::calibrate::search::latin_hypercube;
 use sobol::params::JoeKuoD6;
 
@@ -70,12 +70,12 @@ impl Sequence {
         Self::Latin(latin_hypercube(seed, dimensions, runs))
     }
 
-    /// Place of run `n` of its class along `axis`; at random from `own`, the words that the place has to itself.
-    pub(super) fn place(&self, n: usize, axis: usize, own: &[u64]) -> f64 {
+    /// Place of run `n` of its class along `axis`; `None` where each run draws for itself.
+    pub(super) fn place(&self, n: usize, axis: usize) -> Option<f64> {
         match self {
-            Self::Random => unit(bits(own)),
-            Self::Latin(points) => points[n][axis],
-            Self::Sobol(sobol) => sobol.coordinate(n as u32, axis),
+            Self::Random => None,
+            Self::Latin(points) => Some(points[n][axis]),
+            Self::Sobol(sobol) => Some(sobol.coordinate(n as u32, axis)),
         }
     }
 }
@@ -147,7 +147,7 @@ mod tests {
         let sequence = Sequence::latin(3, 4, 37);
         for axis in 0..4 {
             let mut slices: Vec<usize> = (0..37)
-                .map(|n| (sequence.place(n, axis, &[]) * 37.0) as usize)
+                .map(|n| (sequence.place(n, axis).unwrap() * 37.0) as usize)
                 .collect();
             slices.sort_unstable();
             assert_eq!(slices, (0..37).collect::<Vec<_>>());

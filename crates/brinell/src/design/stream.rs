@@ -1,6 +1,48 @@
-//! Numbers that belong to a place in a campaign: functions of the seed and the place, not of what was drawn before.
+//! Numbers that belong to a place in a campaign: functions of a key and the place, not of what was drawn before.
+//!
+//! What anybody may know comes of the plan's seed ([`bits`]), fast and invertible. What is held out comes of the plan's secret by
+//! HMAC-SHA-256 (RFC 2104, FIPS 198-1): who has any number of these numbers learns nothing of the secret, nor of another number.
 
 use crate::random::mix;
+use hmac::{Hmac, Mac};
+use sha2::Sha256;
+
+/// Hexadecimal digits of a secret at least: 128 bits.
+pub(super) const SECRET_DIGITS: usize = 32;
+/// Different digits among them at least. 32 digits drawn at random have fewer once in 10^8.
+pub(super) const SECRET_DIFFERENT: usize = 7;
+
+/// A key that nobody can guess.
+#[derive(Clone)]
+pub(super) struct Secret(Hmac<Sha256>);
+
+impl Secret {
+    /// Of hexadecimal digits; `None` where there are too few, others, or too few different ones.
+    pub(super) fn of(text: &str) -> Option<Self> {
+        let digits = text.bytes();
+        let mut different: Vec<u8> = digits.map(|b| b.to_ascii_lowercase()).collect();
+        let is_hexadecimal = different.iter().all(u8::is_ascii_hexdigit);
+        let key = different.clone();
+        different.sort_unstable();
+        different.dedup();
+        let is_sound =
+            is_hexadecimal && key.len() >= SECRET_DIGITS && different.len() >= SECRET_DIFFERENT;
+        // HMAC takes keys of any length.
+        let mac = is_sound.then(|| Hmac::new_from_slice(&key).ok());
+        mac.flatten().map(Self)
+    }
+
+    /// 64 bits that belong to words.
+    pub(super) fn bits(&self, words: &[u64]) -> u64 {
+        let mut mac = self.0.clone();
+        for word in words {
+            mac.update(&word.to_le_bytes());
+        }
+        let mut first = [0; 8];
+        first.copy_from_slice(&mac.finalize().into_bytes()[..8]);
+        u64::from_le_bytes(first)
+    }
+}
 
 /// 64 bits that belong to words, such as campaign seed, run and attempt.
 pub(super) fn bits(words: &[u64]) -> u64 {
@@ -27,6 +69,26 @@ pub(super) fn word(key: &str) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn xval_secret_bits_are_hmac_sha_256() {
+        // Python: hmac.new(b"000102030405060708090a0b0c0d0e0f", struct.pack("<2Q", 1, 2), "sha256").digest()[:8].
+        let secret = Secret::of("000102030405060708090A0B0C0D0E0F").unwrap();
+        assert_eq!(
+            secret.bits(&[1, 2]).to_le_bytes(),
+            [0x4b, 0x21, 0x7a, 0x57, 0x21, 0x45, 0xa5, 0x05]
+        );
+        assert_ne!(secret.bits(&[1, 2]), secret.bits(&[2, 1]));
+    }
+
+    #[test]
+    fn prop_a_secret_has_128_bits() {
+        let random = "9f86d081884c7d659a2feaa0c55ad015";
+        assert!(Secret::of(random).is_some() && Secret::of(&random.repeat(2)).is_some());
+        for bad in ["", &random[1..], &format!("{random}g"), &"01".repeat(40)] {
+            assert!(Secret::of(bad).is_none(), "{bad}");
+        }
+    }
 
     #[test]
     fn prop_places_do_not_share_numbers() {

@@ -5,6 +5,7 @@ use super::plan::OutOfRange;
 use crate::document::{Place, Problem, Severity, locate};
 use crate::many;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Runs looked at as one job.
 const CHUNK: usize = 64;
@@ -40,8 +41,14 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Looks at every `step`-th run.
-    pub fn of(draws: &Draws, base: &str, step: NonZeroUsize, threads: NonZeroUsize) -> Self {
+    /// Looks at every `step`-th run; once `stop` is set, at no further ones.
+    pub fn of(
+        draws: &Draws,
+        base: &str,
+        step: NonZeroUsize,
+        threads: NonZeroUsize,
+        stop: &AtomicBool,
+    ) -> Self {
         let looked = draws.runs().div_ceil(step.get());
         let chunks = looked.div_ceil(CHUNK);
         let mut parts: Vec<Option<Self>> = vec![None; chunks];
@@ -50,6 +57,9 @@ impl Survey {
             threads,
             |k| {
                 let mut part = Self::default();
+                if stop.load(Ordering::Relaxed) {
+                    return part;
+                }
                 for n in k * CHUNK..((k + 1) * CHUNK).min(looked) {
                     part.look(draws, base, n * step.get());
                 }

@@ -1,7 +1,7 @@
 //! Which class each run is of.
 
 use super::plan::Plan;
-use super::stream::{bits, unit, word};
+use super::stream::{Secret, unit, word};
 
 /// Where a run stands in its plan.
 #[derive(Debug, Clone, Copy)]
@@ -17,19 +17,22 @@ pub(super) const APART: u32 = u32::MAX;
 /// Classes in turn by their shares: after any number of runs each class has its share to within one run. So every file of a data set
 /// holds all classes, and a longer plan begins with the runs of a shorter one (but for a Latin hypercube).
 ///
-/// A run whose labels are held out draws its class, and takes no turn: neither its own place nor the gaps between the others tell what it is.
-pub(super) fn places(plan: &Plan) -> Vec<Place> {
+/// A run whose labels are held out draws its class by the secret, and takes no turn: neither its own place nor the gaps between the others tell
+/// what it is.
+pub(super) fn places(plan: &Plan, secret: Option<&Secret>) -> Vec<Place> {
     let total: f64 = plan.classes.iter().map(|class| class.share).sum();
     let mut counts = vec![0_u32; plan.classes.len()];
     let mut open = 0;
     (0..plan.runs as u64)
         .map(|run| {
-            let draw = |what: &str| unit(bits(&[plan.seed, word(what), run]));
-            if draw("held_out") < plan.held_out {
-                return Place {
-                    class: drawn_class(plan, draw("class") * total),
-                    number: APART,
-                };
+            if let Some(secret) = secret {
+                let draw = |what: &str| unit(secret.bits(&[word(what), run]));
+                if draw("held_out") < plan.held_out {
+                    return Place {
+                        class: drawn_class(plan, draw("class") * total),
+                        number: APART,
+                    };
+                }
             }
             open += 1;
             let behind =
