@@ -83,19 +83,22 @@ impl Campaign {
             // Nobody waits after Ctrl-C.
             let _ = ended.send(open());
         });
-        loop {
-            match py.detach(|| over.recv_timeout(BEAT)) {
-                Ok(opened) => return opened.map_err(|error| failed(py, error)),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(bad_value("the thread that read the plan ended"));
+        let waited = py.detach(move || {
+            loop {
+                match over.recv_timeout(BEAT) {
+                    Ok(opened) => return Ok(opened),
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(bad_value("the thread that read the plan ended"));
+                    }
+                }
+                if let Err(signal) = Python::attach(|py| py.check_signals()) {
+                    stop.store(true, Ordering::Relaxed);
+                    return Err(signal);
                 }
             }
-            if let Err(signal) = py.check_signals() {
-                stop.store(true, Ordering::Relaxed);
-                return Err(signal);
-            }
-        }
+        });
+        waited?.map_err(|error| failed(py, error))
     }
 
     /// Makes a folder this plan's, or finds that it is.
