@@ -77,8 +77,9 @@ pub(crate) struct ScenarioArgs {
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
-    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with another scenario's unless \
-    --overwrite is given. It removes only files that summary.json lists as results.\n\n\
+    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with those of another scenario or command \
+    unless --overwrite is given. It removes only files that summary.json, or the other command's like of it, lists as results; finished runs of a \
+    sweep, a calibration, a reproduction or a data set never. No command writes over a file that it reads.\n\n\
     Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
     before any runs; one that fails stops no other.\n\n\
     Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\
@@ -111,7 +112,7 @@ pub(crate) struct RunArgs {
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
-    /// Replace the results of another scenario in the folder, all of them
+    /// Replace the results of another scenario or command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// Print nothing but errors
@@ -259,6 +260,9 @@ pub(crate) struct PreviewArgs {
         value_name = "FORMAT"
     )]
     pub(crate) formats: Vec<PlotFormat>,
+    /// Replace the results of another scenario or command in the folder, all of them
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) ring_thickness_mm: Option<f64>,
