@@ -16,7 +16,7 @@ use std::path::PathBuf;
         brinell init bearing.toml           write a commented scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
         brinell run bearing.toml -o out     simulate; then open out/report.html\n\n\
-        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 a run interrupted (what was computed is kept; an \
+        Exit codes: 0 done, 1 the run failed or a result could not be written (to standard output included), 2 bad input, 130 a run interrupted (what was computed is kept; an \
         interrupted sweep or comparison ends with 1)."
 )]
 pub(crate) struct Cli {
@@ -260,7 +260,7 @@ pub(crate) struct PreviewArgs {
         value_name = "FORMAT"
     )]
     pub(crate) formats: Vec<PlotFormat>,
-    /// Replace the results of another scenario or command in the folder, all of them
+    /// Replace the results of another command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]

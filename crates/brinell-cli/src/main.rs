@@ -1,6 +1,6 @@
 //! The `brinell` command: thin, everything it does is the library's.
 //!
-//! Exit codes: 0 done, 1 the run failed, 2 the input is bad, 130 interrupted (what was computed is kept).
+//! Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 interrupted (what was computed is kept).
 
 mod analyze;
 mod args;

@@ -395,7 +395,12 @@ impl Place<'_> {
     fn others(&self) -> impl Iterator<Item = Results> {
         let (kind, folder) = (self.kind, self.folder);
         let others = Results::ALL.into_iter().filter(move |other| *other != kind);
-        others.filter(move |other| other.is_in(folder))
+        // A journal is judged by who opens it.
+        let both_keep_one = move |other: &Results| kind.campaign().and(other.campaign()).is_some();
+        others.filter(move |other| match both_keep_one(other) {
+            true => !other.told(folder).is_null(),
+            false => other.is_in(folder),
+        })
     }
 
     fn spares_inputs(&self) -> Result<(), Failure> {

@@ -21,7 +21,10 @@ fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
     let plan =
         "base = \"s.toml\"\nruns = 2\nseed = 1\nlicence = \"CC0-1.0\"\n[[classes]]\nname = \"c\"\n";
     fs::write(here.join("plan.toml"), plan).unwrap();
-    brinell(here, &["run", "s.toml", "-o", "RUN", "-q", "--no-report"]).exits(0);
+    let long = "simulation.duration_s=0.5";
+    let fast = "operation.speed_rpm=3000";
+    let run = ["run", "s.toml", "-o", "RUN", "-q", "--no-report"];
+    brinell(here, &[&run[..], &["--set", long, "--set", fast]].concat()).exits(0);
     brinell(here, &["dataset", "plan.toml", "-o", "data", "-q"]).exits(0);
     let call = |args: &[&str]| -> Call {
         let full = fs::File::options().write(true).open("/dev/full").unwrap();
