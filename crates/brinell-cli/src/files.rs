@@ -37,8 +37,9 @@ impl Source {
         };
         let bytes = bytes(&args.scenario)?;
         let mut inputs = Inputs::default();
-        if !is_stdin(&args.scenario) {
-            inputs.add(&args.scenario);
+        match is_stdin(&args.scenario) {
+            true => inputs.add_standard_input(),
+            false => inputs.add(&args.scenario),
         }
         Ok(Self {
             bytes,

@@ -22,6 +22,14 @@ fn identity_of(path: &Path, _: &Metadata) -> Option<Identity> {
     path.canonicalize().ok()
 }
 
+/// Of an open file; what is no file has none.
+#[cfg(unix)]
+fn identity_of_open(open: impl std::os::fd::AsFd) -> Option<Identity> {
+    let file = std::fs::File::from(open.as_fd().try_clone_to_owned().ok()?);
+    let there = file.metadata().ok()?;
+    identity_of(Path::new(""), &there).filter(|_| there.is_file())
+}
+
 /// Of a file that is there.
 fn identity(path: &Path) -> Option<Identity> {
     let there = path.metadata().ok()?;
@@ -64,26 +72,27 @@ impl Inputs {
         Ok(())
     }
 
+    /// What was led into standard input (`< FILE`).
+    pub(crate) fn add_standard_input(&mut self) {
+        #[cfg(unix)]
+        if let Some(identity) = identity_of_open(std::io::stdin()) {
+            self.files
+                .entry(identity)
+                .or_insert("standard input".into());
+        }
+    }
+
     /// That standard output was not led into an input (`>> FILE`).
     ///
     /// # Errors
     /// Where it was.
-    #[cfg(unix)]
     pub(crate) fn spare_standard_output(&self) -> Result<(), Failure> {
-        use std::os::fd::AsFd;
-        let out = std::io::stdout().as_fd().try_clone_to_owned();
-        let there = out.and_then(|out| std::fs::File::from(out).metadata());
-        let id = there
-            .ok()
-            .and_then(|there| identity_of(Path::new(""), &there));
-        match id.and_then(|id| self.files.get(&id)) {
-            Some(input) => Err(refusal("standard output", input)),
-            None => Ok(()),
+        #[cfg(unix)]
+        if let Some(input) =
+            identity_of_open(std::io::stdout()).and_then(|identity| self.files.get(&identity))
+        {
+            return Err(refusal("standard output", input));
         }
-    }
-
-    #[cfg(not(unix))]
-    pub(crate) fn spare_standard_output(&self) -> Result<(), Failure> {
         Ok(())
     }
 }

@@ -43,8 +43,15 @@ fn main() -> ExitCode {
         }
     };
     match say::arrived() {
-        Err(failure) if code == ExitCode::SUCCESS => code_of(Err(failure)),
-        _ => code,
+        Ok(()) => code,
+        Err(failure) => {
+            let unsaid = code_of(Err(failure));
+            if code == ExitCode::SUCCESS {
+                unsaid
+            } else {
+                code
+            }
+        }
     }
 }
 

@@ -72,6 +72,19 @@ fn prop_a_run_never_writes_over_what_it_reads() {
     brinell(here, &["run", "b/scenario.toml", "b.toml", "-o", ".", "-q"])
         .exits(2)
         .complains(&["b/scenario.toml would be written", "nothing was run"]);
+    // By standard input as well.
+    #[cfg(unix)]
+    {
+        let before = common::results(here);
+        let input = fs::File::open(here.join("scenario.toml")).unwrap();
+        let call = common::command(here, &["run", "-", "-o", ".", "-q"])
+            .stdin(input)
+            .output();
+        Call::from(call.unwrap())
+            .exits(2)
+            .complains(&["scenario.toml would be written", "(standard input)"]);
+        assert!(common::results(here) == before);
+    }
     // A run's own results, from its own folder.
     run(here, &["b.toml", "-o", "o"]).exits(0);
     refused(here, &["run", "o/scenario.toml", "-o", "o", "-q"]);
