@@ -1,10 +1,11 @@
 // The page of a run, in a browser. REPORT names the page; README.md beside this says how to get one.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
-import { resolve } from "node:path";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, launch, pngSize, quietly } from "./browser.js";
+import { drawn, launch, open, pngSize, quietly } from "./browser.js";
 
 const url = pathToFileURL(resolve(process.env.REPORT || "../../out/rectangle/report.html")).href;
 let browser;
@@ -272,4 +273,22 @@ describe("saving", () => {
       assert.equal(names.size, await page.locator("figure").count());
     }));
   }
+});
+
+// Nothing that stands in a page is to run but its own script, should anything ever slip through the escaping.
+describe("the content security policy", () => {
+  it("runs no other script and loads nothing", async () => {
+    const folder = await mkdtemp(join(tmpdir(), "page-")), path = join(folder, "report.html");
+    const foreign = '<script>window.ran = 1</script><img src="nowhere.png" onerror="window.ran = 2"><iframe src="nowhere.html"></iframe>';
+    try {
+      await writeFile(path, (await readFile(new URL(url), "utf8")).replace("</header>", `${foreign}</header>`));
+      const page = await open(browser, pathToFileURL(path).href);
+      assert.equal(await page.evaluate(() => window.ran), undefined);
+      assert.ok(page.said.some((line) => line.includes("Content Security Policy")), page.said.join());
+      assert.ok(await page.locator("svg[data-plot] .overlay, figure button").count() > 0, "its own script ran");
+      await page.context().close();
+    } finally {
+      await rm(folder, { recursive: true });
+    }
+  });
 });

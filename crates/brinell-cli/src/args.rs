@@ -16,7 +16,7 @@ use std::path::PathBuf;
         brinell init bearing.toml           write a commented scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
         brinell run bearing.toml -o out     simulate; then open out/report.html\n\n\
-        Exit codes: 0 done, 1 the run failed, 2 bad input, 130 a run interrupted (what was computed is kept; an \
+        Exit codes: 0 done, 1 the run failed or a result could not be written (to standard output included), 2 bad input, 130 a run interrupted (what was computed is kept; an \
         interrupted sweep or comparison ends with 1)."
 )]
 pub(crate) struct Cli {
@@ -77,8 +77,9 @@ pub(crate) struct ScenarioArgs {
     summary.json              indicators with intervals, frequencies, slip, load zone, audits, assumptions\n  \
     report.html               pictures and tables, one file, no network\n  \
     scenario.toml             the scenario with every default filled in\n\n\
-    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with another scenario's unless \
-    --overwrite is given. It removes only files that summary.json lists as results.\n\n\
+    A run removes the results of an earlier run of the same scenario from the folder, and refuses a folder with those of another scenario or command \
+    unless --overwrite is given. It removes only files that summary.json, or the other command's like of it, lists as results; finished runs of a \
+    sweep, a calibration, a reproduction or a data set never. No command writes over a file that it reads.\n\n\
     Several scenarios run side by side, one to a core, each into FOLDER/STEM, STEM being its file's name without ending. All are checked \
     before any runs; one that fails stops no other.\n\n\
     Ctrl-C ends runs cleanly: what was computed is kept and marked partial.\n\n\
@@ -111,7 +112,7 @@ pub(crate) struct RunArgs {
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
-    /// Replace the results of another scenario in the folder, all of them
+    /// Replace the results of another scenario or command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// Print nothing but errors
@@ -259,6 +260,9 @@ pub(crate) struct PreviewArgs {
         value_name = "FORMAT"
     )]
     pub(crate) formats: Vec<PlotFormat>,
+    /// Replace the results of another command in the folder, all of them
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) ring_thickness_mm: Option<f64>,

@@ -3,7 +3,7 @@
 use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
-use crate::say::{say, short, significant};
+use crate::say::{one_line, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::channel;
 use brinell::derived::Derived;
@@ -24,7 +24,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let b = &s.bearing;
     let warnings = plausibility::before(s, &model, &d.statics);
     print_problems("", "", &warnings);
-    say!("{}: the scenario is valid", s.name);
+    say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
     say!(
         "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle",

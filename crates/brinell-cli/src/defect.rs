@@ -1,18 +1,20 @@
 //! `brinell defect`: damage before it is simulated.
 
 use crate::args::{
-    ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, SimpleShape,
-    SimplifyArgs, Written,
+    ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, ScenarioArgs,
+    SimpleShape, SimplifyArgs, Written,
 };
 use crate::damage::{self, Damage};
 use crate::failure::Failure;
-use crate::files;
+use crate::files::Source;
 use crate::plan::{self, Contour};
+use crate::results::{PREVIEW, Place, Results, names_below};
 use crate::run::{make_folder, safe_name};
-use crate::say::{say, short};
+use crate::say::{complain, document, one_line, say, short};
 use brinell::defect::Shape;
 use brinell::defect::fit::{Fit, FitSettings};
 use brinell::defect::simplify::{Extent, Simple, simplify};
+use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell::simulate::RunError;
 use brinell_io::atomic_write;
@@ -40,8 +42,11 @@ fn chosen(s: &Scenario, number: usize) -> Result<&scenario::Defect, Failure> {
     let defect = number.checked_sub(1).and_then(|k| s.defects.get(k));
     defect.ok_or_else(|| {
         Failure::Usage(match s.defects.len() {
-            0 => format!("{}: the scenario has no [[defects]]", s.name),
-            n => format!("--defect {number}: {} has defects 1 to {n}", s.name),
+            0 => format!("{}: the scenario has no [[defects]]", one_line(&s.name)),
+            n => format!(
+                "--defect {number}: {} has defects 1 to {n}",
+                one_line(&s.name)
+            ),
         })
     })
 }
@@ -52,8 +57,17 @@ fn shape(defect: &scenario::Defect) -> Result<Shape, Failure> {
         .ok_or_else(|| Failure::Usage("the shape makes no sense".into()))
 }
 
+/// The scenario of a command that prints an entry.
+fn to_print_of(args: &ScenarioArgs) -> Result<Loaded, Failure> {
+    let source = Source::open(args)?;
+    let loaded = source.load(&[], false)?;
+    source.inputs().spare_standard_output()?;
+    Ok(loaded)
+}
+
 fn preview(args: &PreviewArgs) -> Result<(), Failure> {
-    let loaded = files::scenario(&args.scenario, false)?;
+    let source = Source::open(&args.scenario)?;
+    let loaded = source.load(&[], false)?;
     let s = &loaded.scenario;
     chosen(s, args.defect.unwrap_or(1))?;
     if let Some(x) = args
@@ -81,7 +95,15 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         .output
         .clone()
         .unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
+    let place = Place {
+        kind: Results::Preview,
+        folder: &folder,
+        inputs: &source.inputs(),
+    };
+    // Any scenario's preview gives way to the next: it takes a moment to make.
+    let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
     make_folder(&folder)?;
+    earlier.remove()?;
     let mut written = Vec::new();
     let mut entries = Vec::new();
     for (index, damage) in all.iter().enumerate() {
@@ -113,11 +135,12 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         }
         entries.push(entry(index, damage));
     }
-    let path = folder.join("preview.json");
-    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "defects": entries });
+    let path = folder.join(PREVIEW);
+    written.push(path.clone());
+    let files = names_below(&folder, &written);
+    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": files, "defects": entries });
     let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
     atomic_write(&path, text.as_bytes())?;
-    written.push(path);
     for path in written {
         say!("  wrote {}", path.display());
     }
@@ -246,7 +269,7 @@ fn print(s: &Scenario, mut defect: scenario::Defect, remarks: &[String]) {
     };
     for problem in alone.problems() {
         if problem.to_string().contains("defects") {
-            eprintln!("{problem}");
+            complain!("{problem}");
         }
     }
     print_entry(&alone, remarks);
@@ -295,7 +318,7 @@ fn print_entry(alone: &Scenario, remarks: &[String]) {
         .map(|(_, line)| line)
         .collect::<Vec<_>>()
         .join("\n");
-    say!("{}", entry.trim_end());
+    document(entry.trim_end());
 }
 
 fn checked_points(points: usize, least: usize) -> Result<usize, Failure> {
@@ -308,7 +331,7 @@ fn checked_points(points: usize, least: usize) -> Result<usize, Failure> {
 }
 
 fn convert(args: &ConvertArgs) -> Result<(), Failure> {
-    let loaded = files::scenario(&args.scenario, false)?;
+    let loaded = to_print_of(&args.scenario)?;
     let s = &loaded.scenario;
     let of = chosen(s, args.defect)?;
     let real = shape(of)?;
@@ -395,7 +418,7 @@ fn refused(error: brinell_damage::DamageError) -> Failure {
 }
 
 fn simple(args: &SimplifyArgs) -> Result<(), Failure> {
-    let loaded = files::scenario(&args.scenario, false)?;
+    let loaded = to_print_of(&args.scenario)?;
     let s = &loaded.scenario;
     let of = chosen(s, args.defect)?;
     let (to, name) = match args.to {
@@ -416,7 +439,7 @@ fn simple(args: &SimplifyArgs) -> Result<(), Failure> {
 }
 
 fn fit(args: &FitArgs) -> Result<(), Failure> {
-    let loaded = files::scenario(&args.scenario, false)?;
+    let loaded = to_print_of(&args.scenario)?;
     let s = &loaded.scenario;
     let of = chosen(s, args.defect)?;
     let settings = FitSettings {

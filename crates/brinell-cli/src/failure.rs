@@ -29,6 +29,8 @@ pub(crate) enum Failure {
     Picture(brinell_report::Error),
     /// The run failed.
     Run(RunError),
+    /// Standard output does not take what is said; why.
+    Unsaid(String),
 }
 
 impl Failure {
@@ -44,7 +46,7 @@ impl Failure {
                 | IoError::NotAFileName { .. }
                 | IoError::Busy { .. },
             ) => 2,
-            Self::Write(_) | Self::Picture(_) | Self::Run(_) => 1,
+            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::Unsaid(_) => 1,
         })
     }
 
@@ -60,6 +62,7 @@ impl Failure {
             Self::Write(error) => error.to_string(),
             Self::Picture(error) => error.to_string(),
             Self::Run(error) => error.to_string(),
+            Self::Unsaid(why) => format!("cannot write to standard output: {why}"),
         }
     }
 
@@ -86,6 +89,7 @@ impl Failure {
             Self::Write(error) => complain!("error: {of}{error}"),
             Self::Picture(error) => complain!("error: {of}{error}"),
             Self::Run(error) => complain!("error: {of}{error}"),
+            Self::Unsaid(_) => complain!("error: {}", self.words()),
         }
     }
 }

@@ -2,11 +2,13 @@
 
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
+use crate::inputs::Inputs;
 use crate::say::complain;
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_io::read_text;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Reads and validates a scenario; its warnings go to standard error unless `quiet`.
 pub(crate) fn scenario(args: &ScenarioArgs, quiet: bool) -> Result<Loaded, Failure> {
@@ -19,6 +21,8 @@ pub(crate) struct Source {
     name: String,
     bytes: Vec<u8>,
     overrides: Vec<(String, String)>,
+    /// The file, and the files of damage of all variants that were loaded.
+    inputs: Mutex<Inputs>,
 }
 
 impl Source {
@@ -31,8 +35,15 @@ impl Source {
         } else {
             args.scenario.display().to_string()
         };
+        let bytes = bytes(&args.scenario)?;
+        let mut inputs = Inputs::default();
+        match is_stdin(&args.scenario) {
+            true => inputs.add_standard_input(),
+            false => inputs.add(&args.scenario),
+        }
         Ok(Self {
-            bytes: bytes(&args.scenario)?,
+            bytes,
+            inputs: Mutex::new(inputs),
             path: args.scenario.clone(),
             name,
             overrides,
@@ -42,6 +53,12 @@ impl Source {
     /// The file as it stands.
     pub(crate) fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes).into_owned()
+    }
+
+    /// The files that were read for it so far.
+    pub(crate) fn inputs(&self) -> Inputs {
+        let inputs = self.inputs.lock();
+        inputs.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The overrides of the command line.
@@ -64,6 +81,11 @@ impl Source {
         let mut loaded = read_bytes(&self.bytes, &overrides).map_err(failed)?;
         if !quiet && !loaded.warnings.is_empty() {
             print_problems(&self.name, &self.text(), &loaded.warnings);
+        }
+        let damage = loaded.scenario.defects.iter();
+        for file in damage.filter_map(|defect| defect.shape.file()) {
+            let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
+            inputs.add(&folder(&self.path).join(file));
         }
         let warnings = resolve_loaded(&mut loaded, &self.text(), &overrides, folder(&self.path));
         let warnings = warnings.map_err(failed)?;

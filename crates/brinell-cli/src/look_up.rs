@@ -3,10 +3,9 @@
 use crate::args::{BearingCommand, FrequenciesArgs, InitArgs, ScenarioArgs};
 use crate::failure::Failure;
 use crate::files;
-use crate::say::say;
+use crate::say::{document, say};
 use brinell::bearing::catalogue::{self, Datum, Entry};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
-use brinell::document;
 use brinell::scenario::Speed;
 use brinell_io::atomic_write;
 use std::f64::consts::TAU;
@@ -14,9 +13,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
-    let template = document::template();
+    let template = brinell::document::template();
     let Some(file) = &args.file else {
-        say!("{}", template.trim_end());
+        document(template.trim_end());
         return Ok(ExitCode::SUCCESS);
     };
     if file.exists() && !args.force {
@@ -31,10 +30,8 @@ pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
 }
 
 pub(crate) fn schema() -> Result<ExitCode, Failure> {
-    say!(
-        "{}",
-        serde_json::to_string_pretty(&document::json_schema()).unwrap_or_default()
-    );
+    let schema = brinell::document::json_schema();
+    document(&serde_json::to_string_pretty(&schema).unwrap_or_default());
     Ok(ExitCode::SUCCESS)
 }
 
@@ -108,7 +105,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
             })
             .chain([("speed_rpm".to_owned(), rpm.into())])
             .collect();
-        say!("{}", serde_json::Value::Object(values));
+        document(&serde_json::Value::Object(values).to_string());
     } else {
         say!("Pure rolling at {rpm} r/min, outer ring at rest");
         for (name, hz, meaning) in rows {

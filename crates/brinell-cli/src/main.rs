@@ -1,6 +1,6 @@
 //! The `brinell` command: thin, everything it does is the library's.
 //!
-//! Exit codes: 0 done, 1 the run failed, 2 the input is bad, 130 interrupted (what was computed is kept).
+//! Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 interrupted (what was computed is kept).
 
 mod analyze;
 mod args;
@@ -13,12 +13,14 @@ mod dataset;
 mod defect;
 mod failure;
 mod files;
+mod inputs;
 mod look_up;
 mod page;
 mod plan;
 mod progress;
 mod recorder;
 mod reproduce;
+mod results;
 mod run;
 mod say;
 mod sweep;
@@ -30,17 +32,50 @@ use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    let result = match Kernel::chosen() {
-        Ok(_) => run_command(cli.command),
-        Err(error) => Err(Failure::Usage(error.to_string())),
-    };
-    match result {
-        Ok(code) => code,
-        Err(failure) => {
-            failure.print();
-            failure.code()
+    hear_of_full_files();
+    let code = match Cli::try_parse() {
+        Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),
+        Err(words) if words.use_stderr() => words.exit(),
+        // Help, or the version.
+        Err(words) => {
+            say::note(words.print());
+            ExitCode::SUCCESS
         }
+    };
+    match say::arrived() {
+        Ok(()) => code,
+        Err(failure) => {
+            let unsaid = code_of(Err(failure));
+            if code == ExitCode::SUCCESS {
+                unsaid
+            } else {
+                code
+            }
+        }
+    }
+}
+
+fn code_of(result: Result<ExitCode, Failure>) -> ExitCode {
+    result.unwrap_or_else(|failure| {
+        failure.print();
+        failure.code()
+    })
+}
+
+fn chosen_kernel() -> Result<(), Failure> {
+    let kernel = Kernel::chosen();
+    kernel
+        .map(drop)
+        .map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// A file that grows beyond the limit on files (`ulimit -f`) is an error of its writer, which removes what is there of it; unasked, the process
+/// would be killed.
+fn hear_of_full_files() {
+    #[cfg(unix)]
+    // SAFETY: no thread and no other handler is there yet, and to ignore a signal runs no code.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
     }
 }
 

@@ -1,13 +1,17 @@
 //! `brinell run`.
 
-mod folder;
 mod many;
 
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
+use crate::files::Source;
+use crate::inputs::Inputs;
 use crate::progress::Progress;
 use crate::recorder::Recorder;
-use crate::say::{complain, say, short};
+use crate::results::{
+    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, names_below,
+};
+use crate::say::{complain, one_line, say, short};
 use crate::{files, page};
 use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
@@ -18,7 +22,6 @@ use brinell::simulate::{End, Simulation};
 use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
 use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_write, keys};
-use folder::{Earlier, PLOTS, REPORT, SCENARIO, SUMMARY};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -28,13 +31,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let [path] = &args.scenarios[..] else {
         return many::run(args);
     };
-    let (loaded, simulation) = ready(args, path)?;
+    let mut inputs = Inputs::default();
+    let (loaded, simulation) = ready(args, path, &mut inputs)?;
     if !args.quiet {
         files::warn_idle(simulation.idle_patterns());
     }
     let named = || Path::new("out").join(safe_name(&loaded.scenario.name));
     let folder = args.output.clone().unwrap_or_else(named);
-    let earlier = earlier(args, &loaded, &folder)?;
+    let earlier = earlier(args, &loaded, &folder, &inputs)?;
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
     let task = (&loaded, folder.as_path(), &earlier);
@@ -51,13 +55,18 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
 }
 
-/// A scenario, read, checked and made a simulation of.
-fn ready(args: &RunArgs, path: &Path) -> Result<(Loaded, Simulation), Failure> {
-    let source = ScenarioArgs {
+/// A scenario, read, checked and made a simulation of. What it was read from goes to `inputs`.
+fn ready(
+    args: &RunArgs,
+    path: &Path,
+    inputs: &mut Inputs,
+) -> Result<(Loaded, Simulation), Failure> {
+    let source = Source::open(&ScenarioArgs {
         scenario: path.to_owned(),
         set: args.set.clone(),
-    };
-    let loaded = files::scenario(&source, args.quiet)?;
+    })?;
+    let loaded = source.load(&[], args.quiet)?;
+    inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
     if !args.quiet {
         let model = simulation.model();
@@ -80,13 +89,24 @@ struct Done {
 }
 
 /// Earlier results in `folder` that a run of the scenario may replace.
-fn earlier(args: &RunArgs, loaded: &Loaded, folder: &Path) -> Result<Earlier, Failure> {
+fn earlier(
+    args: &RunArgs,
+    loaded: &Loaded,
+    folder: &Path,
+    inputs: &Inputs,
+) -> Result<Earlier, Failure> {
     let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
     writes.push(SUMMARY);
     if !args.no_report {
         writes.push(REPORT);
     }
-    Earlier::find(folder, &loaded.scenario, args.overwrite, &writes)
+    let writes: Vec<String> = writes.into_iter().map(str::to_owned).collect();
+    let place = Place {
+        kind: Results::Run,
+        folder,
+        inputs,
+    };
+    place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))
 }
 
 /// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
@@ -130,24 +150,15 @@ fn execute(
         Some(report) if !args.plots.is_empty() => pictures(report),
         _ => Vec::new(),
     };
-    let mut files: Vec<String> = written
-        .iter()
-        .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
-        .collect();
-    files.push(SUMMARY.into());
+    let mut files = written.clone();
+    files.push(folder.join(SUMMARY));
     if !args.no_report {
-        files.push(REPORT.into());
+        files.push(folder.join(REPORT));
     }
-    for picture in &pictures {
-        let names = args
-            .plots
-            .iter()
-            .map(|format| picture_file(picture, *format));
-        files.extend(names.map(|name| format!("{PLOTS}/{name}")));
-    }
+    files.extend(picture_files(&pictures, &args.plots, folder));
     // Before the report and the pictures: a run that replaces this one knows of them even where this one is cut short.
     let mut summary = summary::to_json(&parts);
-    summary["files"] = files.into();
+    summary["files"] = names_below(folder, &files).into();
     let path = folder.join(SUMMARY);
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
     atomic_write(&path, text.as_bytes())?;
@@ -251,6 +262,19 @@ fn picture_file(picture: &brinell_report::Picture, format: PlotFormat) -> String
     format!("{}.{ending}", picture.name)
 }
 
+/// What [`write_pictures`] will write.
+pub(crate) fn picture_files(
+    pictures: &[brinell_report::Picture],
+    formats: &[PlotFormat],
+    folder: &Path,
+) -> Vec<PathBuf> {
+    let file = |picture: &brinell_report::Picture, format: &PlotFormat| {
+        folder.join(PLOTS).join(picture_file(picture, *format))
+    };
+    let of = |picture| formats.iter().map(move |format| file(picture, format));
+    pictures.iter().flat_map(of).collect()
+}
+
 /// Pictures as files of `folder`/plots.
 pub(crate) fn write_pictures(
     pictures: &[brinell_report::Picture],
@@ -317,7 +341,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
     }
     told.push(format!(
         "{}: {} s simulated in {elapsed:.2} s ({:.2} x real time), {} steps, {} right-hand sides",
-        loaded.scenario.name,
+        one_line(&loaded.scenario.name),
         short(reached, 4),
         reached / elapsed,
         outcome.work.solver.steps,

@@ -1,27 +1,81 @@
-//! Text to the terminal, quiet where nobody reads on (a closed pipe is no failure).
+//! Text to the terminal: what was read from files cannot steer it, and a text that cannot be written is not passed over. Where nobody reads on
+//! (a closed pipe), the command goes on quietly.
 
+use crate::failure::Failure;
+use std::borrow::Cow;
 use std::fmt::Arguments;
-use std::io::Write;
+use std::io::{ErrorKind, Result, Write};
+use std::sync::OnceLock;
 
-/// Writes one line to standard output.
+/// Why standard output did not take something; the first reason.
+static FAILED: OnceLock<std::io::Error> = OnceLock::new();
+
+/// Writes one line of words to standard output.
 pub(crate) fn line(text: Arguments) {
-    let mut out = std::io::stdout().lock();
-    let _ = writeln!(out, "{text}");
+    put(&printable(&text.to_string(), |c| {
+        format!("\\u{{{:x}}}", u32::from(c))
+    }));
+}
+
+/// Writes JSON or TOML to standard output. Control characters stand in strings there, and get these languages' own escape.
+pub(crate) fn document(text: &str) {
+    put(&printable(text, |c| format!("\\u{:04x}", u32::from(c))));
+}
+
+fn put(text: &str) {
+    note(writeln!(std::io::stdout().lock(), "{text}"));
+}
+
+/// Keeps what became of a text for standard output.
+pub(crate) fn note(result: Result<()>) {
+    if let Err(error) = result
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let _ = FAILED.set(error);
+    }
+}
+
+/// That everything said has arrived.
+///
+/// # Errors
+/// Where standard output did not take it, a closed pipe aside.
+pub(crate) fn arrived() -> std::result::Result<(), Failure> {
+    note(std::io::stdout().flush());
+    match FAILED.get() {
+        Some(error) => Err(Failure::Unsaid(error.to_string())),
+        None => Ok(()),
+    }
 }
 
 /// Writes one line to standard error.
 pub(crate) fn complaint(text: Arguments) {
-    let mut out = std::io::stderr().lock();
-    let _ = writeln!(out, "{text}");
+    let text = text.to_string();
+    let text = printable(&text, |c| format!("\\u{{{:x}}}", u32::from(c)));
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// `println!` that survives a closed pipe.
+/// The text without control characters but line breaks and tabs, which a terminal would act upon.
+fn printable(text: &str, escaped: impl Fn(char) -> String) -> Cow<'_, str> {
+    let acts = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(acts) {
+        return text.into();
+    }
+    let one = |c: char| if acts(c) { escaped(c) } else { c.into() };
+    text.chars().map(one).collect::<String>().into()
+}
+
+/// A name that somebody gave, on one line.
+pub(crate) fn one_line(name: &str) -> String {
+    name.replace('\n', "\\u{a}").replace('\t', "\\u{9}")
+}
+
+/// Says a line on standard output.
 macro_rules! say {
     ($($arg:tt)*) => { crate::say::line(format_args!($($arg)*)) };
 }
 pub(crate) use say;
 
-/// `eprintln!` that survives a closed pipe.
+/// Says a line on standard error.
 macro_rules! complain {
     ($($arg:tt)*) => { crate::say::complaint(format_args!($($arg)*)) };
 }
@@ -68,7 +122,23 @@ pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::short;
+    use super::{one_line, printable, short};
+
+    #[test]
+    fn prop_nothing_that_a_terminal_acts_upon_is_printed() {
+        let words =
+            |text: &str| printable(text, |c| format!("\\u{{{:x}}}", u32::from(c))).into_owned();
+        assert_eq!(words("µm\t1\n"), "µm\t1\n");
+        assert_eq!(words("a\u{1b}]52;c;x\u{7}"), "a\\u{1b}]52;c;x\\u{7}");
+        for code in 0..0x300_u32 {
+            let Some(c) = char::from_u32(code) else {
+                continue;
+            };
+            let acts = c.is_control() && c != '\n' && c != '\t';
+            assert_eq!(words(&c.to_string()).contains(c), !acts, "{code:x}");
+            assert!(!one_line(&words(&c.to_string())).contains(char::is_control));
+        }
+    }
 
     #[test]
     fn regress_numbers_keep_their_digits() {

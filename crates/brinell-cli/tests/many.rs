@@ -126,3 +126,24 @@ fn regress_jobs_is_at_least_one() {
         .exits(2)
         .complains(&["--jobs"]);
 }
+
+/// `..` is what is left of `...toml` without its ending, and `.` of `..toml`.
+#[test]
+fn prop_no_name_of_a_file_leads_out_of_the_folder() {
+    for name in ["...toml", "..toml"] {
+        let folder = tempdir().unwrap();
+        scenario(folder.path(), name, "5.0");
+        scenario(folder.path(), "a.toml", "5.0");
+        let file = format!("./{name}");
+        let args = ["run", &file, "a.toml", "-o", "m/deep", "-q", "--no-report"];
+        brinell(folder.path(), &args).exits(0);
+        let own = [name, "a.toml"].map(str::to_owned);
+        let mut there = files(folder.path());
+        there.retain(|file| !own.contains(file));
+        let one = |stem: &str| {
+            ["scenario.toml", "signals.parquet", "summary.json"]
+                .map(|file| format!("m/deep/{stem}/{file}"))
+        };
+        assert_eq!(there, [one("a"), one("run")].concat());
+    }
+}

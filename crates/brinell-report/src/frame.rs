@@ -7,6 +7,7 @@ use crate::font;
 use crate::number::{Height, runs};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
+use sha2::{Digest, Sha256};
 
 /// At the foot of pages with curves.
 pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
@@ -56,11 +57,32 @@ pub(crate) fn alert(page: &mut String, strong: &str, words: &str) {
 /// The end of a page whose `main` is open; `script` may be empty.
 pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
     let _ = writeln!(page, "</main>\n<footer>{}</footer>", escape(footer));
-    if !script.is_empty() {
-        let _ = writeln!(page, "<script>\n{}</script>", script.concat());
+    let script = format!("\n{}", script.concat());
+    let has_script = script.len() > 1;
+    if has_script {
+        let _ = writeln!(page, "<script>{script}</script>");
     }
     page.push_str("</body>\n</html>\n");
+    let policy = policy(has_script.then_some(script.as_str()));
+    if let Some(place) = page.find(CHARSET) {
+        page.insert_str(place + CHARSET.len(), &policy);
+    }
     page
+}
+
+/// The page's first element after `<head>`.
+const CHARSET: &str = "<meta charset=\"utf-8\">\n";
+
+/// What the page may do: run this one script, and show what is inside it. Whatever else stands in it, from a scenario or a measured file, is not
+/// run and loads nothing. Pictures carry styles in their elements.
+fn policy(script: Option<&str>) -> String {
+    let script = script.map_or("'none'".into(), |text| {
+        format!("'sha256-{}'", base64(&Sha256::digest(text)))
+    });
+    format!(
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {script}; style-src 'unsafe-inline'; \
+         img-src data:; font-src data:; base-uri 'none'; form-action 'none'\">\n"
+    )
 }
 
 /// From the first byte to the heading; `header` stays open.
@@ -68,7 +90,7 @@ fn head(page: &mut String, title: &str) {
     let title = escape(title);
     let _ = write!(
         page,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{CHARSET}\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n",
     );
     for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
@@ -132,4 +154,39 @@ pub(crate) fn figure(page: &mut String, id: &str, draw: impl Fn(Layout) -> Pictu
         let _ = write!(page, "<figcaption>{caption}</figcaption>");
     }
     page.push_str("</figure>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page(script: &[&str]) -> String {
+        let title = "a <meta charset=\"utf-8\">\n page";
+        close(open(title, "", ("", ""), []), "", script)
+    }
+
+    #[test]
+    fn prop_a_page_runs_its_own_script_and_no_other() {
+        let with = page(&["let a = 1;\n", "let b = 2;\n"]);
+        let (before, rest) = with.split_once("<script>").unwrap();
+        let script = rest.split_once("</script>").unwrap().0;
+        let hash = base64(&Sha256::digest(script));
+        assert!(before.contains(&format!("script-src 'sha256-{hash}';")));
+        assert!(page(&[]).contains("script-src 'none';"));
+        for page in [with, page(&[])] {
+            // Before anything that it is about.
+            let at = page
+                .find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';");
+            let first = ["<style", "<script", "<title"].map(|tag| page.find(tag));
+            assert!(first.into_iter().flatten().all(|tag| at.unwrap() < tag));
+            assert_eq!(page.matches("Content-Security-Policy").count(), 1);
+        }
+    }
+
+    /// `printf 'alert(1)' | openssl dgst -sha256 -binary | base64`.
+    #[test]
+    fn xval_the_hash_of_a_script() {
+        let hash = "'sha256-bhHHL3z2vDgxUt0W3dWQOrprscmda2Y5pLsLg4GF+pI='";
+        assert!(policy(Some("alert(1)")).contains(hash));
+    }
 }

@@ -6,8 +6,6 @@
 
 mod common;
 
-#[cfg(target_arch = "x86_64")]
-use brinell::lanes::{Avx2, Avx512};
 use brinell::lanes::{Lanes, Portable};
 use brinell::model::{Kernel, Model, Workspace};
 use common::{Moment, moments, off_and_on_damage, rectangle};
@@ -180,30 +178,36 @@ fn counted(model: &Model, (t, y): &Moment) -> Operations {
     COUNTED.get()
 }
 
-/// `rounds` rounds of N independent x * a + b.
-#[inline(always)]
-fn chains<L: Lanes, const N: usize>(rounds: u64, a: f64, b: f64) -> f64 {
-    let (a, b) = (L::splat(a), L::splat(b));
-    let mut x: [L; N] = std::array::from_fn(|k| L::splat(k as f64));
-    for _ in 0..rounds {
-        for x in &mut x {
-            *x = x.times_plus(a, b);
+/// Registers with independent chains of x * a + b.
+#[cfg(target_arch = "x86_64")]
+const REGISTERS: usize = 12;
+
+/// Defines a function of `rounds` rounds of the chains in [`REGISTERS`] of one kind of register.
+#[cfg(target_arch = "x86_64")]
+macro_rules! chains {
+    ($name:ident, $features:literal, $splat:ident, $fused:ident) => {
+        #[target_feature(enable = $features)]
+        fn $name(rounds: u64, a: f64, b: f64) {
+            use std::arch::x86_64::{$fused, $splat};
+            let (a, b) = ($splat(a), $splat(b));
+            let mut x = [b; REGISTERS];
+            for (k, x) in x.iter_mut().enumerate() {
+                *x = $splat(k as f64);
+            }
+            for _ in 0..rounds {
+                for x in &mut x {
+                    *x = $fused(*x, a, b);
+                }
+            }
+            black_box(x);
         }
-    }
-    x.into_iter().map(L::sum).sum()
+    };
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn chains_avx512(rounds: u64, a: f64, b: f64) -> f64 {
-    chains::<Avx512, 12>(rounds, a, b)
-}
-
+chains!(chains_avx512, "avx512f", _mm512_set1_pd, _mm512_fmadd_pd);
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn chains_avx2(rounds: u64, a: f64, b: f64) -> f64 {
-    chains::<Avx2, 12>(rounds, a, b)
-}
+chains!(chains_avx2, "avx2,fma", _mm256_set1_pd, _mm256_fmadd_pd);
 
 /// Best of several, s: what a machine does when nobody else is at it.
 fn shortest(mut what: impl FnMut()) -> f64 {
@@ -227,17 +231,17 @@ fn peak(kernel: Kernel) -> f64 {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: asked for only where the processor has these instructions.
         Kernel::Avx512 => of(
-            12 * Avx512::COUNT,
+            8 * REGISTERS,
             shortest(|| {
-                black_box(unsafe { chains_avx512(ROUNDS, a, b) });
+                unsafe { chains_avx512(ROUNDS, a, b) };
             }),
         ),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => of(
-            12 * Avx2::COUNT,
+            4 * REGISTERS,
             shortest(|| {
-                black_box(unsafe { chains_avx2(ROUNDS, a, b) });
+                unsafe { chains_avx2(ROUNDS, a, b) };
             }),
         ),
         // As `Portable` they would go through memory.

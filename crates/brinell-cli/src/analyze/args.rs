@@ -122,6 +122,9 @@ pub(crate) struct AnalyzeArgs {
     /// Folder for report.html, analysis.json and plots/
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
+    /// Replace the results of another signal or command in the folder, all of them
+    #[arg(long, requires = "output")]
+    pub(crate) overwrite: bool,
     /// Formats of the pictures in FOLDER/plots
     #[arg(
         long,

@@ -9,8 +9,10 @@ mod words;
 pub(crate) use args::AnalyzeArgs;
 
 use crate::failure::Failure;
-use crate::run::{make_folder, write_pictures};
-use crate::say::{complain, say};
+use crate::inputs::Inputs;
+use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
+use crate::run::{make_folder, picture_files, write_pictures};
+use crate::say::{complain, document};
 use brinell::analysis::{
     Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
     velocity,
@@ -18,7 +20,7 @@ use brinell::analysis::{
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::atomic_write;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -75,6 +77,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         },
     )?;
     (measured.notes).extend(measured.scenario.as_deref().map(truth));
+    let earlier = earlier(args, &measured)?;
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
@@ -127,12 +130,14 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let json = as_json(&result);
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        write(folder, args, &result, &json, &mut written)?;
+        earlier.remove()?;
+        write(folder, args, &result, json.clone(), &mut written)?;
     }
+    let text = serde_json::to_string_pretty(&json).unwrap_or_default();
     match args.json.as_deref() {
-        Some(path) if path == Path::new("-") => say!("{json}"),
+        Some(path) if path == Path::new("-") => document(&text),
         Some(path) => {
-            atomic_write(path, (json + "\n").as_bytes())?;
+            atomic_write(path, (text + "\n").as_bytes())?;
             written.push(path.to_owned());
         }
         None => {}
@@ -146,6 +151,33 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// That no result will be written over what is read; and the earlier results in the folder.
+fn earlier(args: &AnalyzeArgs, measured: &Measured) -> Result<Earlier, Failure> {
+    let mut inputs = Inputs::default();
+    inputs.add(&measured.path);
+    // Of a run everything, whichever of its files is read.
+    for path in [&args.file].into_iter().chain(&args.against) {
+        inputs.add(path);
+        // What lies beside a run's signals is read with them.
+        inputs.add(&path.with_file_name(SCENARIO));
+    }
+    match args.json.as_deref() {
+        Some(path) if path != Path::new("-") => inputs.spare(path)?,
+        _ => {}
+    }
+    let Some(folder) = &args.output else {
+        return Ok(Earlier::default());
+    };
+    let place = Place {
+        kind: Results::Analysis,
+        folder,
+        inputs: &inputs,
+    };
+    let path = measured.path.display().to_string();
+    let same = |told: &Value| told.is_null() || told["file"]["path"] == path.as_str();
+    place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
 }
 
 fn speed(args: &AnalyzeArgs, measured: &Measured) -> Result<(f64, String), Failure> {
@@ -286,7 +318,7 @@ fn lay_over(
     })
 }
 
-fn as_json(result: &Result_) -> String {
+fn as_json(result: &Result_) -> Value {
     let m = &result.measured;
     let comparison = result.against.as_ref().map(|a| &a.comparison);
     let mut value = to_json(
@@ -326,7 +358,7 @@ fn as_json(result: &Result_) -> String {
             "verdict": other.analysis.verdict(),
         });
     }
-    serde_json::to_string_pretty(&value).unwrap_or_default()
+    value
 }
 
 /// Headline indicators of a whole long signal; its peak is the largest of all samples.
@@ -345,22 +377,24 @@ fn write(
     folder: &Path,
     args: &AnalyzeArgs,
     result: &Result_,
-    json: &str,
+    mut json: Value,
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
     make_folder(folder)?;
+    let report = page::report(result);
+    let pictures = brinell_report::analysis_pictures(&report);
+    let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
+    files.extend(picture_files(&pictures, &args.plots, folder));
+    // Before the others: who replaces them knows of them even where this is cut short.
+    json["files"] = names_below(folder, &files).into();
+    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
     let mut put = |name: &str, bytes: &[u8]| -> Result<(), Failure> {
         let path = folder.join(name);
         atomic_write(&path, bytes)?;
         written.push(path);
         Ok(())
     };
-    put("analysis.json", format!("{json}\n").as_bytes())?;
-    let report = page::report(result);
-    put(
-        "report.html",
-        brinell_report::analysis_html(&report).as_bytes(),
-    )?;
-    let pictures = brinell_report::analysis_pictures(&report);
+    put(ANALYSIS, text.as_bytes())?;
+    put(REPORT, brinell_report::analysis_html(&report).as_bytes())?;
     write_pictures(&pictures, &args.plots, folder, written)
 }

@@ -12,6 +12,7 @@ use crate::campaign::{JOURNAL, Ledger, Task};
 use crate::failure::Failure;
 use crate::files::{Source, stem};
 use crate::progress::Joint;
+use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
 use crate::say::{complain, say, short};
 use crate::sweep::{cost, duration, plural};
@@ -65,6 +66,14 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     }
     let named = || Path::new("out").join(format!("calibrate-{}", stem(&args.scenario)));
     let folder = args.output.clone().unwrap_or_else(named);
+    let mut inputs = plan.source.inputs();
+    args.measured.iter().for_each(|path| inputs.add(path));
+    let place = Place {
+        kind: Results::Calibration,
+        folder: &folder,
+        inputs: &inputs,
+    };
+    place.alone()?;
     make_folder(&folder)?;
     let words = |other: &Value| other_calibration(&folder, other);
     let ledger = Ledger::open(&folder, &plan.header(), args.extend, words)?;

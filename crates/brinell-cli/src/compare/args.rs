@@ -40,6 +40,9 @@ pub(crate) struct CompareArgs {
     /// Also write each plot into FOLDER/plots, as files of these formats
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    /// Replace the results of other scenarios or another command in the folder, all of them
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

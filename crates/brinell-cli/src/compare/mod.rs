@@ -8,23 +8,32 @@ mod table;
 
 use crate::failure::Failure;
 use crate::files::{self, stem};
+use crate::inputs::Inputs;
 use crate::progress::Joint;
-use crate::run::{make_folder, safe_name, stop_flag, write_pictures};
+use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
+use crate::run::{make_folder, picture_files, safe_name, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::campaign::{Compared, Finished, Unfinished, compare, run_all};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
+use serde_json::Value;
 use sides::Side;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 
+const CSV: &str = "compare.csv";
+const PARQUET: &str = "compare.parquet";
+const PAGE: &str = "compare.html";
+/// Folder of the scenarios.
+const SCENARIOS: &str = "scenarios";
 /// Exit code where a run failed or was broken off.
 const NOT_DONE: u8 = 1;
 
 pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
-    let sides = sides::read(args)?;
+    let mut inputs = Inputs::default();
+    let sides = sides::read(args, &mut inputs)?;
     for side in &sides {
         let simulation = Simulation::new(&side.loaded.scenario).map_err(Failure::Run)?;
         if !args.quiet {
@@ -33,30 +42,49 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     }
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
-    make_folder(&folder)?;
-    // Before the runs: a folder that takes no files is told of now, and what was compared is known whatever happens.
-    let mut written = scenarios(&sides, &folder)?;
+    let scenarios = scenario_files(&sides, &folder);
+    earlier(args, &sides, &folder, &inputs)?.remove()?;
+    make_folder(&folder.join(SCENARIOS))?;
+    // Before the runs: a folder that takes no files is told of now.
+    let mut written = Vec::new();
+    for (path, side) in scenarios.iter().zip(&sides) {
+        atomic_write(path, side.loaded.to_toml().as_bytes())?;
+        written.push(path.clone());
+    }
     let Some(runs) = run(args, &sides)? else {
+        // Results of nothing.
+        for path in &written {
+            let _ = std::fs::remove_file(path);
+        }
+        let _ = std::fs::remove_dir(folder.join(SCENARIOS));
         return Ok(ExitCode::from(NOT_DONE));
     };
     let all: Vec<&Finished> = runs.iter().collect();
     let compared = compare(&all);
     let report = page::report(&sides, &all, &compared);
     let table = table::table(&sides, &compared);
-    written.push(table.write_csv(folder.join("compare.csv"))?);
+    written.push(table.write_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
-    written.push(table.write_parquet(folder.join("compare.parquet"), &metadata)?);
-    let json = serde_json::to_string_pretty(&table::json(&sides, &compared)).unwrap_or_default();
+    written.push(table.write_parquet(folder.join(PARQUET), &metadata)?);
+    let pictures = match &args.plots[..] {
+        [] => Vec::new(),
+        _ => brinell_report::side_by_side_pictures(&report),
+    };
+    let mut files = written.clone();
+    files.extend([COMPARISON, PAGE].map(|name| folder.join(name)));
+    files.extend(picture_files(&pictures, &args.plots, &folder));
+    let mut json = table::json(&sides, &compared);
+    json["files"] = names_below(&folder, &files).into();
+    let json = serde_json::to_string_pretty(&json).unwrap_or_default();
     let mut put = |name: &str, text: String| -> Result<(), Failure> {
         let path = folder.join(name);
         atomic_write(&path, text.as_bytes())?;
         written.push(path);
         Ok(())
     };
-    put("compare.json", json + "\n")?;
-    put("compare.html", brinell_report::side_by_side_html(&report))?;
-    if !args.plots.is_empty() {
-        let pictures = brinell_report::side_by_side_pictures(&report);
+    put(COMPARISON, json + "\n")?;
+    put(PAGE, brinell_report::side_by_side_html(&report))?;
+    if !pictures.is_empty() {
         write_pictures(&pictures, &args.plots, &folder, &mut written)?;
     }
     if !args.quiet {
@@ -68,16 +96,32 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Each scenario as a file that reproduces it, in the order of the table.
-fn scenarios(sides: &[Side], folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let folder = folder.join("scenarios");
-    make_folder(&folder)?;
-    let write = |(k, side): (usize, &Side)| {
-        let path = folder.join(format!("{}-{}.toml", k + 1, safe_name(&side.label)));
-        atomic_write(&path, side.loaded.to_toml().as_bytes())?;
-        Ok(path)
+/// Each scenario's file, in the order of the table.
+fn scenario_files(sides: &[Side], folder: &Path) -> Vec<PathBuf> {
+    let name = |(k, side): (usize, &Side)| format!("{}-{}.toml", k + 1, safe_name(&side.label));
+    let names = sides.iter().enumerate().map(name);
+    names
+        .map(|name| folder.join(SCENARIOS).join(name))
+        .collect()
+}
+
+/// Earlier results in the folder that the comparison may replace.
+fn earlier(
+    args: &CompareArgs,
+    sides: &[Side],
+    folder: &Path,
+    inputs: &Inputs,
+) -> Result<Earlier, Failure> {
+    let place = Place {
+        kind: Results::Comparison,
+        folder,
+        inputs,
     };
-    sides.iter().enumerate().map(write).collect()
+    let writes = [COMPARISON, PAGE, CSV, PARQUET].map(str::to_owned);
+    let same = |told: &Value| {
+        told.is_null() || told["scenarios"] == Value::Object(table::scenarios(sides))
+    };
+    place.earlier(args.overwrite, &writes, same)
 }
 
 /// All runs, or `None` with what went wrong told.
@@ -109,9 +153,7 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
         }
     }
     if stopped {
-        complain!(
-            "interrupted: nothing but the scenarios is written; the same command begins anew"
-        );
+        complain!("interrupted: nothing is written; the same command begins anew");
     }
     Ok((runs.len() == sides.len()).then_some(runs))
 }

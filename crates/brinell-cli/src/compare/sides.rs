@@ -4,6 +4,7 @@ use super::{CompareArgs, table};
 use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
+use crate::inputs::Inputs;
 use brinell::campaign::split;
 use brinell::document::Loaded;
 use std::path::Path;
@@ -18,7 +19,7 @@ pub(super) struct Side {
 }
 
 /// Every scenario and variant, read and checked.
-pub(super) fn read(args: &CompareArgs) -> Result<Vec<Side>, Failure> {
+pub(super) fn read(args: &CompareArgs, inputs: &mut Inputs) -> Result<Vec<Side>, Failure> {
     let count = args.scenarios.len() + args.variant.len();
     if !(2..=MOST).contains(&count) {
         return Err(Failure::Usage(format!(
@@ -39,6 +40,7 @@ pub(super) fn read(args: &CompareArgs) -> Result<Vec<Side>, Failure> {
             label: label(path)?,
             loaded: source.load(&[], args.quiet)?,
         });
+        inputs.add_all(&source.inputs());
         first.get_or_insert(source);
     }
     for text in &args.variant {
@@ -48,6 +50,7 @@ pub(super) fn read(args: &CompareArgs) -> Result<Vec<Side>, Failure> {
                 label,
                 loaded: source.load(&settings, args.quiet)?,
             });
+            inputs.add_all(&source.inputs());
         }
     }
     for (k, side) in sides.iter().enumerate() {

@@ -38,6 +38,12 @@ pub(super) fn table(sides: &[Side], compared: &[Compared]) -> Table {
     table
 }
 
+/// Each scenario by its label, as the files have it.
+pub(super) fn scenarios(sides: &[Side]) -> Map<String, Value> {
+    let one = |side: &Side| (side.label.clone(), side.loaded.to_toml().into());
+    sides.iter().map(one).collect()
+}
+
 pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
     let value = |q: &Quantity| match q.interval() {
         Some((low, high)) => json!({ "value": q.value, "low": low, "high": high }),
@@ -64,7 +70,6 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
             (c.name.clone(), entry)
         })
         .collect();
-    let scenarios = by_label(&|k| Some(sides[k].loaded.to_toml().into()));
     json!({
         "brinell": brinell::VERSION,
         "first": sides[0].label,
@@ -73,6 +78,6 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
         "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
                                 supposes runs that scatter independently",
         "quantities": quantities,
-        "scenarios": scenarios,
+        "scenarios": scenarios(sides),
     })
 }

@@ -4,7 +4,9 @@ mod args;
 mod plan;
 
 use crate::failure::Failure;
+use crate::inputs::Inputs;
 use crate::progress::{Joint, Progress};
+use crate::results::{Place, Results};
 use crate::run::{safe_name, stop_flag};
 use crate::say::{complain, say};
 use crate::sweep::plural;
@@ -62,6 +64,11 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         .output
         .clone()
         .unwrap_or_else(|| Path::new("out").join(name));
+    let mut inputs = Inputs::default();
+    for (path, _) in [campaign.plan_file(), campaign.base_file()] {
+        inputs.add(path);
+    }
+    alone(&folder, &inputs)?;
     let parts = (0..campaign.parts()).filter(|part| args.shard.has(*part));
     let runs: usize = parts.map(|part| campaign.runs_of(part).len()).sum();
     let threads = args.jobs.unwrap_or(brinell::many::threads(runs));
@@ -131,7 +138,18 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// That no other command's results lie in the data set's folder.
+fn alone(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
+    let place = Place {
+        kind: Results::DataSet,
+        folder,
+        inputs,
+    };
+    place.alone()
+}
+
 fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
+    alone(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
     if !args.quiet {
         say!(

@@ -13,6 +13,8 @@ mod what;
 
 use crate::campaign::{self, Ledger, Task};
 use crate::failure::Failure;
+use crate::inputs::Inputs;
+use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
@@ -91,6 +93,12 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
         .sensitivity
         .then(|| Plan::new(args.quick))
         .transpose()?;
+    let place = Place {
+        kind: Results::Reproduction,
+        folder: &args.output,
+        inputs: &Inputs::default(),
+    };
+    place.alone()?;
     make_folder(&args.output)?;
     let header = json!({ "campaign": "reproduce" });
     let words = |_: &Value| {

@@ -1,15 +1,18 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Done, Earlier, earlier, execute, make_folder, ready, stop_flag};
+use super::{Done, earlier, execute, make_folder, ready, safe_name, stop_flag};
 use crate::args::RunArgs;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::files;
+use crate::inputs::Inputs;
 use crate::progress::Joint;
+use crate::results::Earlier;
 use crate::say::{complain, say};
 use brinell::document::Loaded;
 use brinell::simulate::{End, Simulation};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::ffi::OsString;
+use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -111,16 +114,25 @@ fn one(
     execute(args, replaced, simulation, progress, stop)
 }
 
+/// The name of a scenario's file without ending, as a folder's: where it is none (`...toml` would leave `..`), made one.
+fn stem(path: &Path) -> OsString {
+    if files::is_stdin(path) {
+        return "stdin".into();
+    }
+    let stem = path.file_stem().unwrap_or(path.as_os_str());
+    let mut parts = Path::new(stem).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(name)), None) => name.to_owned(),
+        _ => safe_name(&stem.to_string_lossy()).into(),
+    }
+}
+
 /// Each scenario's folder: `root` and the name of its file without ending.
 fn folders(scenarios: &[PathBuf], root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut taken: HashMap<String, &Path> = HashMap::new();
     let mut folders = Vec::new();
     for path in scenarios {
-        let stem = if files::is_stdin(path) {
-            "stdin".into()
-        } else {
-            path.file_stem().unwrap_or(path.as_os_str()).to_owned()
-        };
+        let stem = stem(path);
         // Some file systems take no notice of case.
         let key = stem.to_string_lossy().to_lowercase();
         if let Some(first) = taken.insert(key, path) {
@@ -138,27 +150,31 @@ fn folders(scenarios: &[PathBuf], root: &Path) -> Result<Vec<PathBuf>, Failure> 
 
 /// Every scenario read and tried; `None`, with every failure told, where any is not sound.
 fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
+    // No run may write over what any of them reads.
+    let mut inputs = Inputs::default();
+    let mut read = |path: &PathBuf| {
+        let (loaded, simulation) = ready(args, path, &mut inputs)?;
+        if !args.quiet && !simulation.idle_patterns().is_empty() {
+            complain!("{}:", path.display());
+            files::warn_idle(simulation.idle_patterns());
+        }
+        Ok(loaded)
+    };
+    let all: Vec<Result<Loaded, Failure>> = args.scenarios.iter().map(&mut read).collect();
     let mut tasks = Vec::new();
-    for (path, folder) in args.scenarios.iter().zip(folders) {
-        let name = path.display().to_string();
-        let found = ready(args, path).and_then(|(loaded, simulation)| {
-            let earlier = earlier(args, &loaded, &folder)?;
-            Ok((loaded, simulation, earlier))
+    for ((path, folder), loaded) in args.scenarios.iter().zip(folders).zip(all) {
+        let found = loaded.and_then(|loaded| {
+            let earlier = earlier(args, &loaded, &folder, &inputs)?;
+            Ok((loaded, earlier))
         });
         match found {
-            Ok((loaded, simulation, earlier)) => {
-                if !args.quiet && !simulation.idle_patterns().is_empty() {
-                    complain!("{name}:");
-                    files::warn_idle(simulation.idle_patterns());
-                }
-                tasks.push(Task {
-                    path: path.clone(),
-                    loaded,
-                    folder,
-                    earlier,
-                });
-            }
-            Err(failure) => failure.print_of(&name),
+            Ok((loaded, earlier)) => tasks.push(Task {
+                path: path.clone(),
+                loaded,
+                folder,
+                earlier,
+            }),
+            Err(failure) => failure.print_of(&path.display().to_string()),
         }
     }
     (tasks.len() == args.scenarios.len()).then_some(tasks)

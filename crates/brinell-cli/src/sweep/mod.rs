@@ -9,6 +9,7 @@ mod table;
 use crate::campaign::{self, JOURNAL, Kept, Ledger, Task};
 use crate::failure::Failure;
 use crate::files::stem;
+use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
@@ -45,6 +46,12 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         plan(&points, &Kept::look(&folder)?, &work, threads, true);
         return Ok(ExitCode::SUCCESS);
     }
+    let place = Place {
+        kind: Results::Sweep,
+        folder: &folder,
+        inputs: &points.source.inputs(),
+    };
+    place.alone()?;
     make_folder(&folder)?;
     let header = points.header();
     let words = |other: &Value| other_sweep(&folder, other);

@@ -3,6 +3,13 @@
 //! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `portable` holds it as an array,
 //! `x86` in a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
 //! in round-off alone: the portable one rounds every product, the others fuse products with sums.
+//!
+//! The lanes of `x86` are this crate's own: whoever makes one must have asked the processor first, which safe code elsewhere need not.
+//!
+//! ```compile_fail
+//! use brinell::lanes::{Avx512, Lanes};
+//! Avx512::splat(2.0);
+//! ```
 
 mod blend;
 mod column;
@@ -19,7 +26,7 @@ pub(crate) use functions::ninth;
 pub use functions::{exp, sin_cos, tanh, ten_ninths};
 pub use portable::Portable;
 #[cfg(target_arch = "x86_64")]
-pub use x86::{Avx2, Avx512};
+pub(crate) use x86::{Avx2, Avx512};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

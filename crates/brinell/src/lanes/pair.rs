@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Eight numbers in two registers of AVX2.
 #[derive(Debug, Clone, Copy)]
-pub struct Avx2Pair(Avx2, Avx2);
+pub(crate) struct Avx2Pair(Avx2, Avx2);
 
 macro_rules! by_halves {
     ($($trait:ident $method:ident $operator:tt;)*) => {

@@ -54,7 +54,7 @@ unsafe fn sum_of_four(x: __m256d) -> f64 {
 
 /// Eight numbers in one register of AVX-512.
 #[derive(Debug, Clone, Copy)]
-pub struct Avx512(__m512d);
+pub(crate) struct Avx512(__m512d);
 
 operators! {
     Avx512,
@@ -200,7 +200,7 @@ impl Lanes for Avx512 {
 
 /// Four numbers in one register of AVX2.
 #[derive(Debug, Clone, Copy)]
-pub struct Avx2(__m256d);
+pub(crate) struct Avx2(__m256d);
 
 operators! {
     Avx2,

@@ -1,0 +1,466 @@
+//! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them have to go.
+//!
+//! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them: `summary.json` of a run,
+//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, and nothing else is
+//! ever removed. Finished runs that a command resumes from are never removed.
+
+use crate::campaign::JOURNAL;
+use crate::failure::Failure;
+use crate::inputs::Inputs;
+use brinell::document::read;
+use brinell::scenario::Scenario;
+use brinell_io::{Format, read_text};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+pub(crate) const SCENARIO: &str = "scenario.toml";
+pub(crate) const SUMMARY: &str = "summary.json";
+pub(crate) const REPORT: &str = "report.html";
+pub(crate) const ANALYSIS: &str = "analysis.json";
+pub(crate) const COMPARISON: &str = "compare.json";
+pub(crate) const PREVIEW: &str = "preview.json";
+/// Folder of the pictures.
+pub(crate) const PLOTS: &str = "plots";
+
+/// Whose results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Results {
+    Run,
+    Analysis,
+    Comparison,
+    Preview,
+    Sweep,
+    Calibration,
+    Reproduction,
+    DataSet,
+}
+
+impl Results {
+    const ALL: [Self; 8] = [
+        Self::Run,
+        Self::Analysis,
+        Self::Comparison,
+        Self::Preview,
+        Self::Sweep,
+        Self::Calibration,
+        Self::Reproduction,
+        Self::DataSet,
+    ];
+
+    /// The command, as it is typed.
+    fn command(self) -> &'static str {
+        match self {
+            Self::Run => "brinell run",
+            Self::Analysis => "brinell analyze",
+            Self::Comparison => "brinell compare",
+            Self::Preview => "brinell defect preview",
+            Self::Sweep => "brinell sweep",
+            Self::Calibration => "brinell calibrate",
+            Self::Reproduction => "brinell reproduce",
+            Self::DataSet => "brinell dataset",
+        }
+    }
+
+    /// What the results are of.
+    fn subject(self) -> &'static str {
+        match self {
+            Self::Analysis => "signal",
+            Self::Comparison => "set of scenarios",
+            _ => "scenario",
+        }
+    }
+
+    /// The file that tells of the results, with brinell's version.
+    fn tells(self) -> &'static str {
+        match self {
+            Self::Run => SUMMARY,
+            Self::Analysis => ANALYSIS,
+            Self::Comparison => COMPARISON,
+            Self::Preview => PREVIEW,
+            Self::Sweep => "sweep.json",
+            Self::Calibration => "calibrate.json",
+            Self::Reproduction => "claims.json",
+            Self::DataSet => "dataset.json",
+        }
+    }
+
+    /// Name of the campaign in the journal of those that resume.
+    fn campaign(self) -> Option<&'static str> {
+        match self {
+            Self::Sweep => Some("sweep"),
+            Self::Calibration => Some("calibrate"),
+            Self::Reproduction => Some("reproduce"),
+            _ => None,
+        }
+    }
+
+    /// Whether finished runs lie there, hours of work.
+    fn resumes(self) -> bool {
+        self.campaign().is_some() || self == Self::DataSet
+    }
+
+    /// Files that it may leave, by their names below the folder; `*` stands for whatever has no `/`.
+    fn files(self) -> Vec<&'static str> {
+        const PICTURES: [&str; 2] = ["plots/*.svg", "plots/*.png"];
+        let (own, pictures): (&[&str], _) = match self {
+            Self::Run => (&[SCENARIO, SUMMARY, REPORT], true),
+            Self::Analysis => (&[ANALYSIS, REPORT], true),
+            Self::Comparison => (
+                &[
+                    COMPARISON,
+                    "compare.csv",
+                    "compare.parquet",
+                    "compare.html",
+                    "scenarios/*.toml",
+                ],
+                true,
+            ),
+            Self::Preview => (
+                &[PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.csv"],
+                false,
+            ),
+            Self::Sweep => (
+                &[
+                    JOURNAL,
+                    "sweep.json",
+                    "sweep.csv",
+                    "sweep.parquet",
+                    "sweep.html",
+                    "signals/*.parquet",
+                ],
+                true,
+            ),
+            Self::Calibration => (
+                &[
+                    JOURNAL,
+                    "calibrate.json",
+                    "calibrate.csv",
+                    "calibrate.html",
+                    "best.toml",
+                ],
+                false,
+            ),
+            Self::Reproduction => (
+                &[
+                    JOURNAL,
+                    "claims.json",
+                    "claims.csv",
+                    "reproduce.html",
+                    "curves/*",
+                ],
+                true,
+            ),
+            Self::DataSet => (
+                &[
+                    "dataset.json",
+                    "runs/part-*",
+                    "held_out/part-*",
+                    "held_out/_plan.json",
+                    "work/campaign.json",
+                    "work/part-*",
+                ],
+                false,
+            ),
+        };
+        let mut all = own.to_vec();
+        if self == Self::Run {
+            all.extend(Format::ALL.into_iter().map(Format::file_name));
+        }
+        if pictures {
+            all.extend(PICTURES);
+        }
+        all
+    }
+
+    fn leaves(self, name: &str) -> bool {
+        self.files().into_iter().any(|pattern| fits(pattern, name))
+    }
+
+    /// Folders below the folder that it leaves files in.
+    fn folders(self) -> BTreeSet<&'static str> {
+        let files = self.files();
+        let folders = files
+            .iter()
+            .filter_map(|file| Some(file.split_once('/')?.0));
+        folders.collect()
+    }
+
+    /// What tells of its results in a folder; [`Value::Null`] where nothing does.
+    fn told(self, folder: &Path) -> Value {
+        let text = File::open(folder.join(self.tells())).and_then(read_text);
+        let told = serde_json::from_slice::<Value>(&text.unwrap_or_default());
+        let told = told.unwrap_or_default();
+        let version = if self == Self::Preview {
+            "version"
+        } else {
+            "brinell"
+        };
+        match told[version].is_string() {
+            true => told,
+            false => Value::Null,
+        }
+    }
+
+    /// Whether results of it lie in a folder, or the beginnings of them.
+    fn is_in(self, folder: &Path) -> bool {
+        let begun = match self.campaign() {
+            Some(campaign) => journal_of(folder).is_some_and(|kind| kind == campaign),
+            None => self == Self::DataSet && folder.join("work/campaign.json").exists(),
+        };
+        begun || !self.told(folder).is_null()
+    }
+
+    /// Names of the files in a folder that it could have left.
+    fn found(self, folder: &Path) -> Vec<String> {
+        let mut found = Vec::new();
+        let below = self.folders();
+        for sub in std::iter::once("").chain(below) {
+            let entries = std::fs::read_dir(folder.join(sub)).into_iter().flatten();
+            for entry in entries.flatten() {
+                let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+                if let (false, Some(name)) = (is_folder, entry.file_name().to_str()) {
+                    let slash = if sub.is_empty() { "" } else { "/" };
+                    found.push(format!("{sub}{slash}{name}"));
+                }
+            }
+        }
+        found.retain(|name| self.leaves(name.strip_suffix(".partial").unwrap_or(name)));
+        found.sort();
+        found
+    }
+
+    /// Files below `folder` that its own results list, as far as they can be its.
+    fn listed(self, folder: &Path) -> Vec<String> {
+        let told = self.told(folder);
+        match told["files"].as_array() {
+            Some(files) => {
+                let files = files.iter().filter_map(Value::as_str);
+                files
+                    .filter(|name| self.leaves(name))
+                    .map(str::to_owned)
+                    .collect()
+            }
+            None if told.is_null() => Vec::new(),
+            // Written before results listed files.
+            None => self.direct(folder),
+        }
+    }
+
+    /// Those of [`Results::found`] that lie right in the folder, complete.
+    fn direct(self, folder: &Path) -> Vec<String> {
+        let mut found = self.found(folder);
+        found.retain(|name| self.leaves(name) && !name.contains('/'));
+        found
+    }
+}
+
+fn fits(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((before, after)) => name
+            .strip_prefix(before)
+            .and_then(|rest| rest.strip_suffix(after))
+            .is_some_and(|between| !between.contains(['/', '\\'])),
+    }
+}
+
+/// The campaign that a folder's journal begins with.
+fn journal_of(folder: &Path) -> Option<String> {
+    /// A header lists the plan.
+    const LONGEST: u64 = 1 << 24;
+    let file = File::open(folder.join(JOURNAL)).ok()?;
+    let mut line = Vec::new();
+    BufReader::new(file.take(LONGEST))
+        .read_until(b'\n', &mut line)
+        .ok()?;
+    let header: Value = serde_json::from_slice(&line).ok()?;
+    header["campaign"].as_str().map(str::to_owned)
+}
+
+/// A folder that a command is about to write its results into.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place<'a> {
+    pub(crate) kind: Results,
+    pub(crate) folder: &'a Path,
+    /// What must not be written over.
+    pub(crate) inputs: &'a Inputs,
+}
+
+impl Place<'_> {
+    /// For a command that resumes: nothing of another's is there, and nothing that could be taken for its own.
+    ///
+    /// # Errors
+    /// Where there is, or where a file that it may write is an input.
+    pub(crate) fn alone(&self) -> Result<(), Failure> {
+        self.spares_inputs()?;
+        let (kind, at) = (self.kind, self.folder.display());
+        if let Some(other) = self.others().next() {
+            return Err(Failure::Usage(format!(
+                "{at} holds results of `{}`; choose another folder with -o",
+                other.command()
+            )));
+        }
+        let unlisted = kind.direct(self.folder);
+        // A journal is judged by who opens it.
+        let known = kind.is_in(self.folder) || unlisted.iter().any(|name| name == JOURNAL);
+        if !known && !unlisted.is_empty() {
+            return Err(Failure::Usage(format!(
+                "{at} holds {}, which `{}` would write over and did not write; move it, or choose another folder with -o",
+                unlisted.join(", "),
+                kind.command()
+            )));
+        }
+        Ok(())
+    }
+
+    /// The earlier results in the folder, which the new ones replace; nothing is changed. `writes` are the names that will be written whatever
+    /// happens; `same` says whether the earlier results, by what tells of them, are of the same.
+    ///
+    /// # Errors
+    /// Where results of another command, or of another scenario, lie there and `overwrite` was not asked for, or files with a result's name that
+    /// nothing lists; where a file that may be written or removed is an input.
+    pub(crate) fn earlier(
+        &self,
+        overwrite: bool,
+        writes: &[String],
+        same: impl FnOnce(&Value) -> bool,
+    ) -> Result<Earlier, Failure> {
+        self.spares_inputs()?;
+        let (kind, folder, at) = (self.kind, self.folder, self.folder.display());
+        let mut files = Vec::new();
+        for other in self.others() {
+            let command = other.command();
+            if other.resumes() {
+                return Err(Failure::Usage(format!(
+                    "{at} holds results of `{command}`, with finished runs; choose another folder with -o"
+                )));
+            }
+            if !overwrite {
+                return Err(Failure::Usage(format!(
+                    "{at} holds results of `{command}`; choose another folder with -o, or replace them, all of them, with --overwrite"
+                )));
+            }
+            files.extend(other.listed(folder));
+        }
+        for name in &files {
+            self.inputs.spare(&folder.join(name))?;
+        }
+        // The new scenario takes the place of a run's own.
+        let own = kind.listed(folder).into_iter();
+        files.extend(own.filter(|name| name != SCENARIO));
+        let there = kind.direct(folder);
+        let is_unlisted = |name: &&String| *name != SCENARIO && !files.contains(name);
+        let unlisted: Vec<&str> = there
+            .iter()
+            .filter(is_unlisted)
+            .map(String::as_str)
+            .collect();
+        let replaced =
+            files.iter().any(|name| there.contains(name)) || there.contains(&SCENARIO.into());
+        if replaced && !overwrite && !same(&kind.told(folder)) {
+            return Err(Failure::Usage(format!(
+                "{at} holds results of another {} ({}); choose another folder with -o, or replace them with --overwrite",
+                kind.subject(),
+                there.join(", ")
+            )));
+        }
+        let tells = kind.tells();
+        if !unlisted.is_empty() && !overwrite {
+            return Err(Failure::Usage(format!(
+                "{at} holds {}, and no {tells} there lists them as results; choose another folder with -o, or replace them with --overwrite",
+                unlisted.join(", ")
+            )));
+        }
+        let stays: Vec<&str> = unlisted
+            .into_iter()
+            .filter(|name| !writes.iter().any(|written| written == name))
+            .collect();
+        if !stays.is_empty() {
+            return Err(Failure::Usage(format!(
+                "{at} holds {}, which is not written this time and which no {tells} there lists: a reader would take it for one of the new \
+                 results. Move it, or choose another folder with -o",
+                stays.join(", ")
+            )));
+        }
+        Ok(Earlier {
+            folder: folder.to_owned(),
+            files,
+        })
+    }
+
+    /// Other commands whose results are there.
+    fn others(&self) -> impl Iterator<Item = Results> {
+        let (kind, folder) = (self.kind, self.folder);
+        let others = Results::ALL.into_iter().filter(move |other| *other != kind);
+        // A journal is judged by who opens it.
+        let both_keep_one = move |other: &Results| kind.campaign().and(other.campaign()).is_some();
+        others.filter(move |other| match both_keep_one(other) {
+            true => !other.told(folder).is_null(),
+            false => other.is_in(folder),
+        })
+    }
+
+    fn spares_inputs(&self) -> Result<(), Failure> {
+        let found = self.kind.found(self.folder).into_iter();
+        found
+            .map(|name| self.folder.join(name))
+            .try_for_each(|path| self.inputs.spare(&path))
+    }
+}
+
+/// The earlier results of a folder, which new ones replace.
+#[derive(Debug, Default)]
+pub(crate) struct Earlier {
+    folder: PathBuf,
+    /// Names below the folder.
+    files: Vec<String>,
+}
+
+impl Earlier {
+    /// Removes them. A run's own scenario stays until the new one takes its place.
+    pub(crate) fn remove(&self) -> Result<(), Failure> {
+        for name in &self.files {
+            let path = self.folder.join(name);
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(Failure::Usage(format!(
+                        "cannot remove {}, of earlier results: {error}",
+                        path.display()
+                    )));
+                }
+                _ => {}
+            }
+        }
+        for folder in self
+            .files
+            .iter()
+            .filter_map(|name| Some(name.split_once('/')?.0))
+        {
+            // Unless something else lies there.
+            let _ = std::fs::remove_dir(self.folder.join(folder));
+        }
+        Ok(())
+    }
+}
+
+/// Whether a run's folder has the results of this scenario, all values the same.
+pub(crate) fn is_of(folder: &Path, scenario: &Scenario) -> bool {
+    let Ok(bytes) = File::open(folder.join(SCENARIO)).and_then(read_text) else {
+        return false;
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    read(&text, &[]).is_ok_and(|loaded| loaded.scenario == *scenario)
+}
+
+/// Names below `folder` of what was written into it, as the file that tells of them lists them.
+pub(crate) fn names_below(folder: &Path, written: &[PathBuf]) -> Vec<String> {
+    let name = |path: &PathBuf| {
+        let parts = path.strip_prefix(folder).ok()?.iter();
+        let parts: Option<Vec<&str>> = parts.map(|part| part.to_str()).collect();
+        Some(parts?.join("/"))
+    };
+    written.iter().filter_map(name).collect()
+}

@@ -1,0 +1,330 @@
+//! No command writes over a file that it reads, and none mixes its results with another command's.
+
+mod common;
+
+use common::{Call, SHORT, brinell, files, json};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+fn folder_with(name: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join(name), SHORT).unwrap();
+    folder
+}
+
+/// A second of a tone as `name`, and the call that analyses it.
+fn signal(here: &Path, name: &str) {
+    let mut text = String::from("ax\n");
+    for k in 0..12_000 {
+        let _ = writeln!(text, "{:.5}", (0.7 * f64::from(k)).sin());
+    }
+    fs::write(here.join(name), text).unwrap();
+}
+
+fn analyze(here: &Path, file: &str, more: &[&str]) -> Call {
+    let given = [
+        "analyze",
+        file,
+        "--rate",
+        "12000",
+        "--unit",
+        "g",
+        "--bearing",
+        "6205",
+        "--speed",
+        "1800",
+        "-q",
+    ];
+    brinell(here, &[&given[..], more].concat())
+}
+
+fn run(here: &Path, more: &[&str]) -> Call {
+    let quick = ["run", "--quiet", "--no-report", "--signals", "csv"];
+    brinell(here, &[&quick[..], more].concat())
+}
+
+/// That the call is refused because of its input, and changes nothing.
+#[track_caller]
+fn refused(here: &Path, args: &[&str]) {
+    let before = common::results(here);
+    brinell(here, args)
+        .exits(2)
+        .complains(&["would be written, and is an input of this command"]);
+    assert!(
+        common::results(here) == before,
+        "{args:?} changed something"
+    );
+}
+
+#[test]
+fn prop_a_run_never_writes_over_what_it_reads() {
+    let folder = folder_with("scenario.toml");
+    let here = folder.path();
+    let args = ["run", "scenario.toml", "-o", ".", "-q"];
+    refused(here, &args);
+    refused(here, &[&args[..], &["--overwrite"]].concat());
+    // Of several runs, none over what any of them reads.
+    fs::create_dir(here.join("b")).unwrap();
+    fs::copy(here.join("scenario.toml"), here.join("b/scenario.toml")).unwrap();
+    fs::copy(here.join("scenario.toml"), here.join("b.toml")).unwrap();
+    brinell(here, &["run", "b/scenario.toml", "b.toml", "-o", ".", "-q"])
+        .exits(2)
+        .complains(&["b/scenario.toml would be written", "nothing was run"]);
+    // By standard input as well.
+    #[cfg(unix)]
+    {
+        let before = common::results(here);
+        let input = fs::File::open(here.join("scenario.toml")).unwrap();
+        let call = common::command(here, &["run", "-", "-o", ".", "-q"])
+            .stdin(input)
+            .output();
+        Call::from(call.unwrap())
+            .exits(2)
+            .complains(&["scenario.toml would be written", "(standard input)"]);
+        assert!(common::results(here) == before);
+    }
+    // A run's own results, from its own folder.
+    run(here, &["b.toml", "-o", "o"]).exits(0);
+    refused(here, &["run", "o/scenario.toml", "-o", "o", "-q"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn prop_links_do_not_hide_an_input() {
+    let folder = folder_with("mine.toml");
+    let here = folder.path();
+    for (name, link) in [("hard", true), ("soft", false)] {
+        let folder = here.join(name);
+        fs::create_dir(&folder).unwrap();
+        let at = folder.join("scenario.toml");
+        match link {
+            true => fs::hard_link(here.join("mine.toml"), at).unwrap(),
+            false => std::os::unix::fs::symlink("../mine.toml", at).unwrap(),
+        }
+        refused(here, &["run", "mine.toml", "-o", name, "-q", "--overwrite"]);
+        let linked = format!("{name}/scenario.toml");
+        refused(here, &["run", &linked, "-o", name, "-q"]);
+    }
+    signal(here, "x.csv");
+    fs::hard_link(here.join("x.csv"), here.join("y.json")).unwrap();
+    for output in ["x.csv", "./x.csv", "y.json"] {
+        analyze(here, "x.csv", &["--json", output])
+            .exits(2)
+            .complains(&[output, "is an input of this command (x.csv)"]);
+    }
+    let same = fs::read(here.join("x.csv")).unwrap() == fs::read(here.join("y.json")).unwrap();
+    assert!(same && fs::read(here.join("x.csv")).unwrap().starts_with(b"ax\n"));
+}
+
+#[test]
+fn prop_files_of_damage_are_inputs() {
+    let drawing = r#"<svg xmlns="http://www.w3.org/2000/svg" width="3mm" height="2mm" viewBox="0 0 3 2"><path d="M0 0H3V2H0Z"/></svg>"#;
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::create_dir(here.join("plots")).unwrap();
+    for file in ["damage-1.svg", "plots/waveform.svg"] {
+        fs::write(here.join(file), drawing).unwrap();
+        let shape = format!("svg = {{ file = \"{file}\" }}");
+        let text = SHORT.replace("rectangle = { length_mm = 2.0, width_mm = 4.0 }", &shape);
+        fs::write(here.join("s.toml"), text).unwrap();
+        brinell(here, &["check", "s.toml"]).exits(0);
+        match file {
+            "damage-1.svg" => refused(here, &["defect", "preview", "s.toml", "-o", "."]),
+            _ => refused(here, &["run", "s.toml", "-o", ".", "-q", "--plots", "svg"]),
+        }
+    }
+}
+
+#[test]
+fn prop_a_measured_signal_and_the_folder_of_a_run_stay() {
+    let folder = folder_with("s.toml");
+    let here = folder.path();
+    run(here, &["s.toml", "-o", "RUN"]).exits(0);
+    for args in [
+        &["analyze", "RUN", "-o", "RUN"][..],
+        &["analyze", "RUN", "-o", "RUN", "--overwrite"],
+        &["analyze", "RUN", "--json", "RUN/summary.json"],
+        &["analyze", "RUN/signals.csv", "-o", "RUN", "--overwrite"],
+    ] {
+        let before = common::results(here);
+        let call = brinell(here, args).exits(2);
+        assert!(common::results(here) == before, "{args:?} {call:?}");
+    }
+}
+
+#[test]
+fn prop_campaigns_spare_their_inputs() {
+    let folder = folder_with("best.toml");
+    let here = folder.path();
+    let fit = "operation.speed_rpm=1400:1600";
+    let target = "measured_ax.rms=30~1";
+    refused(
+        here,
+        &[
+            "calibrate",
+            "best.toml",
+            "--fit",
+            fit,
+            "--target",
+            target,
+            "--budget",
+            "8",
+            "-o",
+            ".",
+        ],
+    );
+    fs::create_dir(here.join("scenarios")).unwrap();
+    for name in ["a.toml", "b.toml"] {
+        fs::write(here.join("scenarios").join(name), SHORT).unwrap();
+    }
+    refused(
+        here,
+        &["compare", "scenarios/a.toml", "scenarios/b.toml", "-o", "."],
+    );
+    // A file of the same name that is no input is not written over either.
+    fs::write(here.join("base.toml"), SHORT).unwrap();
+    let before = common::results(here);
+    brinell(
+        here,
+        &[
+            "calibrate",
+            "base.toml",
+            "--fit",
+            fit,
+            "--target",
+            target,
+            "--budget",
+            "8",
+            "-o",
+            ".",
+        ],
+    )
+    .exits(2)
+    .complains(&["best.toml, which `brinell calibrate` would write over"]);
+    fs::write(here.join("sweep.json"), "{}").unwrap();
+    let args = [
+        "sweep",
+        "base.toml",
+        "--vary",
+        "operation.speed_rpm=1000",
+        "-o",
+        ".",
+    ];
+    brinell(here, &args).exits(2).complains(&["sweep.json"]);
+    fs::remove_file(here.join("sweep.json")).unwrap();
+    assert!(common::results(here) == before);
+}
+
+#[cfg(unix)]
+#[test]
+fn prop_a_printed_entry_is_not_appended_to_its_own_scenario() {
+    let folder = folder_with("s.toml");
+    let here = folder.path();
+    let out = fs::File::options().append(true).open(here.join("s.toml"));
+    let args = ["defect", "convert", "s.toml", "--to", "profile"];
+    let call = common::command(here, &args).stdout(out.unwrap()).output();
+    Call::from(call.unwrap())
+        .exits(2)
+        .complains(&["standard output would be written"]);
+    assert_eq!(fs::read_to_string(here.join("s.toml")).unwrap(), SHORT);
+}
+
+#[test]
+fn regress_results_of_another_command_are_refused_or_replaced_whole() {
+    let folder = folder_with("s.toml");
+    let here = folder.path();
+    signal(here, "x.csv");
+    signal(here, "y.csv");
+    run(here, &["s.toml", "-o", "o", "--plots", "svg"]).exits(0);
+    fs::write(here.join("o/notes.txt"), "mine").unwrap();
+    let before = common::results(&here.join("o"));
+    let words = ["o holds results of `brinell run`", "-o", "--overwrite"];
+    analyze(here, "x.csv", &["-o", "o"])
+        .exits(2)
+        .complains(&words);
+    let sweep = [
+        "sweep",
+        "s.toml",
+        "--vary",
+        "operation.speed_rpm=1500",
+        "-q",
+        "-o",
+    ];
+    for args in [
+        &["compare", "s.toml", "--variant", "t:name=t", "-o", "o"][..],
+        &["defect", "preview", "s.toml", "-o", "o"],
+        &["reproduce", "--quick", "-o", "o"],
+        &[&sweep[..], &["o"]].concat(),
+    ] {
+        brinell(here, args).exits(2).complains(&words[..1]);
+    }
+    assert!(common::results(&here.join("o")) == before);
+    // With the flag, nothing of the run stays.
+    analyze(here, "x.csv", &["-o", "o", "--overwrite"]).exits(0);
+    let there = files(&here.join("o"));
+    let listed = json(&here.join("o/analysis.json"))["files"].clone();
+    let listed: Vec<String> = serde_json::from_value(listed).unwrap();
+    assert!(
+        there
+            .iter()
+            .all(|name| name == "notes.txt" || listed.contains(name)),
+        "{there:?}"
+    );
+    assert_eq!(there.len(), listed.len() + 1);
+    // The same signal again is the same results; another signal's are not.
+    analyze(here, "x.csv", &["-o", "o", "--plots", "png"]).exits(0);
+    assert!(
+        !files(&here.join("o"))
+            .iter()
+            .any(|name| name.ends_with(".svg"))
+    );
+    analyze(here, "y.csv", &["-o", "o"])
+        .exits(2)
+        .complains(&["o holds results of another signal"]);
+    run(here, &["s.toml", "-o", "o"])
+        .exits(2)
+        .complains(&["o holds results of `brinell analyze`"]);
+    run(here, &["s.toml", "-o", "o", "--overwrite"]).exits(0);
+    assert_eq!(
+        files(&here.join("o")),
+        ["notes.txt", "scenario.toml", "signals.csv", "summary.json"]
+    );
+    // Finished runs are never removed.
+    brinell(here, &[&sweep[..], &["points"]].concat()).exits(0);
+    let before = common::results(&here.join("points"));
+    run(here, &["s.toml", "-o", "points", "--overwrite"])
+        .exits(2)
+        .complains(&["`brinell sweep`, with finished runs"]);
+    assert!(common::results(&here.join("points")) == before);
+}
+
+#[test]
+fn regress_a_comparison_of_other_scenarios_leaves_none_of_the_first() {
+    let folder = common::with_blocks("a.toml");
+    let here = folder.path();
+    let compare = |variants: &[&str], more: &[&str]| -> Call {
+        let mut args = vec!["compare", "a.toml", "-o", "c", "-q"];
+        variants.iter().for_each(|v| args.extend(["--variant", v]));
+        brinell(here, &[&args[..], more].concat())
+    };
+    let both = ["t:name=t", "u:defects.0.depth_um=10"];
+    compare(&both, &["--plots", "svg"]).exits(0);
+    compare(&both, &[]).exits(0);
+    compare(&both[..1], &[])
+        .exits(2)
+        .complains(&["c holds results of another set of scenarios"]);
+    compare(&both[..1], &["--overwrite"]).exits(0);
+    assert_eq!(
+        files(&here.join("c")),
+        [
+            "compare.csv",
+            "compare.html",
+            "compare.json",
+            "compare.parquet",
+            "scenarios/1-a.toml",
+            "scenarios/2-t.toml"
+        ]
+    );
+}

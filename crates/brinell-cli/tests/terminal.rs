@@ -1,0 +1,135 @@
+//! What reaches the terminal: all of it or an exit of 1, and nothing that steers it.
+
+mod common;
+
+use common::{Call, SHORT, brinell, command};
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+fn folder_with(scenario: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), scenario).unwrap();
+    folder
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn prop_a_standard_output_that_takes_nothing_is_exit_1_everywhere() {
+    let folder = folder_with(SHORT);
+    let here = folder.path();
+    let plan =
+        "base = \"s.toml\"\nruns = 2\nseed = 1\nlicence = \"CC0-1.0\"\n[[classes]]\nname = \"c\"\n";
+    fs::write(here.join("plan.toml"), plan).unwrap();
+    let long = "simulation.duration_s=0.5";
+    let fast = "operation.speed_rpm=3000";
+    let run = ["run", "s.toml", "-o", "RUN", "-q", "--no-report"];
+    brinell(here, &[&run[..], &["--set", long, "--set", fast]].concat()).exits(0);
+    brinell(here, &["dataset", "plan.toml", "-o", "data", "-q"]).exits(0);
+    let call = |args: &[&str]| -> Call {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        command(here, args).stdout(full).output().unwrap().into()
+    };
+    let vary = "operation.speed_rpm=1000,1500";
+    for args in [
+        &["schema"][..],
+        &["--help"],
+        &["run", "--help"],
+        &["--version"],
+        &["init"],
+        &["init", "new.toml"],
+        &["check", "s.toml"],
+        &["bearing", "list"],
+        &["bearing", "show", "NN3007"],
+        &["frequencies", "NN3007"],
+        &["frequencies", "NN3007", "--json"],
+        &["defect", "convert", "s.toml", "--to", "profile"],
+        &["defect", "simplify", "s.toml", "--to", "equal-area-circle"],
+        &["defect", "fit", "s.toml"],
+        &["defect", "preview", "s.toml", "-o", "p"],
+        &[
+            "defect",
+            "random",
+            "--seed",
+            "1",
+            "--length-mm",
+            "2",
+            "--width-mm",
+            "2",
+        ],
+        &["analyze", "RUN", "--json", "-"],
+        &["analyze", "RUN"],
+        &["run", "s.toml", "-o", "o", "--no-report"],
+        &["sweep", "s.toml", "--vary", vary, "--dry-run"],
+        &["dataset", "plan.toml", "--dry-run"],
+        &["dataset", "verify", "data"],
+        &["dataset", "merge", "data", "-o", "joined"],
+    ] {
+        call(args)
+            .exits(1)
+            .complains(&["error: cannot write to standard output: No space left on device"]);
+    }
+    assert!(
+        here.join("o/summary.json").exists(),
+        "the results are there"
+    );
+    // Bad input stays bad input; and who asks for no words misses none.
+    call(&["check", "none.toml"]).exits(2);
+    call(&["run", "s.toml", "-o", "o", "--no-report", "-q"]).exits(0);
+}
+
+/// That nothing of a call's output steers a terminal, and that `shown` is there.
+#[track_caller]
+fn harmless(call: &Call, shown: &str) {
+    let all = format!("{}{}", call.out, call.err);
+    let acts = |c: char| c.is_control() && c != '\n' && c != '\t';
+    assert!(!all.contains(acts), "{call:?}");
+    assert!(all.contains(shown), "no {shown} in {call:?}");
+}
+
+#[test]
+fn prop_names_from_files_do_not_steer_the_terminal() {
+    let name = r#"name = "\u001b]52;c;cHduZWQ=\u0007\u009b\n2J""#;
+    let folder = folder_with(&SHORT.replace(r#"name = "short""#, name));
+    let here: &Path = folder.path();
+    let shown = r"\u{1b}]52;c;cHduZWQ=\u{7}\u{9b}\u{a}2J";
+    harmless(&brinell(here, &["check", "s.toml"]).exits(0), shown);
+    let run = ["run", "s.toml", "-o", "o", "--no-report"];
+    harmless(&brinell(here, &run).exits(0), shown);
+    let both = ["run", "s.toml", "s2.toml", "-o", "many", "--no-report"];
+    fs::copy(here.join("s.toml"), here.join("s2.toml")).unwrap();
+    harmless(&brinell(here, &both).exits(0), shown);
+    // A key, and a line of the file, as raw as a file can hold it.
+    for text in [
+        format!("\"\\u001b]0;x\\u0007\" = 1\n{SHORT}"),
+        format!("# \u{9b}2J\nnamed = \"\u{9b}2J\"\n{SHORT}"),
+    ] {
+        fs::write(here.join("bad.toml"), text).unwrap();
+        harmless(&brinell(here, &["check", "bad.toml"]).exits(2), "\\u{");
+    }
+    // Channels of a measured file.
+    fs::write(here.join("x.csv"), "\u{1b}]0;PWNED\u{7},b\n1,2\n3,4\n5,6\n").unwrap();
+    let call = brinell(here, &["analyze", "x.csv", "--rate", "1000"]).exits(2);
+    harmless(&call, r"\u{1b}]0;PWNED\u{7}");
+    // JSON stays JSON.
+    fs::write(here.join("y.csv"), "a\u{9b}\n1\n2\n").unwrap();
+    let call = brinell(here, &["frequencies", "NN3007", "--json"]).exits(0);
+    serde_json::from_str::<serde_json::Value>(&call.out).unwrap();
+}
+
+/// The kernel kills a process that writes beyond the limit, unless it ignores the signal.
+#[cfg(target_os = "linux")]
+#[test]
+fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
+    let folder = folder_with(SHORT);
+    let limited = "ulimit -f 32; exec \"$0\" run s.toml -o o -q --no-report --signals csv";
+    let call = std::process::Command::new("sh")
+        .args(["-c", limited, env!("CARGO_BIN_EXE_brinell")])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    Call::from(call).exits(1).complains(&["signals.csv"]);
+    let there = common::files(&folder.path().join("o"));
+    let left = |name: &String| name.contains(".partial") || name.starts_with("signals");
+    assert!(!there.iter().any(left), "{there:?}");
+}
