@@ -138,8 +138,8 @@ mod tests {
     #[test]
     fn prop_kinds_without_end_are_few() {
         let mut problems = Problems::of("");
-        for a in 'a'..='z' {
-            for b in 'a'..='z' {
+        for a in 'A'..='Z' {
+            for b in 'A'..='Z' {
                 problems.add(Problem::error(format!("{a}{b}x"), "wrong"), None);
             }
         }
