@@ -77,7 +77,7 @@ def long_key_in_variant(folder):
 
 @case(PARTS)
 def long_key_in_fit(folder):
-    targets = ["--target", "outer_ax.rms=5", "--max-runs", "4"]
+    targets = ["--target", "outer_ax_rms=5~1"]
     return ["calibrate", scenario(folder), "-o", str(folder / "out"), "--fit", LONG + "=1:2", *targets]
 
 
@@ -106,7 +106,7 @@ def lists_in_lists_in_set(folder):
     return ["check", scenario(folder), "--set", "operation.load_n=" + "[" * 60 + "]" * 60]
 
 
-@case("recursion limit")
+@case("max recursion depth met")
 def lists_in_lists(folder):
     return ["check", scenario(folder, "x = " + "[" * 100_000 + "]" * 100_000)]
 
@@ -130,7 +130,12 @@ def wrong_defects(folder):
     return ["check", scenario(folder, DEFECT.replace("10.0", "-1.0") * 2000)]
 
 
-@case("at most 10000")
+@case("at most 5000 of them")
+def six_thousand_defects(folder):
+    return ["check", scenario(folder, DEFECT * 6000)]
+
+
+@case("tables are more than the 50000 of a document")
 def defects_without_end(folder):
     one = '[[defects]]\non="roller"\nrow=1\ndepth_um=1\nshape={circle={diameter_mm=1}}\n'
     return ["check", scenario(folder, one * 40_000)]
@@ -155,6 +160,11 @@ def unknown_tables(folder):
 @case("not valid TOML")
 def broken_lines(folder):
     return ["check", scenario(folder, "=\n" * 1_000_000)]
+
+
+@case("values are more than the 500000 of a document")
+def a_list_of_two_million(folder):
+    return ["check", scenario(folder, f"x = [{'1,' * 2_000_000}]")]
 
 
 @case("larger than 4 MiB")
@@ -263,6 +273,7 @@ def run(brinell, make, says, code):
         arguments = make(folder)
         with open(folder / "stderr", "wb+") as stderr:
             child = subprocess.Popen([brinell, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=stderr)
+            # What is largest before the command takes the child over counts as well: the memory of this script, which makes files piece by piece.
             # `wait4` tells what this child alone took; Popen knows no such thing.
             late = subprocess.Popen(["sh", "-c", f"sleep {WALL_SECONDS}; kill -9 {child.pid}"], stdout=subprocess.DEVNULL, start_new_session=True)
             _, status, usage = os.wait4(child.pid, 0)

@@ -15,7 +15,7 @@ use super::source::{Entry, Node, Table, Value, override_value, quote};
 use crate::bearing::catalogue;
 
 /// Tables of one list, such as `[[defects]]`, at most.
-const MOST_TABLES: usize = 10_000;
+const MOST_TABLES: usize = 5000;
 
 /// A table being read.
 struct Frame<'a> {

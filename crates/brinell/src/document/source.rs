@@ -11,6 +11,9 @@ use crate::bearing::catalogue::Datum;
 
 /// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper would end on the stack.
 pub(crate) const DEEPEST: usize = 32;
+/// Values and tables of a text at most: parsed, a value takes two hundred bytes and a table two kilobytes.
+const MOST_VALUES: usize = 500_000;
+const MOST_TABLES: usize = 50_000;
 /// Bytes of a text up to which every syntax error is looked for; of a longer one the first is told.
 const MOST_RECOVERED: usize = 256 << 10;
 
@@ -245,6 +248,10 @@ pub fn quote(text: &str) -> String {
 pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Problem>> {
     let mut problems = Problems::of(text);
     let mut root = Node::unplaced(Value::Table(Table::new()));
+    if let Some(message) = too_much(text) {
+        problems.add(Problem::error("", message), None);
+        return Err(problems.finish());
+    }
     match DeTable::parse(text) {
         Ok(table) => match convert_table(table.get_ref(), true, 0) {
             Ok(table) => root.value = Value::Table(table),
@@ -283,6 +290,22 @@ pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table,
         Value::Table(table) if problems.is_empty() => Ok(table),
         _ => Err(problems.finish()),
     }
+}
+
+/// Refuses a text with too many values, by what stands between them, before anything is made of it.
+fn too_much(text: &str) -> Option<String> {
+    let (mut values, mut tables) = (0, 0);
+    let mut before = b'\n';
+    for &byte in text.as_bytes() {
+        values += usize::from(matches!(byte, b',' | b'=' | b'[' | b'{'));
+        tables += usize::from(byte == b'{' || (byte == b'[' && before == b'\n'));
+        before = byte;
+    }
+    let (count, what, most) = match tables > MOST_TABLES {
+        true => (tables, "tables", MOST_TABLES),
+        false => (values, "values", MOST_VALUES),
+    };
+    (count > most).then(|| format!("some {count} {what} are more than the {most} of a document"))
 }
 
 fn too_deep() -> String {
