@@ -55,6 +55,24 @@ def test_prop_problems_come_all_at_once_and_without_lines_that_nobody_sees():
     assert isinstance(caught.value, ValueError)
 
 
+def test_regress_a_path_of_sixty_thousand_parts_is_refused(tmp_path):
+    scenario = brinell.Scenario(bearing="NN3007", operation=OPERATION)
+    path = ".".join(["a"] * 60_000)
+    with pytest.raises(brinell.ScenarioError, match="60000 parts; there are at most 32"):
+        scenario.replace({path: 1})
+    (tmp_path / "plan.toml").write_text(f'base = "scenario.toml"\nruns = 2\n\n[vary]\n"{path}" = 1\n')
+    scenario.write(tmp_path / "scenario.toml")
+    with pytest.raises(brinell.ScenarioError, match="60000 parts; there are at most 32"):
+        brinell.Plan(tmp_path / "plan.toml")
+
+
+def test_regress_problems_stop_at_twenty_of_a_kind():
+    with pytest.raises(brinell.ScenarioError) as caught:
+        brinell.Scenario(bearing="NN3007", operation=OPERATION, cage={f"k{k}": 1 for k in range(2000)})
+    assert len(caught.value.problems) == 21
+    assert "and 1980 more like cage.k" in caught.value.problems[-1]["message"]
+
+
 @pytest.mark.parametrize("value", [object(), 3 + 4j, {1, 2}, {1: 2}, b"bytes", [[[object()]]]])
 def test_prop_what_no_scenario_holds_is_refused(value):
     with pytest.raises((TypeError, brinell.ScenarioError)):

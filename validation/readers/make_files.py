@@ -8,6 +8,8 @@ from pathlib import Path
 import h5py
 import hdf5storage
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pyuff
 import scipy.io
 import scipy.io.wavfile
@@ -144,6 +146,18 @@ np.save(out / "i2_big.npy", (8 * signal(3)).astype(">i2"))
 np.save(out / "f2.npy", signal(4).astype("f2"))
 np.savez(out / "plain.npz", acc=signal(0), pair=np.column_stack([signal(1), signal(2)]), fs=25600.0, title="Prüfstand")
 np.savez_compressed(out / "packed.npz", acc=signal(0), number=np.int32(3), z=signal(0) + 1j)
+
+# --- Parquet: what others compress with, and columns that lie within each other.
+flat = pa.table({"acc": signal(0), "count": (8 * signal(1)).astype("i4"), "single": signal(2).astype("f4")})
+for codec in ["gzip", "lz4", "snappy", "brotli"]:
+    pq.write_table(flat, out / f"{codec}.parquet", compression=codec)
+nested = {
+    "label": ["healthy", "outer"],
+    "load": [100.0, 200.0],
+    "acc": pa.array([signal(0), signal(1)], pa.list_(pa.float32())),
+    "bearing": [{"bore": 30.0, "name": "a"}, {"bore": 35.0, "name": "b"}],
+}
+pq.write_table(pa.table(nested), out / "nested.parquet", compression="zstd")
 
 # --- WAV.
 both = 8 * np.column_stack([signal(0), signal(1)])

@@ -106,6 +106,43 @@ fn regress_a_wrong_value_is_named_with_range_unit_and_line() {
 }
 
 #[test]
+fn regress_what_no_file_holds_is_refused_in_a_few_lines() {
+    // What is written of a scenario with its damage files is read again.
+    assert_eq!(brinell_io::LARGEST_TEXT as usize, brinell_damage::MOST_TEXT);
+    let keys: String = (0..3000).map(|k| format!("k{k} = 1\n")).collect();
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), keys + SHORT).unwrap();
+    let call = brinell(folder.path(), &["check", "s.toml"])
+        .exits(2)
+        .complains(&["and 2980 more like k", "3000 errors in s.toml"]);
+    assert!(call.err.lines().count() < 120, "{}", call.err);
+    fs::write(folder.path().join("s.toml"), SHORT).unwrap();
+    fs::write(folder.path().join("plan.toml"), "#".repeat(5 << 20)).unwrap();
+    let long = vec!["a"; 60_000].join(".") + "=1";
+    for (args, words) in [
+        (&["check", "s.toml", "--set", &*long][..], "has 60000 parts"),
+        (
+            &["run", "s.toml", "-o", "o", "--set", &*long],
+            "has 60000 parts",
+        ),
+        (
+            &["sweep", "s.toml", "-o", "o", "--vary", &*long],
+            "has 60000 parts",
+        ),
+        (
+            &["dataset", "plan.toml", "-o", "o"],
+            "larger than 4 MiB; a scenario or a plan",
+        ),
+        (
+            &["check", "s.toml", "--set", "operation.speed_rpm=1e12"],
+            "is a speed factor of 4.6",
+        ),
+    ] {
+        brinell(folder.path(), args).exits(2).complains(&[words]);
+    }
+}
+
+#[test]
 fn regress_impossible_geometry_is_refused_with_what_would_be_possible() {
     let preset = "preset = \"NU206\"";
     for (key, parts) in [
@@ -404,11 +441,11 @@ mod interrupted {
         );
     }
 
-    /// At 1e12 r/min a step is so short that minutes go by from one sample to the next.
+    /// A sample every 200 s of simulated time: minutes go by from one to the next.
     #[test]
     fn regress_ctrl_c_is_heard_between_samples() {
         let begin = Instant::now();
-        let (_folder, call) = interrupt(&["--set", "operation.speed_rpm=1e12"], 0);
+        let (_folder, call) = interrupt(&["--set", "simulation.sample_rate_hz=0.005"], 0);
         call.exits(130)
             .says(&["Interrupted: the results are partial, up to t = 0.0000 s."]);
         assert!(begin.elapsed() < Duration::from_secs(20));

@@ -107,6 +107,14 @@ pub enum DamageError {
         /// The largest gap that is closed without a word.
         tolerance_mm: f64,
     },
+    /// Lines that cross too often to be an outline.
+    #[error("{at}: {why}; save the damage's outline alone, without lines that cross")]
+    Tangled {
+        /// The element.
+        at: String,
+        /// How often.
+        why: String,
+    },
     /// A value of a table that is no number.
     #[error(
         "line {line}, column {column}: `{text}` is not a number; a missing point is an empty cell or `nan`"

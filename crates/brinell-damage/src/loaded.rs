@@ -1,7 +1,7 @@
 //! The files of damage that a scenario's text names, told of with the text's lines.
 
 use crate::{Unresolved, resolve};
-use brinell::document::{Loaded, Problem, locate};
+use brinell::document::{Loaded, Problem, Problems, Severity, locate};
 use std::path::Path;
 
 /// [`resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
@@ -28,7 +28,11 @@ pub fn resolve_loaded(
             let place = locate(text, &error.key).filter(|_| !given);
             Problem::of_file(&error.key, &error.file, &error.message).placed(place)
         };
-        errors.into_iter().map(placed).collect::<Vec<_>>()
+        let mut problems = Problems::of(text);
+        for error in errors {
+            problems.add_of(Severity::Error, "file of damage", || (placed(error), None));
+        }
+        problems.finish()
     })?;
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {

@@ -13,6 +13,8 @@ use crate::kind::{FileKind, describe};
 
 /// The largest image that is read: 8192 x 8192. Two bytes a pixel and a decoder's own need stay well under 1 GB.
 pub(crate) const MAX_PIXELS: u64 = 1 << 26;
+/// Pixels along a side: one line of pixels encloses nothing, and JPEG has no longer sides.
+const SIDES: std::ops::RangeInclusive<u64> = 2..=65_535;
 /// What a PNG decoder may take for itself, beside the picture.
 const PNG_BYTES: usize = 64 << 20;
 
@@ -48,7 +50,14 @@ pub(crate) fn decode(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageErr
     Ok(upright(pixels, turn))
 }
 
-fn check_size(width: u64, height: u64) -> Result<(), DamageError> {
+fn check_size(kind: FileKind, width: u64, height: u64) -> Result<(), DamageError> {
+    if !SIDES.contains(&width) || !SIDES.contains(&height) {
+        return Err(DamageError::Unsupported {
+            at: format!("this {kind} file"),
+            what: format!("an image of {width} x {height} pixels"),
+            way_out: "each side has 2 to 65535 pixels; cut out the damage, or scale the image and adapt the spacing",
+        });
+    }
     if width * height <= MAX_PIXELS {
         return Ok(());
     }
@@ -154,7 +163,7 @@ pub(crate) fn png_rows(
     let info = decoder
         .read_header_info()
         .map_err(|e| fault("its header", e))?;
-    check_size(u64::from(info.width), u64::from(info.height))?;
+    check_size(FileKind::Png, u64::from(info.width), u64::from(info.height))?;
     let mut reader = decoder.read_info().map_err(|e| fault("its header", e))?;
     let (color, depth) = reader.output_color_type();
     let samples = match color {
@@ -261,7 +270,7 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageErr
         .info()
         .ok_or_else(|| broken(FileKind::Jpeg, "its header", "no size"))?;
     let (width, height) = (usize::from(info.width), usize::from(info.height));
-    check_size(width as u64, height as u64)?;
+    check_size(FileKind::Jpeg, width as u64, height as u64)?;
     let grey = decoder.decode().map_err(|e| fault("its pixels", e))?;
     if grey.len() != width * height {
         return Err(broken(

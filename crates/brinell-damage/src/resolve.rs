@@ -15,7 +15,9 @@ use crate::{
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
 /// Nodes of the damaged part of a scan: they all stand in the resolved scenario, 10 bytes each.
-const MOST_NODES: usize = 1 << 20;
+const MOST_NODES: usize = 1 << 18;
+/// Bytes of the resolved scenario's text: longer ones are not read again (`brinell_io::LARGEST_TEXT`).
+pub const MOST_TEXT: usize = 4 << 20;
 /// Share of a scan's points above which it shows nothing sound.
 const MOST_DAMAGED: f64 = 0.95;
 /// Share of a scan's rim above which it is worth a word that the rim is damage.
@@ -93,6 +95,26 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
     if !errors.is_empty() {
         return Err(errors);
     }
+    let text = resolved.to_toml().len();
+    if text > MOST_TEXT {
+        let largest = files
+            .iter()
+            .max_by_key(|(i, ..)| size(&resolved.defects[*i].shape));
+        let (defect, key, file) = largest.unwrap_or(&files[0]).clone();
+        let message = format!(
+            "with the geometry of its files the scenario takes {:.1} MiB, more than the {} MiB that are read again; this file has {} numbers: \
+             simplify its damage, or scale it down",
+            text as f64 / f64::from(1 << 20),
+            MOST_TEXT >> 20,
+            size(&resolved.defects[defect].shape)
+        );
+        return Err(vec![Unresolved {
+            defect,
+            key,
+            file,
+            message,
+        }]);
+    }
     let before = scenario.problems();
     for problem in resolved.problems() {
         if before.contains(&problem) {
@@ -128,6 +150,15 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
     }
     *scenario = resolved;
     Ok(warnings)
+}
+
+/// Numbers of a shape's geometry.
+fn size(shape: &Shape) -> usize {
+    match shape {
+        Shape::Outline { polygons_mm } => 2 * polygons_mm.iter().map(Vec::len).sum::<usize>(),
+        Shape::DepthMap { grid } => grid.depth_um.len(),
+        _ => 0,
+    }
 }
 
 /// A problem without its key and value, which stand in no file of the user's.
@@ -173,7 +204,7 @@ pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), 
     let Some(file) = shape.file() else {
         return Ok((shape.clone(), Vec::new()));
     };
-    let bytes = bytes(&folder.join(file))?;
+    let bytes = bytes(&folder.join(file), largest(shape))?;
     if bytes.is_empty() {
         return Err("the file is empty".into());
     }
@@ -199,7 +230,16 @@ pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), 
     Ok((shape, polygons.warnings))
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+/// Bytes of a file for a shape at most.
+fn largest(shape: &Shape) -> u64 {
+    match shape {
+        #[cfg(feature = "svg")]
+        Shape::Svg(_) => crate::svg::MAX_BYTES as u64,
+        _ => LARGEST,
+    }
+}
+
+fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
     let failed = |error| format!("cannot read {}: {error}", path.display());
     let facts = std::fs::metadata(path).map_err(failed)?;
     if !facts.is_file() {
@@ -207,14 +247,14 @@ fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(failed)?;
-    file.take(LARGEST + 1)
+    file.take(largest + 1)
         .read_to_end(&mut bytes)
         .map_err(failed)?;
-    if bytes.len() as u64 > LARGEST {
+    if bytes.len() as u64 > largest {
         return Err(format!(
             "{} is larger than {} MiB; cut out the damage",
             path.display(),
-            LARGEST >> 20
+            largest >> 20
         ));
     }
     Ok(bytes)

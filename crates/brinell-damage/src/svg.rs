@@ -2,6 +2,7 @@
 //! nothing. Overlapping shapes unite, holes follow each path's fill rule, self-intersections are resolved by it.
 //! A stroke's width is not part of the outline. Clips, masks, text and embedded images are left out, with a warning.
 
+use brinell::defect::check_crossings;
 use i_overlay::core::fill_rule::FillRule;
 use kurbo::{Affine, BezPath, PathEl, Point};
 use roxmltree::{Document, Node, NodeId};
@@ -23,7 +24,7 @@ const MAX_DEPTH: usize = 64;
 /// Elements visited, `use` counted each time.
 const MAX_ELEMENTS: usize = 200_000;
 /// Bytes of the file.
-const MAX_BYTES: usize = 64 << 20;
+pub(crate) const MAX_BYTES: usize = 4 << 20;
 
 /// How to read a drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +80,7 @@ pub fn read_svg(bytes: &[u8], options: &SvgOptions) -> Result<Polygons, DamageEr
         return Err(DamageError::TooLarge {
             what: "the drawing",
             value: format!("{} bytes", bytes.len()),
-            limit: format!("{MAX_BYTES} bytes"),
+            limit: format!("{} MiB", MAX_BYTES >> 20),
             way_out: "save the damage's outline alone",
         });
     }
@@ -362,6 +363,10 @@ impl Reader<'_> {
         } else {
             FillRule::NonZero
         };
+        check_crossings(&rings).map_err(|why| DamageError::Tangled {
+            at: place(node),
+            why: why.to_string(),
+        })?;
         let rings = united(&rings, rule);
         if rings.is_empty() {
             self.warn(format!("{}: left out; it encloses nothing", place(node)));
@@ -381,7 +386,14 @@ impl Reader<'_> {
                 return Err(DamageError::NothingDamaged { why });
             }
             1 => self.shapes.remove(0),
-            _ => united(&self.shapes.concat(), FillRule::NonZero),
+            _ => {
+                let all = self.shapes.concat();
+                check_crossings(&all).map_err(|why| DamageError::Tangled {
+                    at: "its shapes together".into(),
+                    why: why.to_string(),
+                })?;
+                united(&all, FillRule::NonZero)
+            }
         };
         let mut result = Polygons {
             polygons_mm: rings,

@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::PI;
 
 use brinell_damage::{DamageError, Polygons, SvgOptions, read_svg};
-use common::{holds, width_at};
+use common::{Noise, holds, width_at};
 
 fn page(inside: &str) -> String {
     format!(
@@ -333,4 +333,42 @@ fn prop_a_drawing_that_doubles_itself_is_refused_quickly() {
     let error = refuse(&page(&text), &SvgOptions::default());
     assert!(matches!(error, DamageError::TooLarge { .. }), "{error}");
     assert!(begin.elapsed().as_secs() < 20);
+}
+
+#[test]
+fn regress_lines_that_cross_everywhere_are_refused() {
+    let mut noise = Noise(1);
+    let mut point = || {
+        format!(
+            "{:.3} {:.3}",
+            20.0 * noise.uniform(),
+            10.0 * noise.uniform()
+        )
+    };
+    let points: Vec<String> = (0..2000).map(|_| point()).collect();
+    let path = format!("<path d=\"M {} Z\"/>", points.join(" "));
+    // Bars across bars: none crosses itself.
+    let bar = |k: usize| {
+        let at = 0.05 * k as f64;
+        format!(
+            "<rect x=\"{at}\" width=\"0.02\" height=\"10\"/><rect y=\"{at}\" width=\"20\" height=\"0.02\"/>"
+        )
+    };
+    let bars: String = (0..100).map(bar).collect();
+    for (drawing, at) in [(path, "line 1, `path`"), (bars, "its shapes together")] {
+        let error = refuse(&page(&drawing), &SvgOptions::default());
+        assert!(matches!(error, DamageError::Tangled { .. }), "{error}");
+        let expected = format!("{at}: sides cross in more than 10000 places; save");
+        assert!(error.to_string().starts_with(&expected), "{error}");
+    }
+}
+
+#[test]
+fn regress_a_drawing_has_4_mib_at_most() {
+    let long = page(&format!("<!--{}-->", "x".repeat(4 << 20)));
+    let error = refuse(&long, &SvgOptions::default()).to_string();
+    assert!(
+        error.contains("more than the 4 MiB that are read"),
+        "{error}"
+    );
 }

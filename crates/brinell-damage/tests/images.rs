@@ -132,10 +132,10 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
 proptest! {
     #[test]
     fn prop_outlines_hold_exactly_the_damaged_pixels(
-        width in 1..14_usize, values in prop::collection::vec(0..5_u8, 1..170), level in 1..5_u8,
+        width in 2..14_usize, values in prop::collection::vec(0..5_u8, 4..170), level in 1..5_u8,
     ) {
         let height = values.len() / width;
-        prop_assume!(height > 0);
+        prop_assume!(height > 1);
         let damaged = |x: usize, y: usize| values[y * width + x] >= level;
         let count = (0..width * height).filter(|i| damaged(i % width, i / width)).count();
         let image = grey_png(width, height, |x, y| 1.0 - 0.2 * f64::from(values[y * width + x]));
@@ -503,4 +503,37 @@ fn prop_the_largest_images_stay_within_a_gigabyte() {
         }
     }
     assert!(peak_mb() < 1000.0);
+}
+
+/// The header alone: nothing of the pixels is there to be decoded.
+#[test]
+fn regress_an_image_of_one_line_of_pixels_is_refused_from_its_header() {
+    for (width, height) in [
+        (1, 1 << 26),
+        (1 << 26, 1),
+        (2, 1 << 25),
+        (1, 1),
+        (65_536, 2),
+    ] {
+        let whole = grey_png(2, 2, |_, _| 0.5);
+        let mut head = whole[..33].to_vec();
+        head[16..20].copy_from_slice(&u32::to_be_bytes(width));
+        head[20..24].copy_from_slice(&u32::to_be_bytes(height));
+        let checksum = crc32(&head[12..29]).to_be_bytes();
+        head[29..33].copy_from_slice(&checksum);
+        let error = read_image(&head, &options(EDGES)).unwrap_err();
+        let expected = format!(
+            "this PNG file: an image of {width} x {height} pixels is not understood; each side has 2 to 65535 pixels"
+        );
+        assert!(error.to_string().starts_with(&expected), "{error}");
+    }
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, byte: &u8| {
+        (0..8).fold(crc ^ u32::from(*byte), |c, _| {
+            (c >> 1) ^ (0xEDB8_8320 & (c & 1).wrapping_neg())
+        })
+    };
+    !bytes.iter().fold(u32::MAX, step)
 }

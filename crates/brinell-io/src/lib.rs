@@ -61,7 +61,7 @@ pub use read::{
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
 pub use table::{Cells, Table};
-pub use text::read_text;
+pub use text::{LARGEST_TEXT, read_text};
 pub use write::mat::MatWriter;
 #[cfg(feature = "npz")]
 pub use write::npz::NpzWriter;

@@ -1,4 +1,4 @@
-//! Files of other programs, read. `validation/readers/make_files.py` made them with SciPy, h5py, hdf5storage, NumPy and pyuff.
+//! Files of other programs, read. `validation/readers/make_files.py` made them with SciPy, h5py, hdf5storage, NumPy, pyarrow and pyuff.
 
 use std::path::PathBuf;
 
@@ -316,4 +316,50 @@ fn xval_text_of_instruments() {
     let source = RateSource::Header("Delta_X".into());
     assert_eq!(rate(acc), Some((25000.0, &source)));
     holds(&mut file, "Voltage", &signal(1));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn xval_parquet_of_pyarrow() {
+    for codec in ["gzip", "lz4", "snappy"] {
+        let mut file = opened(&format!("{codec}.parquet"));
+        assert_eq!(names(&file), ["acc", "count", "single"], "{codec}");
+        holds(&mut file, "acc", &signal(0));
+        holds(&mut file, "count", &eighths(1));
+        holds(&mut file, "single", &signal(2));
+    }
+    let mut file = opened("brotli.parquet");
+    let error = file.read("acc").unwrap_err().to_string();
+    assert!(
+        error.ends_with(
+            "cannot read: `acc` is compressed with Brotli, which is not supported here: save the file with zstd, snappy, lz4 or gzip"
+        ),
+        "{error}"
+    );
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn xval_parquet_with_nested_columns() {
+    let mut file = opened("nested.parquet");
+    assert_eq!(
+        names(&file),
+        ["label", "load", "acc", "bearing.bore", "bearing.name"]
+    );
+    holds(&mut file, "load", &[100.0, 200.0]);
+    for (name, why) in [
+        (
+            "acc",
+            "is nested, a list in each row, which is not supported here: save one row as a table",
+        ),
+        (
+            "bearing.bore",
+            "is nested, which is not supported here: save it as a flat column",
+        ),
+        ("label", "does not hold numbers"),
+    ] {
+        let error = file.read(name).unwrap_err();
+        assert!(matches!(error, brinell_io::IoError::Unsupported { .. }));
+        assert!(error.to_string().contains(why), "{error}");
+    }
 }

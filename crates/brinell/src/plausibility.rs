@@ -5,7 +5,7 @@
 //! [`crate::document`].
 
 use crate::defect::{SIDES, Side, relative_radius, wrap};
-use crate::document::{Problem, Severity, toml_float, unit_of_key};
+use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{STATIC_LIMIT, pressures, static_rating};
@@ -43,7 +43,14 @@ pub fn before(
     warnings.extend(out_of_reach(scenario, model));
     warnings.extend(coarse_slices(scenario, model));
     warnings.extend(too_short(scenario, model));
-    warnings
+    few_of_a_kind(warnings)
+}
+
+/// The first of each kind: thousands of defects can lie outside the load zone.
+fn few_of_a_kind(warnings: Vec<Problem>) -> Vec<Problem> {
+    let mut few = Problems::of("");
+    warnings.into_iter().for_each(|w| few.add(w, None));
+    few.finish()
 }
 
 /// Warnings of a run that is over.

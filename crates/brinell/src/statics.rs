@@ -72,13 +72,21 @@ pub struct Balance {
 /// No balance was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "no static balance: {residual:.3e} N are left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against the load"
+    "no static balance: {} left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against the load",
+    newton(*.residual)
 )]
 pub struct NoBalance {
-    /// Force left over, N.
+    /// Force left over, N; not a number where a contact force was none.
     pub residual: f64,
     /// Iterations made.
     pub iterations: usize,
+}
+
+fn newton(force: f64) -> String {
+    match force.is_finite() {
+        true => format!("{force:.3e} N are"),
+        false => "a force beyond any number is".into(),
+    }
 }
 
 /// What one roller contributes at given ring offsets.
@@ -126,9 +134,10 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     // The series stiffness at a deflection of a micrometre: any value of this order starts the damping.
     let mut damping = 1e-3 * model.series_contact.tangent(1e-6, None).max(1.0);
     let mut potential = evaluate(model, problem, &forces, &x, &mut rollers);
+    let mut residual = 0.0;
     for iterations in 0..MAX_ITERATIONS {
         let (gradient, hessian) = derivatives(model, problem, &forces, &x, &rollers, &free);
-        let residual = gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
+        residual = gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
         if residual <= 1e-10 * scale {
             return Ok(finish(model, problem, x, &rollers, residual, iterations));
         }
@@ -170,7 +179,7 @@ pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
         }
     }
     Err(NoBalance {
-        residual: f64::NAN,
+        residual,
         iterations: MAX_ITERATIONS,
     })
 }

@@ -536,7 +536,13 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
 
 #[test]
 fn regress_bad_plans_are_told_with_key_line_and_range() {
+    let long = ["a"; 40].join(".");
+    let long = format!("base = 'b'\nruns = 3\n[vary]\n\"{long}\" = 1");
     for (plan, parts) in [
+        (
+            long.as_str(),
+            vec!["the path of a key has 40 parts; there are at most 32"],
+        ),
         ("runs = 3", vec!["base: missing: a string is required"]),
         (
             "base = 'b'\nruns = 0",

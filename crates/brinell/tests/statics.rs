@@ -380,3 +380,19 @@ fn prop_ring_that_nothing_holds_is_refused() {
     s.operation.gravity_m_per_s2 = [0.0, -9.81];
     assert!(refused(&s), "it falls");
 }
+
+#[test]
+fn regress_no_balance_is_told_without_a_nan() {
+    let told = |residual: f64| {
+        let none = brinell::statics::NoBalance {
+            residual,
+            iterations: 200,
+        };
+        none.to_string()
+    };
+    assert!(told(12.5).starts_with("no static balance: 1.250e1 N are left on a ring after 200"));
+    for residual in [f64::NAN, f64::INFINITY] {
+        let words = "no static balance: a force beyond any number is left on a ring after 200";
+        assert!(told(residual).starts_with(words), "{}", told(residual));
+    }
+}

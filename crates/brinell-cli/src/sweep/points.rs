@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
 use brinell::campaign::{Axis, Plan, digest, fingerprint};
-use brinell::document::{Problem, on_one_line, one_line};
+use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
@@ -159,8 +159,6 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
 /// Adds a warning to those of other points: one about the same key with the same value is told once, as the first point has it.
 fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
     let same = |w: &Problem| {
-        let numberless =
-            |text: &str| text.replace(|c: char| c.is_ascii_digit() || ".e+-".contains(c), "");
         w.key == warning.key
             && w.value == warning.value
             && numberless(&w.message) == numberless(&warning.message)

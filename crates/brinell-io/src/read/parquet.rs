@@ -1,11 +1,12 @@
-//! Parquet, read: flat tables of numbers, from brinell or anyone else (plain, Snappy or Zstandard).
+//! Parquet, read: flat columns of numbers, from brinell or anyone else (plain, Snappy, Zstandard, gzip or LZ4). Nested columns are listed and
+//! not read.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use parquet::basic::Type;
+use parquet::basic::{Compression, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
@@ -14,7 +15,7 @@ use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReade
 use serde_json::{Map, Value};
 
 use super::channel::{Channel, Rate, RateSource};
-use super::fault::{Fault, damaged};
+use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give};
 use super::{Listing, Source};
 use crate::{Column, IoError, Metadata, Signals, keys};
@@ -37,6 +38,11 @@ pub fn read_parquet(path: impl AsRef<Path>) -> Result<Signals, IoError> {
 
 fn read(file: File) -> Result<Signals, ParquetError> {
     let (reader, columns, metadata) = head(file)?;
+    for (i, column) in columns.iter().enumerate() {
+        if let Some(why) = unreadable(reader.metadata(), i) {
+            return Err(ParquetError::NYI(format!("`{}` {why}", column.name)));
+        }
+    }
     let mut data = vec![Vec::new(); columns.len()];
     for (i, (values, column)) in data.iter_mut().zip(&columns).enumerate() {
         column_pieces(&reader, i, &column.name, &mut |piece| {
@@ -100,7 +106,7 @@ impl ChunkReader for Bounded {
 
 type Head = (SerializedFileReader<Bounded>, Vec<Column>, Metadata);
 
-/// The columns and the metadata; an error where a column is nested or reaches outside the file.
+/// The columns and the metadata; an error where a column reaches outside the file.
 fn head(file: File) -> Result<Head, ParquetError> {
     let file_bytes = file.metadata()?.len();
     let reader = SerializedFileReader::new(Bounded { file, file_bytes })?;
@@ -121,13 +127,12 @@ fn head(file: File) -> Result<Head, ParquetError> {
     let (units, descriptions) = (object(keys::UNITS), object(keys::DESCRIPTIONS));
     let mut columns = Vec::new();
     for column in file_metadata.schema_descr().columns() {
-        let name = column.name();
-        if column.max_rep_level() > 0 || column.path().parts().len() > 1 {
-            return Err(ParquetError::NYI(format!(
-                "column `{}` is nested",
-                column.path()
-            )));
-        }
+        // A plain list is named after its column, what lies deeper by its path.
+        let name = &match column.path().parts() {
+            [name, list, _] if list == "list" => name.clone(),
+            [name] => name.clone(),
+            _ => column.path().string(),
+        };
         let text = |of: &Map<String, Value>| {
             of.get(name)
                 .and_then(Value::as_str)
@@ -137,10 +142,40 @@ fn head(file: File) -> Result<Head, ParquetError> {
         columns.push(Column {
             unit: text(&units),
             description: text(&descriptions),
-            name: name.to_owned(),
+            name: name.clone(),
         });
     }
     Ok((reader, columns, metadata))
+}
+
+/// Why a column is not read, to follow its name; `None` where it is.
+fn unreadable(about: &ParquetMetaData, index: usize) -> Option<String> {
+    let column = about.file_metadata().schema_descr().column(index);
+    if column.max_rep_level() > 0 {
+        let how = "save one row as a table of its own, such as pandas.DataFrame({\"x\": table[\"x\"][0]})";
+        return Some(format!(
+            "is nested, a list in each row, which is not supported here: {how}"
+        ));
+    }
+    if column.path().parts().len() > 1 {
+        return Some("is nested, which is not supported here: save it as a flat column".into());
+    }
+    match column.physical_type() {
+        Type::DOUBLE | Type::FLOAT | Type::INT32 | Type::INT64 => {}
+        _ => return Some("does not hold numbers".into()),
+    }
+    let packed =
+        about
+            .row_groups()
+            .iter()
+            .find_map(|group| match group.column(index).compression() {
+                Compression::BROTLI(_) => Some("Brotli"),
+                Compression::LZO => Some("LZO"),
+                _ => None,
+            })?;
+    Some(format!(
+        "is compressed with {packed}, which is not supported here: save the file with zstd, snappy, lz4 or gzip"
+    ))
 }
 
 type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
@@ -160,9 +195,7 @@ fn column_pieces(
             ColumnReader::Int32ColumnReader(r) => pieces(r, take, f64::from)?,
             ColumnReader::Int64ColumnReader(r) => pieces(r, take, |v| v as f64)?,
             _ => {
-                return Err(ParquetError::NYI(format!(
-                    "column `{name}` does not hold numbers"
-                )));
+                return Err(ParquetError::NYI(format!("`{name}` does not hold numbers")));
             }
         }
     }
@@ -229,7 +262,10 @@ struct Table {
 
 impl From<ParquetError> for Fault {
     fn from(error: ParquetError) -> Self {
-        damaged(error.to_string())
+        match error {
+            ParquetError::NYI(why) => unsupported(why),
+            _ => damaged(error.to_string()),
+        }
     }
 }
 
@@ -262,8 +298,8 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
         );
         if stored.is_none() {
             channel.stored_as = "other";
-            channel.unreadable = Some("does not hold numbers".into());
         }
+        channel.unreadable = unreadable(about, i);
         channel.unit = Some(column.unit.clone()).filter(|unit| !unit.is_empty());
         channel.rate.clone_from(&rate);
         channel

@@ -27,7 +27,7 @@ pub use course::{Course, Line};
 pub use envelope::envelope;
 pub use grid::Grid;
 pub use ground::{Ground, Rules, relative_radius};
-pub use outline::{Fault, Outline, faults};
+pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
 pub use profile::Profile;
 pub use random::spall;
 pub use shape::Shape;

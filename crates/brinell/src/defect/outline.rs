@@ -2,6 +2,26 @@
 
 use super::bands::Border;
 use super::course::{Course, Line};
+use std::collections::HashSet;
+
+/// Places where sides of an outline may cross: each is a corner of L_s.
+pub const MOST_CROSSINGS: usize = 10_000;
+/// Pairs of sides that are compared to find them: an outline of a hundred thousand short sides takes a tenth.
+const MOST_COMPARED: usize = 50_000_000;
+
+/// Why the crossings of polygons were not all looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Tangle {
+    /// There are too many.
+    #[error("sides cross in more than {} places", MOST_CROSSINGS)]
+    Crossings,
+    /// There are too many places to look at.
+    #[error(
+        "so many long sides lie side by side that their crossings cannot be counted (more than {:e} pairs)",
+        MOST_COMPARED as f64
+    )]
+    Neighbours,
+}
 
 /// What is wrong with polygons; coordinates in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +57,8 @@ pub enum Fault {
         /// Where.
         at: [f64; 2],
     },
+    /// Too many crossings to be an outline.
+    Tangled(Tangle),
 }
 
 /// An edge from left to right.
@@ -63,12 +85,12 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// From polygons in m. `None` where one has a coordinate that is not finite, or nothing has an area.
+    /// From polygons in m. `None` where one has a coordinate that is not finite, nothing has an area, or sides cross in too many places.
     pub fn new(polygons: Vec<Vec<[f64; 2]>>) -> Option<Self> {
         if !polygons.iter().flatten().flatten().all(|x| x.is_finite()) {
             return None;
         }
-        let width = width(&polygons, f64::INFINITY);
+        let width = width(&polygons, f64::INFINITY)?;
         (width.integral() > 0.0).then_some(Self { polygons, width })
     }
 
@@ -84,8 +106,10 @@ impl Outline {
     pub fn within(mut self, length: f64) -> Self {
         let (low, high) = self.heights();
         let half = 0.5 * length;
-        if low < -half || high > half {
-            self.width = width(&self.polygons, half);
+        if (low < -half || high > half)
+            && let Some(width) = width(&self.polygons, half)
+        {
+            self.width = width;
         }
         self
     }
@@ -93,7 +117,7 @@ impl Outline {
     /// Borders between damage and none, each monotone in z, and the z at which sides cross.
     pub(super) fn borders(&self) -> (Vec<Border>, Vec<f64>) {
         let all = self.polygons.iter().flat_map(|p| sides(p));
-        let crossings = crossings(&edges(&self.polygons));
+        let crossings = crossings(&edges(&self.polygons)).unwrap_or_default();
         (
             all.filter_map(|(p, q)| Border::straight(p, q)).collect(),
             crossings.iter().map(|(_, at)| at[1]).collect(),
@@ -154,10 +178,11 @@ fn edges(polygons: &[Vec<[f64; 2]>]) -> Vec<Edge> {
 }
 
 /// L_s(s) within |z| <= `half` by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
-fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Course {
+/// `None` where they cross in too many places.
+fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<Course> {
     let edges = edges(polygons);
     let mut stops: Vec<f64> = polygons.iter().flatten().map(|p| p[0]).collect();
-    stops.extend(crossings(&edges).iter().map(|(_, at)| at[0]));
+    stops.extend(crossings(&edges).ok()?.iter().map(|(_, at)| at[0]));
     for edge in &edges {
         let [low, high] = [edge.left[1], edge.right[1]];
         for z in [-half, half] {
@@ -200,15 +225,23 @@ fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Course {
             lines.push(line);
         }
     }
-    Course::of_lines(&lines)
+    Some(Course::of_lines(&lines))
 }
 
-/// Where edges cross properly: which two, and the point. Edges must be sorted by their left ends.
-fn crossings(edges: &[Edge]) -> Vec<([usize; 2], [f64; 2])> {
+/// Where two edges cross properly: of which polygons they are, and the point.
+type Crossing = ([usize; 2], [f64; 2]);
+
+/// Every crossing. Edges must be sorted by their left ends.
+fn crossings(edges: &[Edge]) -> Result<Vec<Crossing>, Tangle> {
     let mut found = Vec::new();
     let mut active: Vec<&Edge> = Vec::new();
+    let mut compared = 0;
     for e in edges {
         active.retain(|a| a.right[0] >= e.left[0]);
+        compared += active.len();
+        if compared > MOST_COMPARED {
+            return Err(Tangle::Neighbours);
+        }
         let (low, high) = (e.left[1].min(e.right[1]), e.left[1].max(e.right[1]));
         for a in &active {
             if a.left[1].min(a.right[1]) <= high
@@ -218,9 +251,20 @@ fn crossings(edges: &[Edge]) -> Vec<([usize; 2], [f64; 2])> {
                 found.push(([a.polygon, e.polygon], at));
             }
         }
+        if found.len() > MOST_CROSSINGS {
+            return Err(Tangle::Crossings);
+        }
         active.push(e);
     }
-    found
+    Ok(found)
+}
+
+/// Refuses polygons whose sides cross in too many places, before anything is computed from them.
+///
+/// # Errors
+/// Where they do.
+pub fn check_crossings(polygons: &[Vec<[f64; 2]>]) -> Result<(), Tangle> {
+    crossings(&edges(polygons)).map(drop)
 }
 
 /// The point where two edges cross within both; touching is no crossing.
@@ -241,7 +285,7 @@ fn crossing(a: &Edge, b: &Edge) -> Option<[f64; 2]> {
     Some([0, 1].map(|k| a.left[k] + share * (a.right[k] - a.left[k])))
 }
 
-/// Everything wrong with polygons; [`Fault::Cross`] is the only one that can still be simulated.
+/// Everything wrong with polygons; [`Fault::CrossesItself`] and [`Fault::Cross`] can still be simulated.
 pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
     let mut faults = Vec::new();
     if polygons.is_empty() {
@@ -264,7 +308,7 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
         } else if double_area(corners).abs() <= 1e-12 * extent * extent {
             // A figure of eight can have no net area either; crossing itself is what is wrong with it.
             let own = edges(std::slice::from_ref(corners));
-            if crossings(&own).is_empty() {
+            if crossings(&own).is_ok_and(|found| found.is_empty()) {
                 faults.push(Fault::Flat { polygon });
             }
         }
@@ -275,13 +319,19 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
     {
         return faults;
     }
-    let mut named: Vec<[usize; 2]> = Vec::new();
-    for (mut pair, at) in crossings(&edges(polygons)) {
+    let crossings = match crossings(&edges(polygons)) {
+        Ok(crossings) => crossings,
+        Err(tangle) => {
+            faults.push(Fault::Tangled(tangle));
+            return faults;
+        }
+    };
+    let mut named: HashSet<[usize; 2]> = HashSet::new();
+    for (mut pair, at) in crossings {
         pair.sort_unstable();
-        if named.contains(&pair) {
+        if !named.insert(pair) {
             continue;
         }
-        named.push(pair);
         faults.push(if pair[0] == pair[1] {
             Fault::CrossesItself {
                 polygon: pair[0],
@@ -297,6 +347,7 @@ pub fn faults(polygons: &[Vec<[f64; 2]>]) -> Vec<Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     fn square(half: f64) -> Vec<[f64; 2]> {
         vec![[-half, -half], [half, -half], [half, half], [-half, half]]
@@ -348,6 +399,13 @@ mod tests {
             }]
         ));
         assert!(faults(&[square(2.0), square(1.0)]).is_empty());
+        // Points all over the place: every third pair of sides crosses.
+        let mut random = Random::new(1);
+        let mut point = || [random.uniform(), random.uniform()];
+        let tangled: Vec<[f64; 2]> = (0..3000).map(|_| point()).collect();
+        let tangled = [tangled];
+        assert_eq!(faults(&tangled), [Fault::Tangled(Tangle::Crossings)]);
+        assert!(Outline::new(tangled.to_vec()).is_none());
         // Halves that share an edge touch and do not cross.
         let left = vec![[-1.0, -1.0], [0.0, -1.0], [0.0, 1.0], [-1.0, 1.0]];
         let right = vec![[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]];

@@ -2,8 +2,10 @@
 
 use super::stream::Secret;
 use super::template::Template;
-use crate::document::reading::{Choice, Fallback, Finder, Keys, Reader, key, parse, stated, words};
-use crate::document::{Problem, Severity, locate};
+use crate::document::reading::{
+    Choice, Fallback, Finder, Keys, Reader, brief_path, key, parse, path_parts, stated, words,
+};
+use crate::document::{Problem, Problems, Severity, locate, numberless};
 use std::collections::HashSet;
 
 /// Runs of a plan at most: what each of them draws is kept in memory.
@@ -119,12 +121,12 @@ impl Plan {
         let mut reader = Reader::with_vocabulary(text, &root, &[]);
         keys(&mut reader, &mut plan);
         reader.finish();
-        let mut problems = reader.problems;
-        let finder = Finder::new(&reader.found, &reader.provenance);
-        if problems.is_empty() {
-            problems.extend(plan.problems(text, &finder));
-        }
-        problems.sort_by_key(Problem::order);
+        let finder = Finder::new(text, &reader.found, &reader.provenance);
+        let problems = if reader.problems.is_empty() {
+            plan.problems(text, &finder)
+        } else {
+            reader.problems.finish()
+        };
         if problems.iter().any(|p| p.severity == Severity::Error) {
             return Err(problems);
         }
@@ -165,14 +167,16 @@ impl Plan {
 
     /// What no single key can say.
     fn problems(&self, text: &str, finder: &Finder) -> Vec<Problem> {
-        let mut all = Vec::new();
+        let mut all = Problems::of(text);
         let mut add = |key: &str, value: &str, message: String, allowed: &str| {
-            let place = finder.place(key).or_else(|| locate(text, key));
-            let mut problem = Problem::error(key, message).allowed(allowed);
-            if !value.is_empty() {
-                problem = problem.value(value);
-            }
-            all.push(problem.at(place));
+            all.add_of(Severity::Error, numberless(&message), || {
+                let place = finder.place(key).or_else(|| locate(text, key));
+                let mut problem = Problem::error(brief_path(key), message).allowed(allowed);
+                if !value.is_empty() {
+                    problem = problem.value(value);
+                }
+                (problem.at(place), None)
+            });
         };
         if !matches!(self.vary, Template::Table(_)) {
             add(
@@ -286,12 +290,17 @@ impl Plan {
             );
         }
         for (what, template) in self.templates() {
+            for (path, _) in template.settings() {
+                if let Err(message) = path_parts(&path) {
+                    add(&format!("{what}.{path}"), "", message, "");
+                }
+            }
             let record = format!("{what}.simulation.record");
             if template.sets("simulation.record") {
                 add(&record, "", "`signals` says what is recorded".into(), "");
             }
         }
-        all
+        all.finish()
     }
 
     fn templates(&self) -> impl Iterator<Item = (String, &Template)> {

@@ -2,7 +2,7 @@
 
 use super::draws::Draws;
 use super::plan::OutOfRange;
-use crate::document::{Place, Problem, Severity, locate};
+use crate::document::{Place, Problem, Severity, locate, numberless};
 use crate::many;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -132,8 +132,6 @@ impl Survey {
 
 /// Adds to those that differ in numbers alone.
 fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) {
-    let numberless =
-        |text: &str| text.replace(|c: char| c.is_ascii_digit() || ".e+-".contains(c), "");
     let same = |m: &&mut Misses| {
         m.problem.key == problem.key
             && numberless(&m.problem.message) == numberless(&problem.message)

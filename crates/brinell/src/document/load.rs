@@ -33,10 +33,8 @@ pub fn read(text: &str, overrides: &[(String, String)]) -> Result<Loaded, Vec<Pr
     reader.read_recorded();
     sections::scenario(&mut reader, &mut scenario);
     reader.finish();
-    let finder = Finder::new(&reader.found, &reader.provenance);
-    let mut problems = checks::check(&scenario, &finder);
-    problems.append(&mut reader.problems);
-    problems.sort_by_key(Problem::order);
+    let finder = Finder::new(text, &reader.found, &reader.provenance);
+    let problems = checks::check(&scenario, &finder, reader.problems).finish();
     if problems
         .iter()
         .any(|problem| problem.severity == Severity::Error)

@@ -14,6 +14,7 @@ mod load;
 mod nearest;
 mod pointed;
 mod problem;
+mod problems;
 mod provenance;
 mod reader;
 mod recorded;
@@ -30,6 +31,7 @@ pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
 pub use pointed::{on_one_line, one_line, pointed_out};
 pub use problem::{Place, Problem, Severity};
+pub use problems::{MOST_OF_A_KIND, Problems, numberless};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
 pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
@@ -40,6 +42,8 @@ pub(crate) mod reading {
     pub(crate) use super::keys::{Fallback, Keys, Spec, key, stated};
     pub(crate) use super::leaf::{Choice, Leaf, Misfit};
     pub(crate) use super::reader::Reader;
-    pub(crate) use super::source::{Node, Value as Toml, key_text, parse, quote};
+    pub(crate) use super::source::{
+        Node, Value as Toml, brief_path, key_text, parse, path_parts, quote,
+    };
     pub(crate) use super::words::words;
 }

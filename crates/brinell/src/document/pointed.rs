@@ -6,12 +6,16 @@ use super::problem::{Problem, Severity};
 /// there are, where there are several. No line break at the end.
 pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
     let mut told = Vec::new();
+    let lines: Vec<&str> = match problems.iter().any(|p| p.line.is_some()) {
+        true => text.lines().collect(),
+        false => Vec::new(),
+    };
     for problem in problems {
         told.push(problem.to_string());
         let (Some(line), Some(column)) = (problem.line, problem.column) else {
             continue;
         };
-        let Some(source) = text.lines().nth(line - 1) else {
+        let Some(source) = lines.get(line - 1) else {
             continue;
         };
         let length = problem.span.as_ref().map_or(1, |s| {
@@ -30,10 +34,11 @@ pub fn pointed_out(name: &str, text: &str, problems: &[Problem]) -> String {
         let before = " ".repeat(column - 1 - from);
         told.push(format!("  {gutter} | {before}{marks}"));
     }
-    let errors = problems
+    let errors: usize = problems
         .iter()
         .filter(|p| p.severity == Severity::Error)
-        .count();
+        .map(|p| p.count)
+        .sum();
     if errors > 1 {
         told.push(format!("{errors} errors in {name}"));
     }

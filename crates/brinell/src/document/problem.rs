@@ -38,7 +38,7 @@ impl Place {
         let before = &text[..start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Place {
-            line: before.matches('\n').count() + 1,
+            line: before.bytes().filter(|byte| *byte == b'\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
             span: start..end,
         }
@@ -68,6 +68,8 @@ pub struct Problem {
     pub span: Option<Range<usize>>,
     /// Other keys that take part, with their places.
     pub also: Vec<(String, Option<Place>)>,
+    /// How many it stands for: more than one where those of its kind are too many to be told one by one.
+    pub count: usize,
 }
 
 impl Problem {
@@ -87,6 +89,7 @@ impl Problem {
             column: None,
             span: None,
             also: Vec::new(),
+            count: 1,
         }
     }
 

@@ -1,30 +1,28 @@
 //! The walk that fills a scenario from a tree of values, and reports everything that does not fit.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::keys::{Fallback, Keys, Spec, Variant};
 use super::leaf::{Leaf, Misfit};
 use super::nearest::nearest;
-use super::problem::{Place, Problem};
+use super::problem::{Problem, Severity};
+use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::schema::known_keys;
 use super::source::{Entry, Node, Table, Value, override_value, quote};
 use crate::bearing::catalogue;
 
-/// Where a key of the scenario stands, and what it says there.
-#[derive(Debug, Clone)]
-pub(crate) struct Found {
-    pub(crate) place: Option<Place>,
-    pub(crate) text: String,
-}
+/// Tables of one list, such as `[[defects]]`, at most.
+const MOST_TABLES: usize = 5000;
 
 /// A table being read.
 struct Frame<'a> {
     path: String,
     table: Option<&'a Table>,
     /// Where the table begins, for keys that are missing from it.
-    header: Option<Place>,
+    header: Option<Range<usize>>,
     /// Keys that the walk has named so far.
     named: Vec<&'static str>,
     /// The table itself was unusable: what it lacks is not worth a word.
@@ -32,7 +30,6 @@ struct Frame<'a> {
 }
 
 pub(crate) struct Reader<'a> {
-    text: &'a str,
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
     /// A preset was asked for and is unknown: what it would have filled is not worth a word.
@@ -41,9 +38,10 @@ pub(crate) struct Reader<'a> {
     vocabulary: &'a [(String, String)],
     /// What the file says was assumed when it was written.
     recorded: HashMap<String, Assumed>,
-    pub(crate) problems: Vec<Problem>,
+    pub(crate) problems: Problems<'a>,
     pub(crate) provenance: Vec<Provenance>,
-    pub(crate) found: HashMap<String, Found>,
+    /// What the file says of each key that the walk has named.
+    pub(crate) found: HashMap<String, &'a Node>,
 }
 
 fn join(path: &str, name: &str) -> String {
@@ -74,13 +72,12 @@ impl<'a> Reader<'a> {
             broken: false,
         };
         Reader {
-            text,
             frames: vec![root],
             preset: None,
             preset_unknown: false,
             vocabulary,
             recorded: HashMap::new(),
-            problems: Vec::new(),
+            problems: Problems::of(text),
             provenance: Vec::new(),
             found: HashMap::new(),
         }
@@ -113,21 +110,13 @@ impl<'a> Reader<'a> {
         let entry = frame.table.and_then(|table| table.get(spec.name));
         let path = join(&frame.path, spec.name);
         if let Some(entry) = entry {
-            let found = Found {
-                place: self.place(&entry.node),
-                text: entry.node.brief(),
-            };
-            self.found.insert(path.clone(), found);
+            self.found.insert(path.clone(), &entry.node);
         }
         (path, entry)
     }
 
-    fn place(&self, node: &Node) -> Option<Place> {
-        node.span.clone().map(|span| Place::new(self.text, span))
-    }
-
     fn enter(&mut self, path: String, node: Option<&'a Node>) {
-        let header = node.and_then(|node| self.place(node));
+        let header = node.and_then(|node| node.span.clone());
         let table = node.and_then(|node| match &node.value {
             Value::Table(table) => Some(table),
             _ => None,
@@ -153,44 +142,17 @@ impl<'a> Reader<'a> {
     }
 
     fn unknown(&mut self, frame: &Frame<'_>, name: &str, entry: &Entry) {
-        let path = join(&frame.path, name);
-        let home = |section: &str| match section {
-            "" => "the top of the file, before any section".to_string(),
-            section => format!("[{section}]"),
-        };
-        let elsewhere = |wanted: &str| {
-            let sections = self.vocabulary.iter().filter(|(_, name)| name == wanted);
-            let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
-            homes.join(" or ")
-        };
-        let hint = if self.vocabulary.iter().any(|(_, known)| known == name) {
-            format!("; it belongs in {}", elsewhere(name))
-        } else if let Some(known) = nearest(name, frame.named.iter().copied()) {
-            format!("; did you mean `{known}`?")
-        } else if let Some(known) = nearest(name, self.vocabulary.iter().map(|(_, k)| k.as_str())) {
-            format!("; did you mean `{known}` in {}?", elsewhere(known))
-        } else {
-            String::new()
-        };
-        let place = entry
-            .key_span
-            .clone()
-            .map(|span| Place::new(self.text, span));
-        let allowed = if hint.is_empty() {
-            frame.named.join(", ")
-        } else {
-            String::new()
-        };
-        let problem = Problem::error(path, format!("unknown key{hint}"))
-            .value(entry.node.brief())
-            .allowed(allowed);
-        self.problems.push(problem.at(place));
+        let vocabulary = self.vocabulary;
+        self.problems.add_of(Severity::Error, "unknown key", || {
+            let problem = unknown(vocabulary, frame, name, entry);
+            (problem, entry.key_span.clone())
+        });
     }
 
     fn misfit(&mut self, path: String, spec: &Spec, node: &Node, misfit: Misfit) {
         let element = misfit.element.as_deref().unwrap_or(node);
-        let place = self.place(element).or_else(|| self.place(node));
-        let source = if place.is_none() {
+        let span = element.span.clone().or_else(|| node.span.clone());
+        let source = if span.is_none() {
             " (given as an override)"
         } else {
             ""
@@ -203,7 +165,7 @@ impl<'a> Reader<'a> {
             .value(element.brief())
             .allowed(misfit.allowed)
             .unit(spec.unit);
-        self.problems.push(problem.at(place));
+        self.problems.add(problem, span);
     }
 
     fn missing(&mut self, path: String, unit: &'static str, expected: String, why: &str) {
@@ -211,9 +173,9 @@ impl<'a> Reader<'a> {
         if frame.broken {
             return;
         }
-        let place = frame.header.clone();
+        let header = frame.header.clone();
         let problem = Problem::error(path, format!("missing: {expected} is required{why}"));
-        self.problems.push(problem.unit(unit).at(place));
+        self.problems.add(problem.unit(unit), header);
     }
 
     fn record<T: Leaf>(
@@ -273,7 +235,7 @@ impl<'a> Reader<'a> {
             }
             Err(misfit) => {
                 let message = format!("the catalogue's value does not fit: {}", misfit.message);
-                self.problems.push(Problem::error(path, message));
+                self.problems.add(Problem::error(path, message), None);
                 None
             }
         }
@@ -305,8 +267,8 @@ impl<'a> Reader<'a> {
                 if value.is_defined() || self.problems.is_empty() {
                     let message = format!("cannot be derived ({how}): give it");
                     let problem = Problem::error(path, message).value(value.write());
-                    self.problems
-                        .push(problem.allowed(T::range(spec)).unit(spec.unit));
+                    let problem = problem.allowed(T::range(spec)).unit(spec.unit);
+                    self.problems.add(problem, None);
                 }
             }
             // What cannot be used comes of a key that is at fault itself, and reported.
@@ -330,6 +292,41 @@ impl<'a> Reader<'a> {
         }
         None
     }
+}
+
+/// A key that a table has and should not, with the one that was meant where that can be guessed.
+fn unknown(
+    vocabulary: &[(String, String)],
+    frame: &Frame<'_>,
+    name: &str,
+    entry: &Entry,
+) -> Problem {
+    let home = |section: &str| match section {
+        "" => "the top of the file, before any section".to_string(),
+        section => format!("[{section}]"),
+    };
+    let elsewhere = |wanted: &str| {
+        let sections = vocabulary.iter().filter(|(_, name)| name == wanted);
+        let homes: Vec<String> = sections.map(|(section, _)| home(section)).collect();
+        homes.join(" or ")
+    };
+    let hint = if vocabulary.iter().any(|(_, known)| known == name) {
+        format!("; it belongs in {}", elsewhere(name))
+    } else if let Some(known) = nearest(name, frame.named.iter().copied()) {
+        format!("; did you mean `{known}`?")
+    } else if let Some(known) = nearest(name, vocabulary.iter().map(|(_, k)| k.as_str())) {
+        format!("; did you mean `{known}` in {}?", elsewhere(known))
+    } else {
+        String::new()
+    };
+    let allowed = if hint.is_empty() {
+        frame.named.join(", ")
+    } else {
+        String::new()
+    };
+    Problem::error(join(&frame.path, name), format!("unknown key{hint}"))
+        .value(entry.node.brief())
+        .allowed(allowed)
 }
 
 impl Keys for Reader<'_> {
@@ -367,8 +364,7 @@ impl Keys for Reader<'_> {
             Some(entry) => {
                 let problem = Problem::error(path, format!("has a meaning only where {case}"))
                     .value(entry.node.brief());
-                let place = self.place(&entry.node);
-                self.problems.push(problem.at(place));
+                self.problems.add(problem, entry.node.span.clone());
             }
             None if wanted => {
                 let expected = T::expected(&spec);
@@ -393,9 +389,9 @@ impl Keys for Reader<'_> {
     }
 
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
-        let before = self.problems.len();
+        let before = self.problems.count();
         self.optional(spec, value);
-        if self.problems.len() > before {
+        if self.problems.count() > before {
             self.preset_unknown = true;
             *value = None;
         }
@@ -413,11 +409,11 @@ impl Keys for Reader<'_> {
             .map(|known| format!("; did you mean {}?", quote(known)))
             .unwrap_or_default();
         let path = join(&self.frame().path, spec.name);
-        let place = self.found.get(&path).and_then(|found| found.place.clone());
+        let span = self.found.get(&path).and_then(|node| node.span.clone());
         let problem = Problem::error(path, format!("not in the catalogue{hint}"))
             .value(quote(name))
             .allowed(names().collect::<Vec<_>>().join(", "));
-        self.problems.push(problem.at(place));
+        self.problems.add(problem, span);
     }
 
     fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {
@@ -427,8 +423,7 @@ impl Keys for Reader<'_> {
         {
             let message = format!("expected a section [{path}], found {}", entry.node.kind());
             let problem = Problem::error(path.clone(), message).value(entry.node.brief());
-            let place = self.place(&entry.node);
-            self.problems.push(problem.at(place));
+            self.problems.add(problem, entry.node.span.clone());
         }
         self.enter(path, entry.map(|entry| &entry.node));
         keys(self);
@@ -453,14 +448,20 @@ impl Keys for Reader<'_> {
             Problem::error(path.clone(), message).value(node.brief())
         };
         let Value::Array(nodes) = &entry.node.value else {
-            let problem = wrong(&entry.node).at(self.place(&entry.node));
-            self.problems.push(problem);
+            self.problems
+                .add(wrong(&entry.node), entry.node.span.clone());
             return;
         };
+        if nodes.len() > MOST_TABLES {
+            let message = format!("there are {} [[{path}]]", nodes.len());
+            let problem = Problem::error(path.clone(), message)
+                .allowed(format!("at most {MOST_TABLES} of them"));
+            self.problems.add(problem, entry.node.span.clone());
+            return;
+        }
         for (i, node) in nodes.iter().enumerate() {
             if !matches!(node.value, Value::Table(_)) {
-                let problem = wrong(node).at(self.place(node));
-                self.problems.push(problem);
+                self.problems.add(wrong(node), node.span.clone());
                 continue;
             }
             let mut item = blank();
@@ -486,12 +487,10 @@ impl Keys for Reader<'_> {
             self.missing(path, "", format!("a table with one of {list}"), "");
             return;
         };
-        let place = self.place(&entry.node);
         let wrong = |message: String| {
             Problem::error(path.clone(), message)
                 .value(entry.node.brief())
                 .allowed(format!("exactly one of {list}"))
-                .at(place.clone())
         };
         let Value::Table(table) = &entry.node.value else {
             let message = format!(
@@ -499,35 +498,33 @@ impl Keys for Reader<'_> {
                 known[0],
                 entry.node.kind()
             );
-            self.problems.push(wrong(message));
+            self.problems.add(wrong(message), entry.node.span.clone());
             return;
         };
         if table.len() != 1 {
-            self.problems
-                .push(wrong(format!("it has {} keys", table.len())));
+            let problem = wrong(format!("it has {} keys", table.len()));
+            self.problems.add(problem, entry.node.span.clone());
         }
         for (name, inner) in table {
             let inner_path = join(&path, name);
             let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
-                let hint = nearest(name, known.iter().copied())
-                    .map(|known| format!("; did you mean `{known}`?"))
-                    .unwrap_or_default();
-                let key_place = inner
-                    .key_span
-                    .clone()
-                    .map(|span| Place::new(self.text, span));
-                let problem = Problem::error(inner_path, format!("unknown {}{hint}", spec.name))
-                    .value(inner.node.brief())
-                    .allowed(list.clone());
-                self.problems.push(problem.at(key_place));
+                self.problems
+                    .add_of(Severity::Error, format!("unknown {}", spec.name), || {
+                        let hint = nearest(name, known.iter().copied())
+                            .map(|known| format!("; did you mean `{known}`?"))
+                            .unwrap_or_default();
+                        let message = format!("unknown {}{hint}", spec.name);
+                        let problem = Problem::error(inner_path, message)
+                            .value(inner.node.brief())
+                            .allowed(list.clone());
+                        (problem, inner.key_span.clone())
+                    });
                 continue;
             };
             if !matches!(inner.node.value, Value::Table(_)) {
                 let message = format!("expected a table, found {}", inner.node.kind());
-                let problem = Problem::error(inner_path.clone(), message)
-                    .value(inner.node.brief())
-                    .at(self.place(&inner.node));
-                self.problems.push(problem);
+                let problem = Problem::error(inner_path.clone(), message).value(inner.node.brief());
+                self.problems.add(problem, inner.node.span.clone());
             }
             *value = (variant.blank)();
             self.enter(inner_path, Some(&inner.node));

@@ -5,8 +5,17 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Severity};
+use super::problems::Problems;
 use crate::bearing::catalogue::Datum;
+
+/// Tables and lists within each other, and parts of a key's path, at most: a scenario's own have eight. What is deeper would end on the stack.
+pub(crate) const DEEPEST: usize = 32;
+/// Values and tables of a text at most: parsed, a value takes two hundred bytes and a table two kilobytes.
+const MOST_VALUES: usize = 500_000;
+const MOST_TABLES: usize = 50_000;
+/// Bytes of a text up to which every syntax error is looked for; of a longer one the first is told.
+const MOST_RECOVERED: usize = 256 << 10;
 
 /// A value and where it stands in the file; an override stands nowhere.
 #[derive(Debug, Clone)]
@@ -51,7 +60,16 @@ impl Node {
         })
     }
 
-    fn from_toml(value: &toml::Spanned<DeValue<'_>>, placed: bool) -> Node {
+    /// # Errors
+    /// Where tables and lists lie in each other deeper than [`DEEPEST`], from `depth` on: the place of the first.
+    fn from_toml(
+        value: &toml::Spanned<DeValue<'_>>,
+        placed: bool,
+        depth: usize,
+    ) -> Result<Node, Range<usize>> {
+        if depth > DEEPEST {
+            return Err(value.span());
+        }
         let inner = match value.get_ref() {
             DeValue::String(text) => Value::Text(text.to_string()),
             DeValue::Integer(number) => {
@@ -66,15 +84,15 @@ impl Node {
             DeValue::Array(items) => Value::Array(
                 items
                     .iter()
-                    .map(|item| Node::from_toml(item, placed))
-                    .collect(),
+                    .map(|item| Node::from_toml(item, placed, depth + 1))
+                    .collect::<Result<_, _>>()?,
             ),
-            DeValue::Table(table) => Value::Table(convert_table(table, placed)),
+            DeValue::Table(table) => Value::Table(convert_table(table, placed, depth)?),
         };
-        Node {
+        Ok(Node {
             value: inner,
             span: placed.then(|| value.span()),
-        }
+        })
     }
 
     /// The TOML type with its article.
@@ -98,7 +116,7 @@ impl Node {
     /// The whole value as TOML, on one line.
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
-        self.render(&mut text, usize::MAX / 8);
+        self.render(&mut text, usize::MAX);
         text
     }
 
@@ -106,7 +124,8 @@ impl Node {
     pub(crate) fn brief(&self) -> String {
         const LONGEST: usize = 60;
         let mut text = String::new();
-        self.render(&mut text, LONGEST);
+        // Characters of several bytes are counted below.
+        self.render(&mut text, 4 * LONGEST);
         if text.chars().count() > LONGEST {
             text = text.chars().take(LONGEST).collect();
             text.push_str("...");
@@ -115,9 +134,6 @@ impl Node {
     }
 
     fn render(&self, out: &mut String, enough: usize) {
-        if out.len() > 4 * enough {
-            return;
-        }
         match &self.value {
             Value::Text(text) => out.push_str(&quote(text)),
             Value::Integer(n) => out.push_str(&n.to_string()),
@@ -127,6 +143,9 @@ impl Node {
             Value::Array(items) => {
                 out.push('[');
                 for (i, item) in items.iter().enumerate() {
+                    if out.len() > enough {
+                        return;
+                    }
                     out.push_str(if i == 0 { "" } else { ", " });
                     item.render(out, enough);
                 }
@@ -135,6 +154,9 @@ impl Node {
             Value::Table(table) => {
                 out.push_str("{ ");
                 for (i, (name, entry)) in table.iter().enumerate() {
+                    if out.len() > enough {
+                        return;
+                    }
                     out.push_str(if i == 0 { "" } else { ", " });
                     out.push_str(&key_text(name));
                     out.push_str(" = ");
@@ -146,17 +168,40 @@ impl Node {
     }
 }
 
-fn convert_table(table: &DeTable<'_>, placed: bool) -> Table {
+fn convert_table(table: &DeTable<'_>, placed: bool, depth: usize) -> Result<Table, Range<usize>> {
     table
         .iter()
         .map(|(key, value)| {
             let entry = Entry {
                 key_span: placed.then(|| key.span()),
-                node: Node::from_toml(value, placed),
+                node: Node::from_toml(value, placed, depth + 1)?,
             };
-            (key.get_ref().to_string(), entry)
+            Ok((key.get_ref().to_string(), entry))
         })
         .collect()
+}
+
+/// The parts of a key's dotted path.
+///
+/// # Errors
+/// Where there are more than [`DEEPEST`].
+pub(crate) fn path_parts(path: &str) -> Result<Vec<&str>, String> {
+    let parts: Vec<&str> = path.split('.').map(str::trim).collect();
+    match parts.len() {
+        0..=DEEPEST => Ok(parts),
+        count => Err(format!(
+            "the path of a key has {count} parts; there are at most {DEEPEST}"
+        )),
+    }
+}
+
+/// A path in a message.
+pub(crate) fn brief_path(path: &str) -> String {
+    const LONGEST: usize = 80;
+    match path.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &path[..end]),
+        None => path.to_owned(),
+    }
 }
 
 /// A float as TOML writes it; it reads back to the same bits.
@@ -201,27 +246,70 @@ pub fn quote(text: &str) -> String {
 
 /// Parses `text` and lays `overrides` over it. Every syntax error is reported.
 pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Problem>> {
-    let (table, errors) = DeTable::parse_recoverable(text);
-    let mut problems: Vec<Problem> = Vec::new();
-    for error in &errors {
-        let place = error.span().map(|span| Place::new(text, span));
-        let line = place.as_ref().map(|place| place.line);
-        // A broken line often breaks in several ways: the first says enough.
-        if !problems.iter().any(|other| other.line == line) {
-            let message = format!("not valid TOML: {}", error.message());
-            problems.push(Problem::error("", message).at(place));
+    let mut problems = Problems::of(text);
+    let mut root = Node::unplaced(Value::Table(Table::new()));
+    if let Some(message) = too_much(text) {
+        problems.add(Problem::error("", message), None);
+        return Err(problems.finish());
+    }
+    match DeTable::parse(text) {
+        Ok(table) => match convert_table(table.get_ref(), true, 0) {
+            Ok(table) => root.value = Value::Table(table),
+            Err(span) => problems.add(Problem::error("", too_deep()), Some(span)),
+        },
+        Err(first) => {
+            let mut errors = match text.len() {
+                0..=MOST_RECOVERED => DeTable::parse_recoverable(text).1,
+                _ => vec![first],
+            };
+            errors.sort_by_key(|error| error.span().map_or(0, |span| span.start));
+            let mut before = None;
+            for error in errors {
+                // A broken line often breaks in several ways: the first says enough.
+                let start = error.span().map(|span| span.start.min(text.len()));
+                let same_line = match (before, start) {
+                    (Some(before), Some(start)) => !text.as_bytes()[before..start].contains(&b'\n'),
+                    _ => false,
+                };
+                before = start;
+                if !same_line {
+                    problems.add_of(Severity::Error, "not valid TOML", || {
+                        let message = format!("not valid TOML: {}", error.message());
+                        (Problem::error("", message), error.span())
+                    });
+                }
+            }
         }
     }
-    let mut root = Node::unplaced(Value::Table(convert_table(table.get_ref(), true)));
     for (path, value) in overrides {
         if let Err(problem) = lay_over(&mut root, path, value) {
-            problems.push(*problem);
+            problems.add(*problem, None);
         }
     }
     match root.value {
         Value::Table(table) if problems.is_empty() => Ok(table),
-        _ => Err(problems),
+        _ => Err(problems.finish()),
     }
+}
+
+/// Refuses a text with too many values, by what stands between them, before anything is made of it.
+fn too_much(text: &str) -> Option<String> {
+    let (mut values, mut tables) = (0, 0);
+    let mut before = b'\n';
+    for &byte in text.as_bytes() {
+        values += usize::from(matches!(byte, b',' | b'=' | b'[' | b'{'));
+        tables += usize::from(byte == b'{' || (byte == b'[' && before == b'\n'));
+        before = byte;
+    }
+    let (count, what, most) = match tables > MOST_TABLES {
+        true => (tables, "tables", MOST_TABLES),
+        false => (values, "values", MOST_VALUES),
+    };
+    (count > most).then(|| format!("some {count} {what} are more than the {most} of a document"))
+}
+
+fn too_deep() -> String {
+    format!("tables and lists lie in each other more than {DEEPEST} levels deep")
 }
 
 /// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.
@@ -257,12 +345,14 @@ pub fn locate(text: &str, key: &str) -> Option<Place> {
 }
 
 fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>> {
-    let wrong = |message: String| Box::new(Problem::error(path, message).value(brief_text(text)));
+    let wrong = |message: String| {
+        Box::new(Problem::error(brief_path(path), message).value(brief_text(text)))
+    };
+    let parts = path_parts(path).map_err(wrong)?;
     let value = override_value(text).map_err(wrong)?;
     let mut node = root;
     let mut walked = String::new();
-    for segment in path.split('.') {
-        let segment = segment.trim();
+    for segment in parts {
         if segment.is_empty() {
             return Err(wrong(
                 "an override names its key by a dotted path, such as operation.speed_rpm".into(),
@@ -307,7 +397,7 @@ fn lay_over(root: &mut Node, path: &str, text: &str) -> Result<(), Box<Problem>>
 /// A TOML value; a bare word is a string.
 pub(crate) fn override_value(text: &str) -> Result<Node, String> {
     match DeValue::parse(text.trim()) {
-        Ok(value) => Ok(Node::from_toml(&value, false)),
+        Ok(value) => Node::from_toml(&value, false, 0).map_err(|_| too_deep()),
         Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => {
             Err(format!("not a TOML value: {}", error.message()))
         }

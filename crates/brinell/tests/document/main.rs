@@ -4,6 +4,7 @@ mod bad_input;
 mod clearance;
 mod defaults;
 mod json;
+mod limits;
 mod recorded;
 mod robust;
 

@@ -12,30 +12,34 @@ use std::collections::HashMap;
 
 use super::keys::unit_of;
 use super::problem::{Place, Problem, Severity};
+use super::problems::{Problems, numberless};
 use super::provenance::{Origin, Provenance};
-use super::reader::Found;
-use super::source::float;
+use super::source::{Node, float};
 use crate::scenario::Scenario;
 
 /// Finds what the file says of a key, and where.
 pub(crate) struct Finder<'a> {
-    found: &'a HashMap<String, Found>,
+    text: &'a str,
+    found: &'a HashMap<String, &'a Node>,
     provenance: HashMap<&'a str, &'a Provenance>,
 }
 
 impl<'a> Finder<'a> {
     pub(crate) fn new(
-        found: &'a HashMap<String, Found>,
+        text: &'a str,
+        found: &'a HashMap<String, &'a Node>,
         provenance: &'a [Provenance],
     ) -> Finder<'a> {
         Finder {
+            text,
             found,
             provenance: super::load::by_key(provenance),
         }
     }
 
     pub(crate) fn place(&self, key: &str) -> Option<Place> {
-        self.found.get(key)?.place.clone()
+        let span = self.found.get(key)?.span.clone()?;
+        Some(Place::new(self.text, span))
     }
 
     /// Whether the file or an override gives the key.
@@ -44,8 +48,23 @@ impl<'a> Finder<'a> {
     }
 
     fn value(&self, key: &str) -> Option<String> {
-        let found = self.found.get(key).map(|found| found.text.clone());
+        let found = self.found.get(key).map(|node| node.brief());
         found.or_else(|| self.provenance.get(key).map(|entry| entry.value.clone()))
+    }
+
+    /// A problem with its unit, value and places, and those of the other keys that take part.
+    fn complete(&self, mut problem: Problem, also: &[&str]) -> Problem {
+        let unit = unit_of(problem.key.rsplit('.').next().unwrap_or_default());
+        problem = problem.unit(unit);
+        problem.value = self.value(&problem.key);
+        problem.also = also
+            .iter()
+            .map(|key| (key.to_string(), self.place(key)))
+            .collect();
+        // A key that the file leaves out is at fault through the ones it gives.
+        let place = self.place(&problem.key);
+        let place = place.or_else(|| also.iter().find_map(|key| self.place(key)));
+        problem.at(place)
     }
 
     fn is_preset(&self, key: &str) -> bool {
@@ -59,7 +78,7 @@ impl<'a> Finder<'a> {
 struct Checker<'a> {
     s: &'a Scenario,
     finder: &'a Finder<'a>,
-    problems: Vec<Problem>,
+    problems: Problems<'a>,
 }
 
 impl Checker<'_> {
@@ -71,18 +90,12 @@ impl Checker<'_> {
         allowed: String,
         also: &[&str],
     ) {
-        let mut problem = Problem::new(severity, key, message).allowed(allowed);
-        let name = key.rsplit('.').next().unwrap_or(key);
-        problem = problem.unit(unit_of(name));
-        problem.value = self.finder.value(key);
-        problem.also = also
-            .iter()
-            .map(|key| (key.to_string(), self.finder.place(key)))
-            .collect();
-        // A key that the file leaves out is at fault through the ones it gives.
-        let place = self.finder.place(key);
-        let place = place.or_else(|| also.iter().find_map(|key| self.finder.place(key)));
-        self.problems.push(problem.at(place));
+        let kind = numberless(key) + &numberless(&message);
+        let finder = self.finder;
+        self.problems.add_of(severity, kind, || {
+            let problem = Problem::new(severity, key, message).allowed(allowed);
+            (finder.complete(problem, also), None)
+        });
     }
 
     fn error(&mut self, key: &str, message: String, allowed: String, also: &[&str]) {
@@ -94,16 +107,22 @@ impl Checker<'_> {
     }
 }
 
-pub(crate) fn check(scenario: &Scenario, finder: &Finder<'_>) -> Vec<Problem> {
+/// Adds what is wrong to the problems of the reader.
+pub(crate) fn check<'a>(
+    scenario: &'a Scenario,
+    finder: &'a Finder<'a>,
+    problems: Problems<'a>,
+) -> Problems<'a> {
     let mut checker = Checker {
         s: scenario,
         finder,
-        problems: Vec::new(),
+        problems,
     };
     checker.bearing();
     checker.cage();
     checker.contact();
     checker.operation();
+    checker.speed_factor();
     checker.support();
     checker.defects();
     checker.sensor();

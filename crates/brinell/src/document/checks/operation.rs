@@ -15,6 +15,11 @@ const HARMONICS: f64 = 5.0;
 /// Share of the sample rate that the anti-alias filter passes (model.md, section 11).
 const PASSBAND: f64 = 0.4;
 
+/// Speed factor beyond which no bearing turns, mm r/min: |speed| times pitch diameter. Main-shaft bearings of aircraft engines were tested at
+/// 3e6 (Bamberger, Zaretsky, Signer: Endurance and failure characteristics of main-shaft jet engine bearings at 3 x 10^6 DN, Journal of
+/// Lubrication Technology 98, 1976, 580-585); this leaves three times as much.
+const MOST_SPEED_FACTOR: f64 = 1e7;
+
 const SPEED: &str = "operation.speed_rpm";
 const LOAD: &str = "operation.load_n";
 const RATE: &str = "simulation.sample_rate_hz";
@@ -60,6 +65,34 @@ impl Checker<'_> {
                     );
                 }
             }
+        }
+    }
+
+    /// A speed that no bearing of this size stands; its run would take steps of 1e-11 s.
+    pub(super) fn speed_factor(&mut self) {
+        let pitch = self.s.bearing.pitch_diameter_mm;
+        let (speed, place) = match &self.s.operation.speed_rpm {
+            Speed::Constant(speed) => (*speed, String::new()),
+            Speed::Profile(points) => {
+                let beyond = |p: &&[f64; 2]| p[1].abs() * pitch > MOST_SPEED_FACTOR;
+                match points.iter().find(beyond) {
+                    Some([t, speed]) => (*speed, format!(" at t = {} s", short(*t))),
+                    None => return,
+                }
+            }
+        };
+        if speed.abs() * pitch > MOST_SPEED_FACTOR {
+            self.error(
+                SPEED,
+                format!(
+                    "{} r/min{place} on a pitch diameter of {} mm is a speed factor of {} mm r/min; no bearing stands more than {MOST_SPEED_FACTOR:e}",
+                    short(speed),
+                    short(pitch),
+                    short(speed.abs() * pitch)
+                ),
+                format!("-{0} to {0}", short((MOST_SPEED_FACTOR / pitch).floor())),
+                &["bearing.pitch_diameter_mm"],
+            );
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Checker, short};
 use crate::defect::{self, Fault};
+use crate::document::{Problem, Severity};
 use crate::scenario::{
     Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, ScanFile, ScanForm, Shape,
 };
@@ -99,6 +100,9 @@ impl Checker<'_> {
                     ),
                     "a polygon that encloses something",
                 ),
+                Fault::Tangled(tangle) => {
+                    (tangle.to_string(), "sides that do not cross; fewer corners")
+                }
                 Fault::CrossesItself { polygon, at: p } => {
                     let message = format!(
                         "{} crosses itself at {}: what its sides enclose twice counts as undamaged (even-odd rule)",
@@ -409,9 +413,18 @@ impl Checker<'_> {
                 (d.center_deg.to_radians(), arc.0 / radius, arc.1 / radius)
             })
             .collect();
-        for i in 0..s.defects.len() {
-            for j in 0..i {
-                let (a, b) = (&s.defects[i], &s.defects[j]);
+        let rule = match s.contact.law {
+            Law::Sliced => "together they are one surface, the deeper of the two at each point",
+            Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
+        };
+        let path = match s.contact.roller_path {
+            RollerPath::Point => "",
+            RollerPath::Envelope => {
+                "; the path is the envelope of both together, the deeper point of each"
+            }
+        };
+        for (i, a) in s.defects.iter().enumerate() {
+            for (j, b) in s.defects[..i].iter().enumerate() {
                 let ((ca, a0, a1), (cb, b0, b1)) = (placed[i], placed[j]);
                 // From the middle of one arc to the middle of the other, the short way round.
                 let apart = defect::wrap(ca + 0.5 * (a0 + a1) - cb - 0.5 * (b0 + b1)).abs();
@@ -420,24 +433,14 @@ impl Checker<'_> {
                 if a.on != b.on || a.row != b.row || !meet || unread {
                     continue;
                 }
-                let rule = match s.contact.law {
-                    Law::Sliced => {
-                        "together they are one surface, the deeper of the two at each point"
-                    }
-                    Law::Ecl => "of the two the one that carries less acts: the deeper or wider",
-                };
-                let path = match s.contact.roller_path {
-                    RollerPath::Point => "",
-                    RollerPath::Envelope => {
-                        "; the path is the envelope of both together, the deeper point of each"
-                    }
-                };
-                self.warn(
-                    &format!("defects.{i}"),
-                    format!("overlaps defects.{j} along the rolling direction; {rule}{path}"),
-                    String::new(),
-                    &[&format!("defects.{j}")],
-                );
+                let finder = self.finder;
+                self.problems.add_of(Severity::Warning, "overlaps", || {
+                    let (key, other) = (format!("defects.{i}"), format!("defects.{j}"));
+                    let message =
+                        format!("overlaps {other} along the rolling direction; {rule}{path}");
+                    let problem = Problem::new(Severity::Warning, key, message);
+                    (finder.complete(problem, &[&other]), None)
+                });
             }
         }
     }

@@ -1,0 +1,168 @@
+//! How much a document may hold, and how many of its problems are told.
+
+use brinell::defect::MOST_CROSSINGS;
+use brinell::document::{MOST_OF_A_KIND, Problem, Severity, read};
+use brinell::random::Random;
+
+use crate::{BARE, OUTER, good, report, with};
+
+fn refused(text: &str) -> Vec<Problem> {
+    match read(text, &[]) {
+        Ok(_) => panic!("nothing is wrong"),
+        Err(problems) => problems,
+    }
+}
+
+/// How many problems there are, told or not.
+fn count(problems: &[Problem]) -> usize {
+    problems.iter().map(|problem| problem.count).sum()
+}
+
+#[test]
+fn regress_a_path_has_32_parts_at_most() {
+    let path = |parts: usize| vec!["a"; parts].join(".");
+    let problems = with(BARE, &[(&path(32), "1")]).unwrap_err();
+    assert!(problems[0].message.starts_with("unknown key"));
+    for parts in [33, 60_000] {
+        let problems = with(BARE, &[(&path(parts), "1")]).unwrap_err();
+        let expected = format!("the path of a key has {parts} parts; there are at most 32");
+        assert_eq!(problems[0].message, expected);
+        assert!(problems[0].key.len() < 100);
+    }
+}
+
+#[test]
+fn regress_tables_and_lists_lie_32_deep_at_most() {
+    let words = "tables and lists lie in each other more than 32 levels deep";
+    // The parser lets 80 parts of a key stand in each of 80 tables.
+    let key = vec!["a"; 79].join(".");
+    let tables = format!(
+        "{}{key} = 1{}\n",
+        format!("{key} = {{").repeat(79),
+        "}".repeat(79)
+    );
+    assert_eq!(refused(&(tables.clone() + BARE))[0].message, words);
+    let lists = "[".repeat(40) + &"]".repeat(40);
+    for value in [lists, format!("{{ {} }}", tables.trim())] {
+        let problems = with(BARE, &[("cage", &value)]).unwrap_err();
+        assert_eq!(problems[0].message, words);
+    }
+}
+
+#[test]
+fn prop_unknown_keys_are_told_twenty_times_and_counted() {
+    let keys: String = (0..3000).map(|k| format!("k{k} = 1\n")).collect();
+    let on_one_line = keys.replace('\n', ", ");
+    let tables: String = (0..3000).map(|k| format!("[t{k}]\n")).collect();
+    for text in [
+        keys + BARE,
+        format!("cage = {{ {on_one_line} }}\n{BARE}"),
+        BARE.to_owned() + &tables,
+    ] {
+        let problems = refused(&text);
+        assert_eq!(problems.len(), MOST_OF_A_KIND + 1, "{}", report(&problems));
+        assert_eq!(count(&problems), 3000);
+        let last = problems.last().unwrap().to_string();
+        assert!(last.starts_with("error: and 2980 more like "), "{last}");
+        assert!(last.ends_with(": unknown key"), "{last}");
+    }
+}
+
+#[test]
+fn prop_problems_are_few_whatever_they_are() {
+    let defect = "[[defects]]\non = \"outer-raceway\"\ndepth_um = -1\nshape = { circle = { diameter_mm = -2 } }\n";
+    for (what, text) in [
+        ("broken lines", "=\n".repeat(1000) + BARE),
+        ("wrong values", BARE.to_owned() + &defect.repeat(1000)),
+        (
+            "missing keys",
+            BARE.to_owned() + &"[[defects]]\n".repeat(1000),
+        ),
+        (
+            "unknown shapes",
+            BARE.to_owned() + &defect.replace("circle", "ball").repeat(1000),
+        ),
+    ] {
+        let problems = refused(&text);
+        assert!(problems.len() < 200, "{what}: {} are told", problems.len());
+        assert!(count(&problems) >= 1000, "{what}: {}", count(&problems));
+        assert!(problems.iter().all(|p| p.severity == Severity::Error));
+    }
+}
+
+#[test]
+fn prop_overlaps_are_told_twenty_times_and_counted() {
+    let defect = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 1\nshape = { circle = { diameter_mm = 2 } }\n";
+    let loaded = good(&(BARE.to_owned() + &defect.repeat(300)));
+    let overlaps = |w: &&Problem| w.message.starts_with("overlaps");
+    let told = loaded.warnings.iter().filter(overlaps).count();
+    assert_eq!(told, MOST_OF_A_KIND);
+    let more = loaded.warnings.last().unwrap();
+    assert_eq!(more.count, 300 * 299 / 2 - MOST_OF_A_KIND);
+    assert!(more.message.contains("more like defects."), "{more}");
+}
+
+#[test]
+fn regress_a_document_holds_so_many_values_and_tables() {
+    let values = format!("x = [{}]\n", "1,".repeat(600_000));
+    let defects = "[[defects]]\n".repeat(6000);
+    let tables = "[[defects]]\n".repeat(60_000);
+    for (text, words) in [
+        (
+            values + BARE,
+            "values are more than the 500000 of a document",
+        ),
+        (
+            BARE.to_owned() + &tables,
+            "tables are more than the 50000 of a document",
+        ),
+        (BARE.to_owned() + &defects, "there are 6000 [[defects]]"),
+    ] {
+        let problems = refused(&text);
+        assert!(
+            problems[0].message.ends_with(words),
+            "{}",
+            report(&problems)
+        );
+    }
+}
+
+#[test]
+fn regress_an_outline_that_crosses_everywhere_is_refused() {
+    let mut random = Random::new(1);
+    let mut point = || format!("[{}, {}]", random.uniform(), random.uniform());
+    let points: Vec<String> = (0..2000).map(|_| point()).collect();
+    let shape = format!("{{ outline = {{ points_mm = [{}] }} }}", points.join(", "));
+    let problems = with(OUTER, &[("defects.0.shape", &shape)]).unwrap_err();
+    let expected = format!("sides cross in more than {MOST_CROSSINGS} places");
+    assert!(
+        problems.iter().any(|p| p.message == expected),
+        "{}",
+        report(&problems)
+    );
+}
+
+#[test]
+fn lit_no_bearing_turns_beyond_its_speed_factor() {
+    // The pitch diameter of the bare bearing is 49 mm.
+    let most = (1e7_f64 / 49.0).floor();
+    for speed in [most, -most] {
+        with(BARE, &[("operation.speed_rpm", &speed.to_string())])
+            .unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    }
+    for (speed, at) in [
+        ("204082.0", ""),
+        ("-204082.0", ""),
+        ("1e300", ""),
+        ("2147483648", ""),
+        ("[[0.0, 1000.0], [1.5, 3e5]]", " at t = 1.5 s"),
+    ] {
+        let problems = with(BARE, &[("operation.speed_rpm", speed)]).unwrap_err();
+        let problem = &problems[0];
+        assert_eq!(problem.key, "operation.speed_rpm");
+        assert!(problem.message.contains(at) && problem.message.contains("speed factor"));
+        assert_eq!(problem.allowed.as_deref(), Some("-204081 to 204081"));
+        assert_eq!(problem.unit, Some("r/min"));
+        assert_eq!(problem.also[0].0, "bearing.pitch_diameter_mm");
+    }
+}
