@@ -156,6 +156,8 @@ impl Results {
             Self::DataSet => (
                 &[
                     "dataset.json",
+                    "croissant.json",
+                    "README.md",
                     "runs/part-*",
                     "held_out/part-*",
                     "held_out/_plan.json",

@@ -97,15 +97,17 @@ impl PassRates {
     /// The interval of a frequency found in the envelope: of its noise, and of slip's wander about the mean rate.
     ///
     /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the motion gives S, and the
-    /// frequency is an average over [`LineFrequency::span`]. Hann's window gives the beginning little weight, so cages that still settle
-    /// there do not count as wander. Degrees of freedom by Welch and Satterthwaite, those of
+    /// frequency is an average over [`LineFrequency::span`]. Hann's window gives the beginning little weight, so where cages still settle
+    /// there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and Satterthwaite, those of
     /// the noise counting as many. `None` where the run is too short to tell.
     pub fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
         let noise = found.noise * found.noise;
         let (wander, freedom) = match self.rates.get(defect) {
             None => (0.0, 1.0),
             Some(rate) => {
-                let (density, freedom) = rate.averages.density(TAPERED)?;
+                let settles = rate.averages.drift().is_some();
+                let skipped = if settles { TAPERED } else { 0.0 };
+                let (density, freedom) = rate.averages.density(skipped)?;
                 (density / found.span, f64::from(freedom))
             }
         };
