@@ -157,9 +157,17 @@ def unknown_tables(folder):
     return ["check", scenario(folder, "".join(f"[t{i}]\nx = 1\n" for i in range(8000)))]
 
 
+@case("100000 keys vary")
+def unknown_keys_in_a_plan(folder):
+    scenario(folder)
+    plan = folder / "plan.toml"
+    plan.write_text('base = "scenario.toml"\nruns = 2\n\n[vary]\n' + "".join(f"k{i} = 1\n" for i in range(100_000)))
+    return ["dataset", str(plan), "-o", str(folder / "out")]
+
+
 @case("not valid TOML")
 def broken_lines(folder):
-    return ["check", scenario(folder, "=\n" * 1_000_000)]
+    return ["check", scenario(folder, "=\n" * 400_000)]
 
 
 @case("values are more than the 500000 of a document")

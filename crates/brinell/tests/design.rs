@@ -538,7 +538,13 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
 fn regress_bad_plans_are_told_with_key_line_and_range() {
     let long = ["a"; 40].join(".");
     let long = format!("base = 'b'\nruns = 3\n[vary]\n\"{long}\" = 1");
+    let keys: String = (0..3000).map(|k| format!("k{k} = 1\n")).collect();
+    let many = format!("base = 'b'\nruns = 3\n[vary]\n{keys}");
     for (plan, parts) in [
+        (
+            many.as_str(),
+            vec!["vary: 3000 keys vary", "allowed: at most 2000 keys"],
+        ),
         (
             long.as_str(),
             vec!["the path of a key has 40 parts; there are at most 32"],

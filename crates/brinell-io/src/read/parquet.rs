@@ -152,9 +152,10 @@ fn head(file: File) -> Result<Head, ParquetError> {
 fn unreadable(about: &ParquetMetaData, index: usize) -> Option<String> {
     let column = about.file_metadata().schema_descr().column(index);
     if column.max_rep_level() > 0 {
-        let how = "save one row as a table of its own, such as pandas.DataFrame({\"x\": table[\"x\"][0]})";
+        let name = column.path().parts().first()?;
         return Some(format!(
-            "is nested, a list in each row, which is not supported here: {how}"
+            "is nested, a list in each row, which is not supported here: save one row as a table of its own, such as \
+             pandas.DataFrame({{\"{name}\": table[\"{name}\"][0]}})"
         ));
     }
     if column.path().parts().len() > 1 {

@@ -11,6 +11,9 @@ use std::collections::HashSet;
 /// Runs of a plan at most: what each of them draws is kept in memory.
 const MOST_RUNS: f64 = 1e6;
 
+/// Keys that vary in a class, or in all, at most: a scenario has some two hundred, and lists of defects.
+const MOST_VARIED: usize = 2000;
+
 /// How runs are spread over what their distributions span.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Design {
@@ -178,6 +181,14 @@ impl Plan {
                 (problem.at(place), None)
             });
         };
+        for (what, template) in self.templates() {
+            let count = template.settings().len();
+            if count > MOST_VARIED {
+                let allowed = format!("at most {MOST_VARIED} keys");
+                add(&what, "", format!("{count} keys vary"), &allowed);
+                return all.finish();
+            }
+        }
         if !matches!(self.vary, Template::Table(_)) {
             add(
                 "vary",

@@ -11,7 +11,7 @@ use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
 use super::recorded::{self, Assumed};
 use super::schema::known_keys;
-use super::source::{Entry, Node, Table, Value, override_value, quote};
+use super::source::{Entry, Node, Table, Value, brief_path, override_value, quote};
 use crate::bearing::catalogue;
 
 /// Tables of one list, such as `[[defects]]`, at most.
@@ -324,7 +324,8 @@ fn unknown(
     } else {
         String::new()
     };
-    Problem::error(join(&frame.path, name), format!("unknown key{hint}"))
+    let path = join(&frame.path, name);
+    Problem::error(brief_path(&path), format!("unknown key{hint}"))
         .value(entry.node.brief())
         .allowed(allowed)
 }
@@ -514,7 +515,7 @@ impl Keys for Reader<'_> {
                             .map(|known| format!("; did you mean `{known}`?"))
                             .unwrap_or_default();
                         let message = format!("unknown {}{hint}", spec.name);
-                        let problem = Problem::error(inner_path, message)
+                        let problem = Problem::error(brief_path(&inner_path), message)
                             .value(inner.node.brief())
                             .allowed(list.clone());
                         (problem, inner.key_span.clone())
