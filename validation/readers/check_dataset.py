@@ -16,7 +16,8 @@ import pyarrow.parquet as pq
 
 folder = pathlib.Path(sys.argv[1])
 about = json.loads((folder / "dataset.json").read_text())
-for entry in about["files"] + about.get("held_out", {}).get("files", []):
+secret = json.loads((folder / "held_out/_plan.json").read_text())
+for entry in about["files"] + secret["files"]:
     data = (folder / entry["path"]).read_bytes()
     assert hashlib.sha256(data).hexdigest() == entry["sha256"], entry
     assert len(data) == entry["bytes"], entry

@@ -54,9 +54,14 @@ pub(crate) fn complaint(text: Arguments) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
+/// Whether a terminal would act upon it: control characters, and those that turn the direction of writing (Unicode's Bidi_Control).
+fn acts(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || c.is_control() && !matches!(c, '\n' | '\t')
+}
+
 /// The text without control characters but line breaks and tabs, which a terminal would act upon.
 fn printable(text: &str, escaped: impl Fn(char) -> String) -> Cow<'_, str> {
-    let acts = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
     if !text.contains(acts) {
         return text.into();
     }
@@ -130,11 +135,12 @@ mod tests {
             |text: &str| printable(text, |c| format!("\\u{{{:x}}}", u32::from(c))).into_owned();
         assert_eq!(words("µm\t1\n"), "µm\t1\n");
         assert_eq!(words("a\u{1b}]52;c;x\u{7}"), "a\\u{1b}]52;c;x\\u{7}");
-        for code in 0..0x300_u32 {
+        for code in 0..0x2100_u32 {
             let Some(c) = char::from_u32(code) else {
                 continue;
             };
-            let acts = c.is_control() && c != '\n' && c != '\t';
+            let turns = matches!(code, 0x61c | 0x200e | 0x200f | 0x202a..=0x202e | 0x2066..=0x2069);
+            let acts = turns || c.is_control() && c != '\n' && c != '\t';
             assert_eq!(words(&c.to_string()).contains(c), !acts, "{code:x}");
             assert!(!one_line(&words(&c.to_string())).contains(char::is_control));
         }

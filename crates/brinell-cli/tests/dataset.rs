@@ -435,6 +435,7 @@ fn prop_held_out_labels_lie_apart() {
         assert!(held.next().is_none());
     }
     assert!((1..12).contains(&apart), "{apart}");
+    let sidecar = fs::read_to_string(out.join("dataset.json")).unwrap();
     // Nor does anything else that is published give them away: plan and secret would.
     for name in files(&out)
         .iter()
@@ -452,6 +453,18 @@ fn prop_held_out_labels_lie_apart() {
             .unwrap()
             .contains("\"seed\": 11")
     );
+    // How many bytes the labels take would tell too: a damaged run has more.
+    assert!(
+        about["held_out"].get("files").is_none(),
+        "{}",
+        about["held_out"]
+    );
+    for (part, file) in parts.iter().enumerate() {
+        if file["split"] == "held-out" {
+            let labels = fs::read(out.join(format!("held_out/part-0000{part}.parquet"))).unwrap();
+            assert!(!sidecar.contains(&format!(" {}", labels.len())), "{part}");
+        }
+    }
     // The classes' numbers are those of the runs whose labels anybody sees.
     let classes = json(&out.join("dataset.json"))["classes"].clone();
     let counted = classes

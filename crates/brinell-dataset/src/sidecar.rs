@@ -180,8 +180,10 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         }
     }
     let mut plan = Value::Null;
-    if let Some(secret) = about.remove("secret") {
+    if let Some(mut secret) = about.remove("secret") {
         make(&folder.root.join("held_out"))?;
+        // A damaged run's labels take more bytes than a sound one's: how many would tell.
+        secret["files"] = std::mem::take(&mut labels).into();
         put(&folder.secret(), &written(&secret))?;
         plan = json!({ "path": SECRET_PATH, "sha256": digest(&written(&secret)) });
     }
@@ -192,9 +194,8 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
         json!({ "total": runs, "complete": runs - failed.min(runs), "failed": failed }),
     );
     about.insert("files".into(), files.into());
-    if !labels.is_empty() {
+    if plan.is_object() {
         about.insert("held_out".into(), json!({
-            "files": labels,
             "plan": plan,
             "meaning": "labels, truth and plan of the runs with split = held-out: keep this folder to yourself, and join by the column `run`",
         }));

@@ -199,8 +199,15 @@ pub fn atomic_copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), I
     file.commit().map(drop)
 }
 
-/// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name.
+/// Writes a small file (JSON, TOML, HTML) that appears whole or not at all, replacing one of the same name. To a device or a pipe the bytes go as they are.
 pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(), IoError> {
+    let there = path.as_ref().metadata();
+    if there.is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        // A device or a pipe: a file in its place would be the end of it.
+        let device = OpenOptions::new().write(true).open(path.as_ref());
+        let written = device.and_then(|mut device| device.write_all(bytes.as_ref()));
+        return written.map_err(|e| IoError::writing(path.as_ref(), e));
+    }
     let mut file = PartialFile::create(path.as_ref())?;
     file.append(bytes.as_ref())?;
     file.commit().map(drop)

@@ -301,6 +301,20 @@ fn too_much(text: &str) -> Option<String> {
         tables += usize::from(byte == b'{' || (byte == b'[' && before == b'\n'));
         before = byte;
     }
+    // Each dot of a key may stand for a table that nobody writes: `a.b = 1`, `[a.b]`, `{ a.b = 1 }`. Those of numbers have digits after them.
+    for line in text.lines() {
+        let header = line.trim_start().starts_with('[') && !line.contains(',');
+        let (key, value) = match line.split_once('=') {
+            Some(parts) => parts,
+            None if header => (line, ""),
+            None => ("", line),
+        };
+        let in_value = value.as_bytes().windows(2);
+        tables += key.bytes().filter(|byte| *byte == b'.').count()
+            + in_value
+                .filter(|w| w[0] == b'.' && !w[1].is_ascii_digit())
+                .count();
+    }
     let (count, what, most) = match tables > MOST_TABLES {
         true => (tables, "tables", MOST_TABLES),
         false => (values, "values", MOST_VALUES),
