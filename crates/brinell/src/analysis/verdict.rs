@@ -153,7 +153,9 @@ pub(super) fn find(
             candidate.frequency,
             families,
         );
-        if families.damage.contains(component) {
+        // The cage only where no element stands that would strike at its rate.
+        let cage = *component == Component::Cage && !findings.is_empty();
+        if families.damage.contains(component) && !cage {
             finding.strength = Strength::Damage;
         }
         let near =

@@ -1,6 +1,6 @@
 //! Findings in words.
 
-use super::family::SCORE;
+use super::family::LIMITS;
 use super::frequencies::Component;
 use super::verdict::tells_elements;
 use super::view::candidates;
@@ -31,9 +31,10 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 told(analysis, first)
             ));
             text.push(format!(
-                "The evidence is {}: over all bands its family scores {:.0}, and damage begins at {SCORE}{}.",
+                "The evidence is {}: over all bands its family scores {:.0}, and damage begins at {}{}.",
                 first.clarity(),
                 first.score,
+                LIMITS[0].0,
                 reserve(analysis, first)
             ));
             for other in rest {
@@ -67,8 +68,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         }
         let why = if other.explained_by.is_empty() {
             format!(
-                "scores {:.0} over all bands, where damage begins at {SCORE}; not called damage",
-                other.score
+                "scores {:.0} over all bands, where damage begins at {}; not called damage",
+                other.score, LIMITS[0].0
             )
         } else {
             format!(
