@@ -61,7 +61,7 @@ pub(super) struct Choice {
 }
 
 /// The highest defect frequency, Hz.
-fn highest(options: &Options) -> f64 {
+pub(super) fn highest(options: &Options) -> f64 {
     (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft
 }
 

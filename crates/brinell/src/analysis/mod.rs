@@ -32,6 +32,7 @@ mod bands;
 mod beyond;
 mod compare;
 mod error;
+mod family;
 mod frequencies;
 mod json;
 mod known_lines;
@@ -44,6 +45,7 @@ pub use bands::{BandChoice, ChosenBand};
 pub use beyond::Beyond;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
+pub use family::Family;
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
@@ -129,6 +131,8 @@ pub struct Analysis {
     pub views: Vec<View>,
     /// The one that shows most, by index.
     pub best: usize,
+    /// Each defect frequency with its harmonics, over all bands together.
+    pub families: Vec<Family>,
     /// What stands out, the strongest first; empty where nothing does.
     pub findings: Vec<Finding>,
     /// Where no damage is called: lines farther from a defect frequency than the tolerance, if any stand.
@@ -196,10 +200,11 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             options.tolerance * shaft
         },
     };
+    let families = family::families(&transformed, known, options)?;
     let views = view::all(transformed, known, &choice.bands, options)?;
     // Half the main lobe of a Hann window over the whole record.
     let resolution = 2.0 * fs / samples as f64;
-    let (findings, best) = verdict::find(&views, shaft, resolution, options)?;
+    let (findings, best) = verdict::find(&views, shaft, resolution, &families, options)?;
     let beyond = match findings.iter().any(Finding::is_cause) {
         true => None,
         false => beyond::find(&views, shaft, options)?,
@@ -217,6 +222,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         map: choice.map,
         views,
         best,
+        families: families.all,
         findings,
         beyond,
     })

@@ -1,5 +1,6 @@
 //! From what stands in the envelope spectra to findings.
 
+use super::family::{Families, VERY_CLEAR};
 use super::frequencies::Component;
 use super::view::{USUAL_FTF, View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
@@ -19,17 +20,10 @@ const FEWEST_OF_CAGE: usize = 3;
 /// Chance under noise at which the sidebands of an element count as found. An element passes through the load once for each turn of
 /// the cage, so that lines at its frequency without any sidebands are somebody else's: of slip in BPFO, most often.
 const MODULATED: f64 = 0.01;
-/// A further cause modulates the envelope by at least this share of the strongest one's.
-const FURTHER: f64 = 0.25;
-
 /// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance):
 /// healthy simulated NN3007s of 150 to 3000 N modulate the envelope by up to 0.39 at BPFO, for want of any other noise. Evidence below is weak.
 /// Single-row bearings in such silence go beyond, so that more is no proof either.
 const PASSING: f64 = 0.4;
-/// Harmonics, and the chance of noise, from which evidence is called clear.
-pub(super) const FEWEST_TO_BE_CLEAR: usize = 3;
-pub(super) const CLEAR: f64 = 1e-3;
-
 /// Bins from one sideband to the next from which sidebands tell for one source and against another: a line fills five, so that in a shorter
 /// record they hold most of the spectrum, and whatever else stands in it.
 const APART: f64 = 10.0;
@@ -37,7 +31,7 @@ const APART: f64 = 10.0;
 /// How much a finding says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strength {
-    /// Lines stand, and the envelope is modulated by more than a healthy bearing's.
+    /// Its lines stand in all bands together, higher and deeper than in a sound bearing's records ([`super::Family::is_damage`]).
     Damage,
     /// Lines stand, but hardly modulate the envelope, or are far weaker than another's.
     Faint,
@@ -62,6 +56,8 @@ pub struct Finding {
     pub false_alarm: f64,
     /// RMS of its standing lines times sqrt 2 over the envelope's mean: depth of modulation.
     pub modulation: f64,
+    /// Score of its family over all bands ([`super::Family::score`]).
+    pub score: f64,
     /// How much it says.
     pub strength: Strength,
     /// Stronger findings whose lines account for all of this one's.
@@ -85,14 +81,14 @@ impl Finding {
         self.evidence.harmonics.standing(LINE_LEVEL)
     }
 
-    /// `very clear`, `clear` or `weak`, by the number of its lines, the chance of noise, and whether something else may show as much.
+    /// `very clear`, `clear` or `weak`, by its score over all bands, and whether something else may show as much.
     pub fn clarity(&self) -> &'static str {
         if self.may_be_passing || !self.untold_from.is_empty() {
             return "weak";
         }
-        match (self.evidence.shown(), self.false_alarm) {
-            (4.., p) if p < 1e-6 => "very clear",
-            (FEWEST_TO_BE_CLEAR.., p) if p < CLEAR => "clear",
+        match self.score {
+            score if score >= VERY_CLEAR => "very clear",
+            _ if self.is_cause() => "clear",
             _ => "weak",
         }
     }
@@ -117,7 +113,7 @@ struct Standing {
 
 /// Findings, the strongest first, and the view that shows most.
 ///
-/// What accounts for the others comes first ([`leading`]). Its lines are then taken out of every envelope spectrum, and what still
+/// The family that stands highest in all bands together comes first. Its lines are then taken out of every envelope spectrum, and what still
 /// stands comes next; what does not was the first one's. A cage's lines come last: what turns with the cage modulates all else.
 ///
 /// A frequency nearer to a named one's than `resolution` (Hz) cannot be told from it, and is said to be explained by it.
@@ -125,6 +121,7 @@ pub(super) fn find(
     views: &[View],
     shaft: f64,
     resolution: f64,
+    families: &Families,
     options: &Options,
 ) -> Result<(Vec<Finding>, usize), AnalysisError> {
     let candidates = candidates(shaft, options);
@@ -137,35 +134,29 @@ pub(super) fn find(
     let mut findings: Vec<Finding> = Vec::new();
     while left > 0 {
         let all = standing(&candidates, &spectra, &evidence, &named);
-        let lead = match findings.is_empty() {
-            true => leading(
-                views,
-                &all,
-                &spectra,
-                &evidence,
-                &candidates,
-                shaft,
-                options,
-            )?,
-            false => 0,
+        let leads = |s: &Standing| {
+            findings.is_empty() && families.damage.first() == Some(&candidates[s.candidate].0)
         };
+        let lead = all.iter().position(leads).unwrap_or(0);
         let Some(next) = all.into_iter().nth(lead) else {
             break;
         };
         left -= 1;
         let (component, name, candidate) = &candidates[next.candidate];
         named.push(*component);
-        let finding = finding(views, options, &next, *component, name, candidate.frequency);
-        let strongest = findings.first().map_or(0.0, |f| f.modulation);
-        let mut finding = Finding {
-            strength: match finding.modulation {
-                m if m < FAINT || m < FURTHER * strongest => Strength::Faint,
-                _ => Strength::Damage,
-            },
-            ..finding
-        };
-        if *component == Component::Cage && !findings.is_empty() {
-            finding.strength = Strength::Faint;
+        let mut finding = finding(
+            views,
+            options,
+            &next,
+            *component,
+            name,
+            candidate.frequency,
+            families,
+        );
+        // The cage only where no element stands that would strike at its rate.
+        let cage = *component == Component::Cage && !findings.is_empty();
+        if families.damage.contains(component) && !cage {
+            finding.strength = Strength::Damage;
         }
         let near =
             |f: &&Finding| (f.evidence.frequency - finding.evidence.frequency).abs() < resolution;
@@ -191,7 +182,15 @@ pub(super) fn find(
             continue;
         }
         named.push(*component);
-        let mut finding = finding(views, options, gone, *component, name, candidate.frequency);
+        let mut finding = finding(
+            views,
+            options,
+            gone,
+            *component,
+            name,
+            candidate.frequency,
+            families,
+        );
         finding.explained_by = findings.iter().map(|f| f.name).collect();
         findings.push(finding);
     }
@@ -217,55 +216,6 @@ pub(super) fn find(
 /// How long a record has to be, s, to tell a rolling element's lines from others'.
 pub(super) fn tells_elements(shaft: f64, options: &Options) -> f64 {
     APART / (options.orders.ftf.unwrap_or(USUAL_FTF) * shaft)
-}
-
-/// Which of those that stand comes first: the one without whose lines most others no longer stand, and that does not fall with
-/// theirs; of equals the first. Aliases go that way: a sideband of one frequency may pass for another's line.
-fn leading(
-    views: &[View],
-    all: &[Standing],
-    spectra: &[Spectrum],
-    evidence: &[Vec<Evidence>],
-    candidates: &[(Component, &'static str, Candidate)],
-    shaft: f64,
-    options: &Options,
-) -> Result<usize, AnalysisError> {
-    let rivals = (all.iter())
-        .filter(|s| candidates[s.candidate].0 != Component::Cage)
-        .count();
-    if rivals < 2 {
-        return Ok(0);
-    }
-    let sought: Vec<Candidate> = candidates.iter().map(|c| c.2.clone()).collect();
-    let options = looking(options, views.len() as f64);
-    let seen: Vec<_> = spectra.iter().zip(evidence).zip(views).collect();
-    let mut score = vec![0i32; rivals];
-    for i in 0..rivals {
-        let (component, _, candidate) = &candidates[all[i].candidate];
-        let spacing = match component {
-            Component::Element => candidate.sideband_spacing,
-            _ => Some(shaft),
-        };
-        let left = side_by_side(&seen, |((spectrum, evidence), view)| {
-            let mine = &evidence[all[i].candidate];
-            let mine = if mine.stands { mine } else { &all[i].evidence };
-            let apart = spacing.filter(|s| *s >= APART * spectrum.frequency_step);
-            let rest = without(spectrum, mine.frequency, apart.as_slice())?;
-            Ok(diagnose_beside(&rest, &sought, &options, &view.removed)?.evidence)
-        })?;
-        for j in (0..rivals).filter(|j| *j != i) {
-            let other = candidates[all[j].candidate].0;
-            let survives = (candidates.iter().enumerate())
-                .filter(|(_, c)| c.0 == other)
-                .any(|(k, _)| left.iter().any(|e| e[k].stands));
-            if !survives {
-                score[i] += 1;
-                score[j] -= 1;
-            }
-        }
-    }
-    let most = score.iter().max().copied().unwrap_or(0);
-    Ok(score.iter().position(|s| *s == most).unwrap_or(0))
 }
 
 /// Power of everything in a spectrum that stands above its median.
@@ -360,7 +310,9 @@ fn finding(
     component: Component,
     name: &'static str,
     expected: f64,
+    families: &Families,
 ) -> Finding {
+    let of = families.all.iter().find(|f| f.component == component);
     let evidence = from.evidence.clone();
     let modulation = evidence.modulation() / views[from.view].mean.max(f64::MIN_POSITIVE);
     let names: Vec<&str> = options.orders.strikes().map(|s| s.1).collect();
@@ -372,6 +324,7 @@ fn finding(
         standing_in: from.views,
         false_alarm: (evidence.false_alarm * views.len() as f64).min(1.0),
         modulation,
+        score: of.map_or(0.0, |f| f.score),
         strength: Strength::Faint,
         explained_by: Vec::new(),
         alternatives: (evidence.alternatives.iter()).map(|a| names[a.0]).collect(),

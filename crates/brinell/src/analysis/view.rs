@@ -80,7 +80,7 @@ pub(super) fn candidates(
 }
 
 /// Highest frequency looked at in an envelope spectrum, Hz.
-fn top(shaft: f64, options: &Options) -> f64 {
+pub(super) fn top(shaft: f64, options: &Options) -> f64 {
     let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2));
     highest * shaft * (options.harmonics as f64 + 0.5) * (1.0 + options.tolerance)
 }

@@ -1,7 +1,8 @@
 //! Findings in words.
 
+use super::family::LIMITS;
 use super::frequencies::Component;
-use super::verdict::{CLEAR, FAINT, FEWEST_TO_BE_CLEAR, tells_elements};
+use super::verdict::tells_elements;
 use super::view::candidates;
 use super::{Analysis, Beyond, Finding};
 
@@ -30,9 +31,10 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 told(analysis, first)
             ));
             text.push(format!(
-                "The evidence is {}: noise alone would show as much with a chance of at most {}{}.",
+                "The evidence is {}: over all bands its family scores {:.0}, and damage begins at {}{}.",
                 first.clarity(),
-                power(first.false_alarm),
+                first.score,
+                LIMITS[0].0,
                 reserve(analysis, first)
             ));
             for other in rest {
@@ -66,13 +68,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         }
         let why = if other.explained_by.is_empty() {
             format!(
-                "modulates the envelope by {:.1} %{}; not called damage",
-                100.0 * other.modulation,
-                if other.modulation >= FAINT {
-                    " and is far weaker"
-                } else {
-                    " only"
-                }
+                "scores {:.0} over all bands, where damage begins at {}; not called damage",
+                other.score, LIMITS[0].0
             )
         } else {
             format!(
@@ -96,14 +93,6 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 /// Why evidence is weak that noise does not explain.
 fn reserve(analysis: &Analysis, finding: &Finding) -> String {
     let mut text = String::new();
-    let shown = finding.evidence.shown();
-    if shown < FEWEST_TO_BE_CLEAR && finding.false_alarm < CLEAR {
-        text += &format!(
-            ", but only {shown} of {} harmonics {}, and so few may be another source's",
-            analysis.options.harmonics,
-            if shown == 1 { "stands" } else { "stand" }
-        );
-    }
     if !finding.untold_from.is_empty() {
         text += if text.is_empty() { ", but " } else { "; and " };
         text += &format!(
@@ -210,15 +199,4 @@ fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
-}
-
-/// A small probability, rounded up to a power of ten.
-fn power(p: f64) -> String {
-    if p < 1e-15 {
-        return "1e-15".into();
-    }
-    if p >= 0.1 {
-        return format!("{p:.1}");
-    }
-    format!("1e{}", p.log10().ceil() as i32)
 }

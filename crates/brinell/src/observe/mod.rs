@@ -304,8 +304,10 @@ impl Watch {
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
         for (line, found) in self.lines.iter_mut().zip(spectra.lines) {
-            line.found = found;
-            line.interval = found.and_then(|f| self.rates.interval(line.defect, &f));
+            if let Some(found) = found {
+                let (found, interval) = self.rates.mean_rate(line.defect, found);
+                (line.found, line.interval) = (Some(found), interval);
+            }
         }
         Findings {
             from: self.started.unwrap_or(0.0),

@@ -14,6 +14,9 @@ use std::f64::consts::TAU;
 /// Share of a run, at its beginning, that hardly moves a frequency found under Hann's window.
 const TAPERED: f64 = 0.2;
 
+/// Distance from the mean rate, relative, at which a comb is taken for a lobe of itself. Cages that settle move a frequency by 0.1 %.
+const LOBE: f64 = 0.005;
+
 /// Of one defect.
 #[derive(Debug, Clone)]
 struct Rate {
@@ -94,13 +97,44 @@ impl PassRates {
         self.rates.get(defect)?.averages.estimate()
     }
 
+    /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
+    ///
+    /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb splits into lobes, and the
+    /// highest lobe is not the mean rate: farther from the motion's own by more than [`LOBE`], that one stands in its place.
+    pub fn mean_rate(
+        &self,
+        defect: usize,
+        found: LineFrequency,
+    ) -> (LineFrequency, Option<Interval>) {
+        let interval = self.interval(defect, &found);
+        // A roller spins more slowly where nothing presses it, and strikes where something does.
+        let on_raceway = |r: &Rate| !matches!(r.surface, Surface::Roller(_));
+        let raceway = self.rates.get(defect).is_some_and(on_raceway);
+        let Some(rate) = self.rate(defect).filter(|_| raceway) else {
+            return (found, interval);
+        };
+        let frequency = rate.value.abs();
+        if (found.frequency - frequency).abs() <= LOBE * found.frequency {
+            return (found, interval);
+        }
+        let interval = rate.interval.map(|i| match rate.value < 0.0 {
+            true => Interval {
+                low: -i.high,
+                high: -i.low,
+                ..i
+            },
+            false => i,
+        });
+        (LineFrequency { frequency, ..found }, interval)
+    }
+
     /// The interval of a frequency found in the envelope: of its noise, and of slip's wander about the mean rate.
     ///
     /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the motion gives S, and the
     /// frequency is an average over [`LineFrequency::span`]. Hann's window gives the beginning little weight, so where cages still settle
     /// there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and Satterthwaite, those of
     /// the noise counting as many. `None` where the run is too short to tell.
-    pub fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
+    fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
         let noise = found.noise * found.noise;
         let (wander, freedom) = match self.rates.get(defect) {
             None => (0.0, 1.0),
