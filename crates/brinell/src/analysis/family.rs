@@ -10,8 +10,8 @@
 //! - a score, the sum over five harmonics of ln(power over floor): 0 for a silent family, about 5 for the best place in noise;
 //! - a depth, the power of its lines over the envelope's mean squared, averaged over the bands: what a longer record does not change.
 //!
-//! The limits ([`Family::is_damage`]) were set on 72 public records of three rigs (docs/src/results/analyze.md): of 31 of sound bearings one goes beyond
-//! them, the next has 14.0; of the damaged ones that show their damage the lowest has 16.5 with a depth of 1.7 %.
+//! The limits ([`Family::is_damage`]) were set on 72 public records of three rigs (docs/src/results/analyze.md): of 31 of sound bearings none goes
+//! beyond them (the nearest: 17.4 with a depth of 1.4 %, and 14.0 with 0.4 %); of the damaged ones that show their damage the lowest has 16.5 with 1.7 %.
 
 use super::frequencies::Component;
 use super::known_lines;
@@ -20,9 +20,15 @@ use super::{AnalysisError, Options, bands};
 use crate::signal::lengths::fast_up_to;
 use crate::signal::{Band, Segments, Spectrum, Transformed, psd, resample};
 
-/// Score and depth from which a family is damage: a healthy machine's lines stand too, faintly. In a short record few bins lie between
-/// lines and the floor holds some of them: there a lower score with a greater depth counts as much.
-pub(super) const LIMITS: [(f64, f64); 2] = [(15.0, 0.01), (9.0, 0.05)];
+/// Score from which a family is damage in a record of [`REVOLUTIONS`] or more. In a shorter one its lines stand less high over the noise: as the
+/// length, in power.
+pub(super) const SCORE: f64 = 15.0;
+/// Least score, however short the record: noise comes to five.
+const LEAST: f64 = 9.0;
+/// Depth from which it is: a healthy machine's lines stand too, faintly.
+const DEPTH: f64 = 0.015;
+/// Depth from which [`LEAST`] is enough: where few bins lie between lines, the floor holds some of them.
+const DEEP: f64 = 0.05;
 /// Score from which evidence is very clear.
 pub(super) const VERY_CLEAR: f64 = 19.0;
 /// Harmonics that are counted.
@@ -55,6 +61,8 @@ pub struct Family {
     pub frequency: f64,
     /// Sum of ln(power over floor) over the harmonics.
     pub score: f64,
+    /// The score from which a record of this length shows damage.
+    pub limit: f64,
     /// Power over floor of each harmonic, dB.
     pub snr_db: Vec<f64>,
     /// Power of its lines over the envelope's mean squared.
@@ -64,9 +72,7 @@ pub struct Family {
 impl Family {
     /// Whether it says damage by itself.
     pub fn is_damage(&self) -> bool {
-        LIMITS
-            .iter()
-            .any(|l| self.score >= l.0 && self.depth >= l.1)
+        self.score >= self.limit && self.depth >= DEPTH || self.score >= LEAST && self.depth >= DEEP
     }
 }
 
@@ -100,7 +106,10 @@ pub(super) fn families(
             damage: Vec::new(),
         });
     };
-    let all = read(&together, shaft.hz, options);
+    let revolutions = transformed.samples() as f64 / transformed.sample_rate() * shaft.hz;
+    let shorter = (revolutions / REVOLUTIONS).min(1.0);
+    let limit = (SCORE + HARMONICS as f64 * shorter.ln()).max(LEAST);
+    let all = read(&together, limit, shaft.hz, options);
     let mut damage = Vec::new();
     if let Some(first) = first(&all) {
         // What strikes once a turn of the cage is one element on its way through the load, more often than the cage.
@@ -110,7 +119,7 @@ pub(super) fn families(
         });
         let cage = options.orders.ftf.unwrap_or(super::view::USUAL_FTF) * shaft.hz;
         together.take_out(first.frequency, [shaft.hz, cage]);
-        let left = read(&together, shaft.hz, options);
+        let left = read(&together, limit, shaft.hz, options);
         // Frequencies that slip may bring together are not told apart.
         let apart =
             |f: &&Family| (f.expected / first.expected - 1.0).abs() > 2.0 * options.tolerance;
@@ -301,7 +310,7 @@ impl Together {
 }
 
 /// Each family at the slip at which it stands highest.
-fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
+fn read(together: &Together, limit: f64, shaft: f64, options: &Options) -> Vec<Family> {
     let strikes = options.orders.strikes();
     // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as well.
     let strikes = strikes.filter(|(_, name, _)| *name != "BSF");
@@ -329,6 +338,7 @@ fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
                 expected,
                 frequency,
                 score,
+                limit,
                 snr_db: lines.iter().map(|l| 10.0 * l.0.log10()).collect(),
                 depth: lines.iter().map(|l| l.1).sum(),
             }

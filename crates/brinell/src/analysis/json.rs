@@ -27,6 +27,7 @@ pub fn to_json(
             "expected_hz": f.expected,
             "found_hz": f.frequency,
             "score": f.score,
+            "limit": f.limit,
             "depth": f.depth,
             "is_damage": f.is_damage(),
             "harmonics_db": f.snr_db,

@@ -1,6 +1,6 @@
 //! From what stands in the envelope spectra to findings.
 
-use super::family::{Families, VERY_CLEAR};
+use super::family::{Families, SCORE, VERY_CLEAR};
 use super::frequencies::Component;
 use super::view::{USUAL_FTF, View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
@@ -58,6 +58,8 @@ pub struct Finding {
     pub modulation: f64,
     /// Score of its family over all bands ([`super::Family::score`]).
     pub score: f64,
+    /// The score from which a record of this length shows damage.
+    pub limit: f64,
     /// How much it says.
     pub strength: Strength,
     /// Stronger findings whose lines account for all of this one's.
@@ -87,7 +89,7 @@ impl Finding {
             return "weak";
         }
         match self.score {
-            score if score >= VERY_CLEAR => "very clear",
+            score if score >= VERY_CLEAR - SCORE + self.limit => "very clear",
             _ if self.is_cause() => "clear",
             _ => "weak",
         }
@@ -325,6 +327,7 @@ fn finding(
         false_alarm: (evidence.false_alarm * views.len() as f64).min(1.0),
         modulation,
         score: of.map_or(0.0, |f| f.score),
+        limit: of.map_or(f64::INFINITY, |f| f.limit),
         strength: Strength::Faint,
         explained_by: Vec::new(),
         alternatives: (evidence.alternatives.iter()).map(|a| names[a.0]).collect(),

@@ -1,6 +1,5 @@
 //! Findings in words.
 
-use super::family::LIMITS;
 use super::frequencies::Component;
 use super::verdict::tells_elements;
 use super::view::candidates;
@@ -31,10 +30,10 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 told(analysis, first)
             ));
             text.push(format!(
-                "The evidence is {}: over all bands its family scores {:.0}, and damage begins at {}{}.",
+                "The evidence is {}: over all bands its family scores {:.1}, and damage begins at {:.1}{}.",
                 first.clarity(),
                 first.score,
-                LIMITS[0].0,
+                first.limit,
                 reserve(analysis, first)
             ));
             for other in rest {
@@ -68,8 +67,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         }
         let why = if other.explained_by.is_empty() {
             format!(
-                "scores {:.0} over all bands, where damage begins at {}; not called damage",
-                other.score, LIMITS[0].0
+                "scores {:.1} over all bands, where damage begins at {:.1}; not called damage",
+                other.score, other.limit
             )
         } else {
             format!(
