@@ -19,11 +19,12 @@ const FS: f64 = 51_200.0;
 /// After the load's ramp and the cages' first slip, s.
 const SETTLED: f64 = 0.2;
 
-struct Measured(Vec<f64>);
+/// Samples, and the axis that they are of.
+struct Measured(Vec<f64>, usize);
 
 impl Observer for Measured {
     fn row(&mut self, _: u64, _: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        self.0.push(filtered[0]);
+        self.0.push(filtered[self.1]);
         ControlFlow::Continue(())
     }
 }
@@ -38,7 +39,8 @@ fn recorded(s: &mut Scenario, rate: f64, seconds: f64, start: f64) -> Vec<f64> {
     s.simulation.duration_s = seconds;
     s.simulation.sample_rate_hz = rate;
     let simulation = Simulation::new(s).unwrap();
-    let mut measured = Measured(Vec::new());
+    let load = s.operation.load_n;
+    let mut measured = Measured(Vec::new(), usize::from(load[1].abs() > load[0].abs()));
     let outcome = simulation.run(&mut measured);
     assert_eq!(outcome.end, End::Complete);
     measured.0.split_off((start * rate) as usize)
@@ -142,7 +144,7 @@ fn analytic_roller_damage() {
 fn regress_verdicts_on_short_runs_with_and_without_noise() {
     let rate = 25_600.0;
     let mut wrong = Vec::new();
-    let (mut count, mut passings) = (0, 0);
+    let (mut count, mut passings, mut missed, mut missed_inner) = (0, 0, 0, 0);
     for rpm in [1800.0, 2400.0] {
         for (on, component) in [
             (None, None),
@@ -151,9 +153,6 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
             (Some(Surface::Roller(1)), Some(Component::Element)),
         ] {
             let mut s = damaged(on.unwrap_or(Surface::OuterRaceway));
-            // The runs that the verdict was made on. In the dynamic film a cage with 1 mm of room slips by 1.3 %, so that 2 BSF comes to within
-            // 2.5 Hz of BPFO, and a healthy bearing is so quiet that its rollers' passing shows: 29 of these 96 verdicts are wrong there.
-            s.cage.guidance_film = GuidanceFilm::QuasiStatic;
             match on {
                 None => s.defects.clear(),
                 Some(Surface::Roller(_)) => {
@@ -185,7 +184,10 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                         && component.is_none()
                         && analysis.causes().all(|f| f.may_be_passing);
                     passings += usize::from(passing);
-                    if first != component && !passing {
+                    if first.is_none() && component.is_some() {
+                        missed += 1;
+                        missed_inner += usize::from(component == Some(Component::InnerRace));
+                    } else if first != component && !passing {
                         let verdict = analysis.verdict();
                         wrong.push(format!("{on:?} {rpm} r/min {seconds} s {noise}: {verdict}"));
                     }
@@ -194,16 +196,22 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
         }
     }
     println!(
-        "{} of {count} wrong; {passings} of 16 healthy ones with little noise weakly show how rollers pass\n{}",
+        "{} of {count} name another part, {missed} name none and {missed_inner} of them at the inner race; {passings} of 16 healthy ones with little \
+         noise weakly show how rollers pass\n{}",
         wrong.len(),
         wrong.join("\n")
     );
     // Which of these runs shows another rate hangs on the last digits of the run, as impacts amplify them: it is another run with another kernel,
-    // another processor or another start. Held to is the share alone, which does not: 0 to 3 of 96 in the sets seen with three kernels.
-    assert!(10 * wrong.len() <= count, "{}", wrong.join("\n"));
+    // another processor or another start. Held to are shares alone: 1 to 3 of 96 name another part.
+    assert!(15 * wrong.len() <= count, "{}", wrong.join("\n"));
+    // The inner ring's damage is loaded once a turn, and its lines are the shaft's neighbours: up to two seconds it is mostly missed.
+    assert!(
+        15 * (missed - missed_inner) <= count,
+        "{missed}, {missed_inner}"
+    );
 }
 
-/// The examples that a newcomer runs first: half a second each, without noise. What is damaged comes first.
+/// The examples that a newcomer runs first, of half a second, one and two, without noise. What is damaged comes first, and nothing else beside it.
 #[test]
 fn regress_verdicts_on_the_examples() {
     for (name, component) in [
@@ -218,27 +226,27 @@ fn regress_verdicts_on_the_examples() {
         let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         let mut s = document::read(&text, &[]).unwrap().scenario;
-        // The runs that the verdict was made on. With the dynamic film, the default, half a second is too short: circle and irregular are weakly
-        // called damage of a rolling element first, and inner-race shows nothing.
-        s.cage.guidance_film = GuidanceFilm::QuasiStatic;
         let Speed::Constant(rpm) = s.operation.speed_rpm else {
             panic!("a speed that varies")
         };
         let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
-        let (rate, seconds) = (s.simulation.sample_rate_hz, s.simulation.duration_s);
+        let rate = s.simulation.sample_rate_hz;
         let start = s.operation.load_ramp_s + 60.0 / rpm;
-        let x = recorded(&mut s, rate, seconds, start);
-        let options = Options {
-            silent: true,
-            ..Options::new(rpm / 60.0, orders)
-        };
-        let analysis = analyze(&x, rate, &options).unwrap();
-        println!("{name}: {}", analysis.verdict());
-        let first = analysis.causes().next().map(|f| f.component);
-        // A healthy bearing may weakly show how its rollers pass, as above.
-        let passing = component.is_none() && analysis.causes().all(|f| f.may_be_passing);
-        let verdict = analysis.verdict();
-        assert!(first == component || passing, "{name}: {verdict}");
+        let x = recorded(&mut s, rate, 2.0, start);
+        for seconds in [0.5, 1.0, 2.0] {
+            let options = Options {
+                silent: true,
+                ..Options::new(rpm / 60.0, orders)
+            };
+            let length = ((seconds - start) * rate) as usize;
+            let analysis = analyze(&x[..length], rate, &options).unwrap();
+            let verdict = format!("{name}, {seconds} s: {}", analysis.verdict());
+            println!("{verdict}");
+            let causes: Vec<Component> = analysis.causes().map(|f| f.component).collect();
+            // The inner ring's damage is loaded once a turn: 15 or 30 passes do not tell it from the shaft's own modulation.
+            let buried = name == "inner-race" && seconds < 2.0 && causes.is_empty();
+            assert!(causes == component.as_slice() || buried, "{verdict}");
+        }
     }
 }
 
