@@ -255,6 +255,9 @@ fn one(
         None => finish(scenario, simulation, &mut recorder),
     };
     let heard = recorder.close(&finished.outcome.end, false)?;
+    for file in heard.files {
+        file.publish()?;
+    }
     let numbers = match &finished.outcome.end {
         End::Stopped => return Ok(None),
         End::Failed(error) => Err(error.to_string()),

@@ -3,9 +3,8 @@
 use crate::failure::Failure;
 use crate::progress::Progress;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
-use brinell_io::{IoError, Outcome, SignalWriter};
+use brinell_io::{Complete, IoError, Outcome, SignalWriter};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 pub(crate) struct Recorder<'a> {
@@ -45,8 +44,8 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Ends the files as the run ended. Gives their paths and what was heard. A run that was broken off leaves whole files of the part that
-    /// was run, which say so, or none: `keep_stopped` decides.
+    /// Ends the files as the run ended, up to their names. Gives them and what was heard. A run that was broken off leaves whole files of the
+    /// part that was run, which say so, or none: `keep_stopped` decides.
     pub(crate) fn close(self, end: &End, keep_stopped: bool) -> Result<Heard, Failure> {
         self.progress.finish();
         if let Some(error) = self.failed {
@@ -57,15 +56,15 @@ impl<'a> Recorder<'a> {
             End::Stopped => Outcome::Partial("interrupted".into()),
             End::Failed(error) => Outcome::Partial(error.to_string()),
         };
-        let mut written = Vec::new();
+        let mut files = Vec::new();
         if keep_stopped || *end != End::Stopped {
             for writer in self.writers {
-                written.push(writer.finish(outcome.clone())?);
+                files.push(writer.complete(outcome.clone())?);
             }
         }
         Ok(Heard {
             elapsed: self.progress.elapsed(),
-            written,
+            files,
             signal: self.heard,
         })
     }
@@ -75,8 +74,8 @@ impl<'a> Recorder<'a> {
 pub(crate) struct Heard {
     /// Wall time, s.
     pub(crate) elapsed: f64,
-    /// Files of signals.
-    pub(crate) written: Vec<PathBuf>,
+    /// Files of signals, to be published.
+    pub(crate) files: Vec<Complete>,
     /// The signal that was asked for, from t = 0.
     pub(crate) signal: Vec<f64>,
 }

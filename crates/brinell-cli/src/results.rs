@@ -1,8 +1,8 @@
 //! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them have to go.
 //!
 //! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them: `summary.json` of a run,
-//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, and nothing else is
-//! ever removed. Finished runs that a command resumes from are never removed.
+//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed (a run, after its own files
+//! are complete), and nothing else is ever removed. Finished runs that a command resumes from are never removed.
 
 use crate::campaign::JOURNAL;
 use crate::failure::Failure;
@@ -422,9 +422,14 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// Removes them. A run's own scenario stays until the new one takes its place.
+    /// Removes them.
     pub(crate) fn remove(&self) -> Result<(), Failure> {
-        for name in &self.files {
+        self.remove_but(&[])
+    }
+
+    /// Removes those that the new results did not take the place of, by their names.
+    pub(crate) fn remove_but(&self, written: &[String]) -> Result<(), Failure> {
+        for name in self.files.iter().filter(|name| !written.contains(name)) {
             let path = self.folder.join(name);
             match std::fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {

@@ -21,7 +21,7 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
-use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_write, keys};
+use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -109,7 +109,8 @@ fn earlier(
     place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))
 }
 
-/// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
+/// Runs, and writes everything that was asked for into the folder, in place of the earlier results. These stay until all files of this run are
+/// complete beside them: a full disk costs nothing that was there.
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
@@ -120,16 +121,14 @@ fn execute(
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
-    earlier.remove()?;
     // What a reader needs to make sense of a partial run comes first.
-    let path = folder.join(SCENARIO);
-    atomic_write(&path, loaded.to_toml().as_bytes())?;
-    let mut written = vec![path];
+    let scenario = atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?;
+    let mut ready = vec![scenario];
 
     let mut recorder = Recorder::new(&simulation, writers, progress, stop);
     let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
     let heard = recorder.close(&finished.outcome.end, true)?;
-    written.extend(heard.written);
+    ready.extend(heard.files);
     let Finished {
         simulation,
         outcome,
@@ -150,27 +149,25 @@ fn execute(
         Some(report) if !args.plots.is_empty() => pictures(report),
         _ => Vec::new(),
     };
-    let mut files = written.clone();
+    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
     files.push(folder.join(SUMMARY));
     if !args.no_report {
         files.push(folder.join(REPORT));
     }
     files.extend(picture_files(&pictures, &args.plots, folder));
-    // Before the report and the pictures: a run that replaces this one knows of them even where this one is cut short.
     let mut summary = summary::to_json(&parts);
     summary["files"] = names_below(folder, &files).into();
-    let path = folder.join(SUMMARY);
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    atomic_write(&path, text.as_bytes())?;
-    written.push(path);
+    // First of all: a run that replaces this one knows of its files even where this one is cut short between two names.
+    ready.insert(0, atomic_prepare(folder.join(SUMMARY), text)?);
     if let Some(report) = report.filter(|_| !args.no_report) {
-        let path = folder.join(REPORT);
-        atomic_write(&path, brinell_report::html(&report).as_bytes())?;
-        written.push(path);
+        let page = brinell_report::html(&report);
+        ready.push(atomic_prepare(folder.join(REPORT), page)?);
     }
-    if !pictures.is_empty() {
-        write_pictures(&pictures, &args.plots, folder, &mut written)?;
-    }
+    ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
+    let published = ready.into_iter().map(Complete::publish);
+    let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
+    earlier.remove_but(&names_below(folder, &written))?;
     Ok(Done {
         told: tell(&parts, heard.elapsed, &written),
         end: outcome.end,
@@ -282,6 +279,22 @@ pub(crate) fn write_pictures(
     folder: &Path,
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
+    for file in ready_pictures(pictures, formats, folder)? {
+        written.push(file.publish()?);
+    }
+    Ok(())
+}
+
+/// The same up to the files' names.
+fn ready_pictures(
+    pictures: &[brinell_report::Picture],
+    formats: &[PlotFormat],
+    folder: &Path,
+) -> Result<Vec<Complete>, Failure> {
+    let mut ready = Vec::new();
+    if pictures.is_empty() {
+        return Ok(ready);
+    }
     let folder = folder.join(PLOTS);
     make_folder(&folder)?;
     for picture in pictures {
@@ -291,11 +304,10 @@ pub(crate) fn write_pictures(
                 PlotFormat::Png => picture.png(2.0).map_err(Failure::Picture)?,
             };
             let path = folder.join(picture_file(picture, *format));
-            atomic_write(&path, &bytes)?;
-            written.push(path);
+            ready.push(atomic_prepare(path, bytes)?);
         }
     }
-    Ok(())
+    Ok(ready)
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {

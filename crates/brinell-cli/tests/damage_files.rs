@@ -56,6 +56,51 @@ fn regress_examples_from_files_run_and_their_results_run_again_without_the_file(
 }
 
 #[test]
+fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = |scenario: &str, more: &[&str]| {
+        let result = brinell(&[&["check", scenario, "--assumptions"], more].concat());
+        assert!(result.status.success(), "{result:?}");
+        let text = String::from_utf8(result.stdout).unwrap();
+        let list = text.split("Assumed, because nobody stated it:\n").nth(1);
+        list.unwrap().to_owned()
+    };
+    for (name, of_file) in [
+        (
+            "photo",
+            &["threshold = 0.41", "blur_px = 1.5 px", "speck_mm2"][..],
+        ),
+        ("scan", &["depth_map.zero"]),
+    ] {
+        let scenario = examples().join(format!("{name}.toml"));
+        let scenario = scenario.display().to_string();
+        let out = folder.path().join(name).display().to_string();
+        let short = "simulation.duration_s=0.005";
+        let run = [
+            "run",
+            &scenario,
+            "-o",
+            &out,
+            "-q",
+            "--no-report",
+            "--set",
+            short,
+        ];
+        assert!(brinell(&run).status.success());
+        let written = format!("{out}/scenario.toml");
+        let source = list(&scenario, &[]);
+        for words in of_file {
+            assert!(source.contains(words), "no {words} in {source}");
+        }
+        assert_eq!(list(&written, &[]), source);
+        // Geometry of its author's own came of no file.
+        let own = "defects.0.shape={rectangle={length_mm=1.0,width_mm=2.0}}";
+        let own = list(&written, &["--set", own]);
+        assert!(!own.contains("defects.0.shape"), "{own}");
+    }
+}
+
+#[test]
 fn regress_a_bad_file_ends_with_2_and_names_key_and_file() {
     let scenario = examples().join("photo.toml").display().to_string();
     for (set, wanted) in [

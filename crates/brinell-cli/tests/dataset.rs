@@ -304,6 +304,23 @@ fn prop_what_was_changed_after_it_was_written_is_told() {
             .complains(&["dataset.json: its checksum is another than when it was written"]);
     }
     fs::write(out.join("dataset.json"), &sidecar).unwrap();
+    // The card as well, which its reader may do without; and what is nobody's among the runs.
+    let card = fs::read_to_string(out.join("croissant.json")).unwrap();
+    fs::write(out.join("croissant.json"), card.replacen("test", "tess", 1)).unwrap();
+    fs::write(out.join("runs/notes.txt"), "mine").unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&[
+            "croissant.json: its checksum is another than when it was written",
+            "runs/notes.txt: no file of this data set",
+        ]);
+    fs::remove_file(out.join("croissant.json")).unwrap();
+    fs::remove_file(out.join("runs/notes.txt")).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(0)
+        .says(&["; croissant.json is not here"])
+        .keeps_quiet();
+    fs::write(out.join("croissant.json"), &card).unwrap();
     // A file that was cut short is found by whoever goes on.
     let file = out.join("runs/part-00001.parquet");
     let whole = fs::read(&file).unwrap();
@@ -488,7 +505,9 @@ fn prop_held_out_labels_lie_apart() {
         .complains(&[&format!("{last} is missing, and others are here")]);
     // All labels may be elsewhere.
     fs::remove_dir_all(out.join("held_out")).unwrap();
-    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(0)
+        .says(&["; labels are not here"]);
 }
 
 #[test]

@@ -133,3 +133,31 @@ fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
     let left = |name: &String| name.contains(".partial") || name.starts_with("signals");
     assert!(!there.iter().any(left), "{there:?}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
+    let folder = folder_with(SHORT);
+    let first = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv"];
+    brinell(folder.path(), &first).exits(0);
+    let before = common::results(&folder.path().join("o"));
+    // Signals too long; then signals that fit, and a report that does not.
+    for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (100, "none", "report.html")] {
+        let limited =
+            format!("ulimit -f {blocks}; exec \"$0\" run s.toml -o o -q --signals {signals}");
+        let call = std::process::Command::new("sh")
+            .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        Call::from(call).exits(1).complains(&[lacks]);
+        assert!(common::results(&folder.path().join("o")) == before);
+    }
+    // With room for them the new results come, and what they have not goes.
+    let again = ["run", "s.toml", "-o", "o", "-q", "--signals", "none"];
+    brinell(folder.path(), &again).exits(0);
+    assert_eq!(
+        common::files(&folder.path().join("o")),
+        ["report.html", "scenario.toml", "summary.json"]
+    );
+}

@@ -10,6 +10,8 @@ pub struct Polygons {
     pub polygons_mm: Vec<Vec<[f64; 2]>>,
     /// What the reader decided by itself or left out, in sentences.
     pub warnings: Vec<String>,
+    /// Of an image whose threshold was left out: the one that was found, 0 black to 1 white.
+    pub threshold: Option<f64>,
 }
 
 impl Polygons {

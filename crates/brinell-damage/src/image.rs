@@ -85,7 +85,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
         gaussian(&mut pixels, blur_px);
     }
     let mut warnings = Vec::new();
-    let level = level(&pixels, options, flip, &mut warnings)?;
+    let (level, found) = level(&pixels, options, flip, &mut warnings)?;
     let field = Field {
         width: pixels.width,
         height: pixels.height,
@@ -126,6 +126,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
     let mut result = Polygons {
         polygons_mm: outlines.rings,
         warnings,
+        threshold: found,
     };
     for ring in &mut result.polygons_mm {
         for point in ring.iter_mut() {
@@ -179,17 +180,17 @@ fn check(options: &ImageOptions) -> Result<(), DamageError> {
     Ok(())
 }
 
-/// The level above which a pixel is damage.
+/// The level above which a pixel is damage, and the threshold where it was found.
 fn level(
     pixels: &Pixels,
     options: &ImageOptions,
     flip: bool,
     warnings: &mut Vec<String>,
-) -> Result<f64, DamageError> {
+) -> Result<(f64, Option<f64>), DamageError> {
     let given = options.threshold.or(options.use_alpha.then_some(0.5));
     let facing = |level: f64| if flip { 1.0 - level } else { level };
     if let Some(threshold) = given {
-        return Ok(FULL * facing(threshold));
+        return Ok((FULL * facing(threshold), None));
     }
     let split = otsu(&pixels.values).ok_or_else(|| DamageError::NothingDamaged {
         why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)"
@@ -203,7 +204,7 @@ fn level(
             100.0 * split.separation
         ));
     }
-    Ok(split.level)
+    Ok((split.level, Some(shown)))
 }
 
 fn all_or_nothing(pixels: &Pixels, level: f64) -> Result<(), DamageError> {

@@ -1,10 +1,11 @@
 //! The files of damage that a scenario's text names, told of with the text's lines.
 
-use crate::{Unresolved, resolve};
+use crate::Unresolved;
+use crate::resolve::resolve_noting;
 use brinell::document::{Loaded, Problem, Problems, Severity, locate};
 use std::path::Path;
 
-/// [`resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
+/// [`crate::resolve`] for a scenario read from `text` with `overrides`: problems point at the line that names the file, and the provenance says which
 /// values came from it. Gives warnings.
 ///
 /// # Errors
@@ -21,23 +22,28 @@ pub fn resolve_loaded(
         .iter()
         .map(|d| d.shape.file().map(str::to_owned))
         .collect();
-    let warnings = resolve(&mut loaded.scenario, folder).map_err(|errors| {
-        let placed = |error: Unresolved| {
-            // What an override gave stands nowhere in the text.
-            let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
-            let place = locate(text, &error.key).filter(|_| !given);
-            Problem::of_file(&error.key, &error.file, &error.message).placed(place)
-        };
-        let mut problems = Problems::of(text);
-        for error in errors {
-            problems.add_of(Severity::Error, "file of damage", || (placed(error), None));
-        }
-        problems.finish()
-    })?;
+    let mut thresholds = Vec::new();
+    let warnings =
+        resolve_noting(&mut loaded.scenario, folder, &mut thresholds).map_err(|errors| {
+            let placed = |error: Unresolved| {
+                // What an override gave stands nowhere in the text.
+                let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
+                let place = locate(text, &error.key).filter(|_| !given);
+                Problem::of_file(&error.key, &error.file, &error.message).placed(place)
+            };
+            let mut problems = Problems::of(text);
+            for error in errors {
+                problems.add_of(Severity::Error, "file of damage", || (placed(error), None));
+            }
+            problems.finish()
+        })?;
     for (defect, file) in files.iter().enumerate() {
         if let Some(file) = file {
             loaded.read_from(defect, file);
         }
+    }
+    for (defect, level) in thresholds {
+        loaded.threshold_found(defect, level);
     }
     Ok(warnings)
 }

@@ -64,6 +64,15 @@ fn named(defect: usize, shape: &Shape) -> Option<(String, String)> {
 /// # Errors
 /// Every file that could not be read or does not fit the bearing; the scenario is then as it was.
 pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Vec<Unresolved>> {
+    resolve_noting(scenario, folder, &mut Vec::new())
+}
+
+/// [`resolve`], with the thresholds that were found in images, by their defects.
+pub(crate) fn resolve_noting(
+    scenario: &mut Scenario,
+    folder: &Path,
+    thresholds: &mut Vec<(usize, f64)>,
+) -> Result<Vec<String>, Vec<Unresolved>> {
     let files: Vec<(usize, String, String)> = scenario
         .defects
         .iter()
@@ -76,9 +85,10 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
     let mut resolved = scenario.clone();
     let (mut warnings, mut errors) = (Vec::new(), Vec::new());
     for (i, key, file) in &files {
-        match read_shape(&scenario.defects[*i].shape, folder) {
-            Ok((shape, said)) => {
+        match read_noting(&scenario.defects[*i].shape, folder) {
+            Ok((shape, said, threshold)) => {
                 resolved.defects[*i].shape = shape;
+                thresholds.extend(threshold.map(|level| (*i, level)));
                 warnings.extend(
                     said.iter()
                         .map(|text| format!("{key} = \"{file}\": {text}")),
@@ -201,8 +211,13 @@ fn scale(shape: &Shape) -> String {
 /// # Errors
 /// In words.
 pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), String> {
+    read_noting(shape, folder).map(|(shape, warnings, _)| (shape, warnings))
+}
+
+/// [`read_shape`], with the threshold that was found in an image.
+fn read_noting(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>, Option<f64>), String> {
     let Some(file) = shape.file() else {
-        return Ok((shape.clone(), Vec::new()));
+        return Ok((shape.clone(), Vec::new(), None));
     };
     let bytes = bytes(&folder.join(file), largest(shape))?;
     if bytes.is_empty() {
@@ -218,16 +233,17 @@ pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), 
                 .and_then(|grid| {
                     let doubt = doubt(&grid)?;
                     let shape = cut_out(&grid)?;
-                    Ok((shape, grid.warnings.into_iter().chain(doubt).collect()))
+                    let warnings = grid.warnings.into_iter().chain(doubt);
+                    Ok((shape, warnings.collect(), None))
                 });
         }
-        _ => return Ok((shape.clone(), Vec::new())),
+        _ => return Ok((shape.clone(), Vec::new(), None)),
     };
     let polygons = read.map_err(|e| e.to_string())?;
     let shape = Shape::Outline {
         polygons_mm: polygons.polygons_mm,
     };
-    Ok((shape, polygons.warnings))
+    Ok((shape, polygons.warnings, polygons.threshold))
 }
 
 /// Bytes of a file for a shape at most.

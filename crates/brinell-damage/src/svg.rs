@@ -398,6 +398,7 @@ impl Reader<'_> {
         let mut result = Polygons {
             polygons_mm: rings,
             warnings: self.warnings,
+            threshold: None,
         };
         if self.options.center {
             result.centre();

@@ -2,6 +2,7 @@
 
 use crate::error::DatasetError;
 use crate::sidecar::{put, written};
+use brinell::campaign::digest;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -18,13 +19,19 @@ const KNOWN_LICENCES: [&str; 8] = [
     "odbl",
 ];
 
-/// Writes both. A README.md that is there stays: its author may have gone on with it.
-pub(crate) fn write(folder: &Path, about: &Value) -> Result<(), DatasetError> {
+/// The file that tools read.
+pub(crate) const CROISSANT: &str = "croissant.json";
+
+/// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there stays: its author may have
+/// gone on with it.
+pub(crate) fn write(folder: &Path, about: &Value) -> Result<Value, DatasetError> {
     let readme = folder.join("README.md");
     if !readme.exists() {
         put(&readme, &card(about))?;
     }
-    put(&folder.join("croissant.json"), &written(&croissant(about)))
+    let text = written(&croissant(about));
+    put(&folder.join(CROISSANT), &text)?;
+    Ok(json!({ "path": CROISSANT, "sha256": digest(&text) }))
 }
 
 fn text<'a>(value: &'a Value, key: &str) -> &'a str {

@@ -153,6 +153,13 @@ impl Folder {
 
     /// Every Parquet file among the runs, in order.
     pub(crate) fn parts_there(&self) -> Result<Vec<PathBuf>, DatasetError> {
+        let mut parts = self.all_there()?;
+        parts.retain(|p| p.extension().is_some_and(|e| e == "parquet"));
+        Ok(parts)
+    }
+
+    /// Everything among the runs, in order.
+    pub(crate) fn all_there(&self) -> Result<Vec<PathBuf>, DatasetError> {
         let path = self.root.join("runs");
         let entries = match std::fs::read_dir(&path) {
             Ok(entries) => entries,
@@ -160,11 +167,9 @@ impl Folder {
             Err(error) => return Err(DatasetError::Read { path, error }),
         };
         let names = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        let mut parts: Vec<PathBuf> = names
-            .filter(|p| p.extension().is_some_and(|e| e == "parquet"))
-            .collect();
-        parts.sort();
-        Ok(parts)
+        let mut names: Vec<PathBuf> = names.collect();
+        names.sort();
+        Ok(names)
     }
 
     /// What is known of a file that is finished; `None` where it is not. A file without a checksum is read for one.

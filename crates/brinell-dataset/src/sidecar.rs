@@ -16,6 +16,8 @@ const SCHEMA: &str = "brinell-dataset-2";
 
 /// Key of the checksum.
 const CHECKSUM: &str = "checksum";
+/// Key of the card's path and checksum.
+pub(crate) const CARD: &str = "card";
 
 /// Everything that is known before a run: what `work/campaign.json` holds.
 pub(crate) fn about(campaign: &Campaign) -> Value {
@@ -205,8 +207,8 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     if let Some(sources) = sources {
         about.insert("sources".into(), sources);
     }
-    let about = Value::from(about);
-    card::write(&folder.root, &about)?;
+    let mut about = Value::from(about);
+    about[CARD] = card::write(&folder.root, &about)?;
     put(&folder.sidecar(), &written(&signed(about)))?;
     Ok(true)
 }

@@ -1,8 +1,9 @@
 //! A data set's folder held against what it says of itself.
 
+use crate::card::CROISSANT;
 use crate::error::DatasetError;
 use crate::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name};
-use crate::sidecar::{files_of, is_whole};
+use crate::sidecar::{CARD, files_of, is_whole};
 use brinell_io::{keys, record_facts, sha256_of};
 use serde_json::Value;
 use std::path::Path;
@@ -18,6 +19,8 @@ pub struct Verified {
     pub failed: u64,
     /// Files that the campaign has altogether.
     pub of: usize,
+    /// What may lie elsewhere and is not here, in words.
+    pub absent: Vec<String>,
     /// Everything that is not as it should be, one line each.
     pub problems: Vec<String>,
 }
@@ -134,16 +137,33 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
     }
-    for path in folder.parts_there()? {
+    for path in folder.all_there()? {
         let name = path
             .file_name()
             .unwrap_or_default()
             .to_string_lossy()
             .into_owned();
-        if !(0..found.of).any(|part| name == file_name(part)) {
+        // A file that another process is about to finish is none yet.
+        let whole = name.strip_suffix(".partial").unwrap_or(&name);
+        if !(0..found.of).any(|part| whole == file_name(part)) {
             found
                 .problems
                 .push(format!("runs/{name}: no file of this data set"));
+        }
+    }
+    if let (Some(path), Some(told)) = (
+        sidecar[CARD]["path"]
+            .as_str()
+            .filter(|path| *path == CROISSANT),
+        sidecar[CARD]["sha256"].as_str(),
+    ) {
+        let card = folder.root.join(path);
+        if !card.exists() {
+            found.absent.push(format!("{path} is not here"));
+        } else if sha256_of(&card)? != told {
+            found.problems.push(format!(
+                "{path}: its checksum is another than when it was written"
+            ));
         }
     }
     // The labels may have been taken elsewhere, all of them: those that are here are checked, and what they are made from.
@@ -161,6 +181,9 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
     let parts = files_of(&about);
     let labels = (0..parts.len()).filter(|part| folder.held_out(*part).exists());
     let are_here = labels.count() > 0 || there(SECRET_PATH);
+    if plan.is_object() && !are_here {
+        found.absent.push("labels are not here".into());
+    }
     for (path, told) in apart.into_iter().filter(|_| are_here) {
         if !there(path) {
             let labels = path != SECRET_PATH;

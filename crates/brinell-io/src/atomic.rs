@@ -89,17 +89,41 @@ impl PartialFile {
         }
     }
 
-    /// Forces the contents to the disk and gives the file its name.
-    pub(crate) fn commit(mut self) -> Result<PathBuf, IoError> {
+    /// Forces the contents to the disk.
+    pub(crate) fn complete(self) -> Result<Complete, IoError> {
         self.check()?;
-        let publish = || {
-            self.file.sync_all()?;
-            std::fs::rename(&self.partial, &self.path)
-        };
-        publish().map_err(|e| IoError::writing(&self.path, e))?;
-        self.committed = true;
-        sync_folder_of(&self.path);
-        Ok(self.path.clone())
+        let forced = self.file.sync_all();
+        forced.map_err(|e| IoError::writing(&self.path, e))?;
+        Ok(Complete(self))
+    }
+
+    /// Forces the contents to the disk and gives the file its name.
+    pub(crate) fn commit(self) -> Result<PathBuf, IoError> {
+        self.complete()?.publish()
+    }
+}
+
+/// A file whose contents are on the disk, as `NAME.partial`: a file of its name is still there. Several of these are published together, when
+/// nothing is left that can fail for want of space. Dropped before, it is removed.
+#[derive(Debug)]
+pub struct Complete(PartialFile);
+
+impl Complete {
+    /// The path that the file will have.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// Gives the file its name, in place of one that has it.
+    ///
+    /// # Errors
+    /// Where the folder does not let it.
+    pub fn publish(mut self) -> Result<PathBuf, IoError> {
+        let PartialFile { partial, path, .. } = &self.0;
+        std::fs::rename(partial, path).map_err(|e| IoError::writing(path, e))?;
+        self.0.committed = true;
+        sync_folder_of(self.path());
+        Ok(self.path().to_owned())
     }
 }
 
@@ -208,7 +232,18 @@ pub fn atomic_write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> Result<(
         let written = device.and_then(|mut device| device.write_all(bytes.as_ref()));
         return written.map_err(|e| IoError::writing(path.as_ref(), e));
     }
+    atomic_prepare(path, bytes)?.publish().map(drop)
+}
+
+/// The same up to its name, which [`Complete::publish`] gives.
+///
+/// # Errors
+/// Where the file cannot be written, or another process is about to write it.
+pub fn atomic_prepare(
+    path: impl AsRef<Path>,
+    bytes: impl AsRef<[u8]>,
+) -> Result<Complete, IoError> {
     let mut file = PartialFile::create(path.as_ref())?;
     file.append(bytes.as_ref())?;
-    file.commit().map(drop)
+    file.complete()
 }

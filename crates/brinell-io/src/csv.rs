@@ -6,9 +6,9 @@
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, Signals};
 
@@ -75,9 +75,9 @@ impl SignalWriter for CsvWriter {
         self.flush_if_full()
     }
 
-    fn finish(mut self: Box<Self>, _: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(mut self: Box<Self>, _: Outcome) -> Result<Complete, IoError> {
         self.file.append(&self.text)?;
-        self.file.commit()
+        self.file.complete()
     }
 }
 

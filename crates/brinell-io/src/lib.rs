@@ -47,7 +47,7 @@ mod table;
 mod text;
 mod write;
 
-pub use atomic::{atomic_copy, atomic_write, lock};
+pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
 pub use journal::Journal;

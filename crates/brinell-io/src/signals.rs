@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::{CsvWriter, IoError, MatWriter, UffWriter, WavWriter};
+use crate::{Complete, CsvWriter, IoError, MatWriter, UffWriter, WavWriter};
 
 /// Keys of the metadata that a Parquet file carries.
 pub mod keys {
@@ -120,8 +120,13 @@ pub trait SignalWriter: Send {
     /// Appends one row: a value per column, in the order of the columns.
     fn write_row(&mut self, row: &[f64]) -> Result<(), IoError>;
 
+    /// Completes the file, up to its name.
+    fn complete(self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError>;
+
     /// Completes the file, gives it its name and returns its path.
-    fn finish(self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError>;
+    fn finish(self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+        self.complete(outcome)?.publish()
+    }
 }
 
 /// A file format for signals.

@@ -4,12 +4,12 @@
 //! `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a scenario file alone can say is in
 //! [`crate::document`].
 
-use crate::defect::{SIDES, Side, relative_radius, wrap};
+use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{STATIC_LIMIT, pressures, static_rating};
-use crate::scenario::{Law, ModelKind, RollerPath, Scenario, Shape, Speed, Surface};
+use crate::scenario::{Accuracy, Law, ModelKind, RollerPath, Scenario, Shape, Speed, Surface};
 use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 use std::f64::consts::TAU;
@@ -22,6 +22,10 @@ const WEIGHT_SHARE: f64 = 0.1;
 const REACHED_SHARE: f64 = 0.9;
 /// Slices from which on the RMS no longer depends on their number where an envelope meets a slanted edge (docs/src/validation.md, "Slices").
 const ENVELOPE_SLICES: usize = 100;
+/// Static approaches of the heaviest contact: deeper damage over a roller's whole width takes all load off it where it begins.
+const DROP: f64 = 10.0;
+/// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
+const RESIDUAL_SHARE: f64 = 0.01;
 /// Standard gravity, m/s^2.
 const GRAVITY: f64 = 9.80665;
 
@@ -40,7 +44,8 @@ pub fn before(
         warnings.extend(overload(scenario, zone));
     }
     warnings.extend(outside_the_load_zone(scenario, model));
-    warnings.extend(out_of_reach(scenario, model));
+    let approach = statics.as_ref().ok().map(|zone| approach(model, zone));
+    warnings.extend(felt_by_a_point(scenario, model, approach));
     warnings.extend(coarse_slices(scenario, model));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)
@@ -55,7 +60,8 @@ fn few_of_a_kind(warnings: Vec<Problem>) -> Vec<Problem> {
 
 /// Warnings of a run that is over.
 pub fn after(scenario: &Scenario, energy: &EnergyAudit) -> Vec<String> {
-    parametric(scenario, energy).into_iter().collect()
+    let both = [parametric(scenario, energy), residual(scenario, energy)];
+    both.into_iter().flatten().collect()
 }
 
 fn warning(key: &str, value: String, message: String, allowed: impl Into<String>) -> Problem {
@@ -132,9 +138,10 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     let mut warnings = Vec::new();
     let load = o.load_n[0].hypot(o.load_n[1]);
     let rating = static_rating(&scenario.bearing);
-    if let Some(source) = rating.source
-        && load > rating.load
-    {
+    let source = rating
+        .source
+        .unwrap_or("estimated by the formula of ISO 76");
+    if load > rating.load {
         warnings.push(warning(
             LOAD,
             list(o.load_n),
@@ -228,8 +235,15 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     warnings
 }
 
-/// A floor that the roller's radius keeps it from, felt all the same with `roller_path = "point"`.
-fn out_of_reach(scenario: &Scenario, model: &Model) -> Vec<Problem> {
+/// Static approach of the heaviest contact on the softer raceway, m.
+fn approach(model: &Model, zone: &StaticLoadZone) -> f64 {
+    let on = |side| model.contact(side).deflection(zone.largest);
+    SIDES.into_iter().map(on).fold(0.0, f64::max)
+}
+
+/// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same; and where the damage is as
+/// wide as the roller, it drops by the whole depth at once. `approach` is that of the heaviest contact, m.
+fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) -> Vec<Problem> {
     if scenario.contact.roller_path != RollerPath::Point {
         return Vec::new();
     }
@@ -242,26 +256,46 @@ fn out_of_reach(scenario: &Scenario, model: &Model) -> Vec<Problem> {
         let Some((side, (deep, reached))) = worst else {
             continue;
         };
-        if reached >= REACHED_SHARE * deep {
-            continue;
-        }
         let ring = match side {
             Side::Inner => "inner",
             Side::Outer => "outer",
         };
-        warnings.push(warning(
-            "contact.roller_path",
-            "\"point\"".into(),
+        let words = if reached < REACHED_SHARE * deep {
             format!(
                 "defects.{k} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
                  floor all the same",
                 short(1e6 * deep),
                 short(1e6 * reached)
-            ),
+            )
+        } else if let (Some(approach), drop) = (approach, drop_at_once(defect))
+            && drop > DROP * approach
+        {
+            format!(
+                "defects.{k} is as wide as the roller and {} um deep, {:.0} times the approach of the heaviest contact at rest: at a \"point\" the \
+                 roller drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
+                short(1e6 * drop),
+                drop / approach
+            )
+        } else {
+            continue;
+        };
+        warnings.push(warning(
+            "contact.roller_path",
+            "\"point\"".into(),
+            words,
             "\"envelope\"",
         ));
     }
     warnings
+}
+
+/// Depth at the ends of damage that is as wide as the roller there, m.
+fn drop_at_once(defect: &Defect) -> f64 {
+    let (first, last) = defect.shape.arc();
+    let ends = [first, last].into_iter();
+    ends.filter(|s| defect.damaged_length(*s) >= defect.roller_length)
+        .map(|s| defect.depth_at(s))
+        .fold(0.0, f64::max)
 }
 
 /// Slices too wide for a depth that varies across them: one mean depth lets go of a whole slice.
@@ -327,6 +361,24 @@ fn too_short(scenario: &Scenario, model: &Model) -> Option<Problem> {
         ),
         allowed,
     ))
+}
+
+/// An energy audit that does not close: the steps were too long for the motion.
+fn residual(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
+    let share = energy.residual().abs() / energy.turnover();
+    // Where nothing moved there is no share.
+    (share > RESIDUAL_SHARE).then(|| {
+        let remedy = match scenario.simulation.accuracy {
+            Accuracy::Standard => "raise simulation.accuracy (allowed: \"reference\")",
+            Accuracy::Reference => {
+                "simulation.accuracy is \"reference\" already: look for damage that the roller falls into at once (contact.roller_path)"
+            }
+        };
+        format!(
+            "the energy audit closes to {:.1} % of the turnover, and 1 % is the limit of a run to rely on: {remedy}",
+            100.0 * share
+        )
+    })
 }
 
 fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {

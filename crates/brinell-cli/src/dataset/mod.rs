@@ -169,8 +169,10 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
 fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     let found = verify(&args.folder)?;
     if !args.quiet {
+        let absent = found.absent.iter().map(|words| format!("; {words}"));
+        let absent: String = absent.collect();
         say!(
-            "{}: {} of {} sound, {} with {} failed",
+            "{}: {} of {} sound, {} with {} failed{absent}",
             args.folder.display(),
             found.files,
             plural(found.of, "file"),

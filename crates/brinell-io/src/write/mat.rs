@@ -4,13 +4,13 @@
 //! `brinell_units` (a JSON object), `brinell_outcome`, and each pair of the metadata with `_` for the dots of its key.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 use super::spool::Spool;
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row, units_json};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -199,9 +199,9 @@ impl SignalWriter for MatWriter {
         self.spool.push(row.iter().copied())
     }
 
-    fn finish(mut self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
         self.file.check()?;
         self.write(&outcome)?;
-        self.file.commit()
+        self.file.complete()
     }
 }

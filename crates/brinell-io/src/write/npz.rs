@@ -3,13 +3,13 @@
 //! Nothing is compressed: vibration compresses little. Texts are those of the MAT files: `brinell_units`, `brinell_outcome`, and the metadata.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::spool::Spool;
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row, units_json};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -75,7 +75,7 @@ impl SignalWriter for NpzWriter {
         self.spool.push(row.iter().copied())
     }
 
-    fn finish(self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
         self.file.check()?;
         let mut spool = self.spool;
         let path = self.file.path().to_owned();
@@ -125,6 +125,6 @@ impl SignalWriter for NpzWriter {
                 .map_err(|e| failed(e.into()))?;
             archive.write_all(&bytes).map_err(failed)?;
         }
-        archive.finish().map_err(|e| failed(e.into()))?.commit()
+        archive.finish().map_err(|e| failed(e.into()))?.complete()
     }
 }

@@ -11,12 +11,12 @@
 //! Layout and field numbers: <https://github.com/apache/parquet-format>, `parquet.thrift`; Thrift's compact protocol:
 //! <https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::{Map, Value, json};
 use zstd::bulk::Compressor;
 
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -254,11 +254,11 @@ impl SignalWriter for ParquetWriter {
         }
     }
 
-    fn finish(mut self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
         self.file.check()?;
         self.write_group()?;
         self.write_footer(&outcome)?;
-        self.file.commit()
+        self.file.complete()
     }
 }
 

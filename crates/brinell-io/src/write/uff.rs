@@ -3,10 +3,10 @@
 //! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. The abscissa's step has seven digits, as many as
 //! its place in the file holds.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::spool::Spool;
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
@@ -160,7 +160,7 @@ impl SignalWriter for UffWriter {
         self.spool.push(self.kept.iter().map(|&i| row[i]))
     }
 
-    fn finish(mut self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
         self.file.check()?;
         for (index, &at) in self.kept.clone().iter().enumerate() {
             let records = self.records(&self.columns[at], &outcome);
@@ -169,6 +169,6 @@ impl SignalWriter for UffWriter {
             self.spool.column(index, |bytes| file.append(bytes))?;
             self.file.append(b"    -1\n")?;
         }
-        self.file.commit()
+        self.file.complete()
     }
 }

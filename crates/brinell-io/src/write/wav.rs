@@ -4,11 +4,11 @@
 //! scale will clip. The comment (LIST INFO, ICMT) holds a JSON object with name and unit of each channel, the metadata and the outcome. Floats
 //! of 32 bits keep seven digits. Past 4 GiB the file becomes an RF64 (EBU Tech 3306).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::signals::{check_columns, check_row, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -127,7 +127,7 @@ impl SignalWriter for WavWriter {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, outcome: Outcome) -> Result<PathBuf, IoError> {
+    fn complete(mut self: Box<Self>, outcome: Outcome) -> Result<Complete, IoError> {
         self.file.append(&self.buffer)?;
         let mut text = self.comment(&outcome).into_bytes();
         text.push(0);
@@ -156,6 +156,6 @@ impl SignalWriter for WavWriter {
                 self.file.patch(DATA + 4, &[0xff; 4])?;
             }
         }
-        self.file.commit()
+        self.file.complete()
     }
 }

@@ -71,7 +71,7 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     let mut blur_px = i.blur_px.unwrap_or(f64::NAN);
     let blur = key("blur_px", "standard deviation of the blur before, pixels");
     k.key_where(
-        blur.from(0.0).to(20.0).unit("px"),
+        blur.from(0.0).to(20.0),
         (i.edges == ImageEdges::SubPixel, "edges = \"sub-pixel\""),
         assumed(1.5, "calms a photo's noise"),
         &mut blur_px,

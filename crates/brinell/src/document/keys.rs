@@ -61,7 +61,7 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
-    const SUFFIXES: [(&str, &str); 18] = [
+    const SUFFIXES: [(&str, &str); 19] = [
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
         ("_kg_per_m3", "kg/m^3"),
         ("_ns_per_m", "N s/m"),
@@ -78,6 +78,7 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
         ("_hz", "Hz"),
         ("_mv", "mV"),
         ("_db", "dB"),
+        ("_px", "px"),
         ("_n", "N"),
         ("_s", "s"),
     ];

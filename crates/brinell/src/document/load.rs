@@ -100,6 +100,22 @@ impl Loaded {
         });
     }
 
+    /// Says that the level which divides damage from sound was found in the image of a defect, 0 black to 1 white.
+    pub fn threshold_found(&mut self, defect: usize, level: f64) {
+        let of = |name: &str| format!("defects.{defect}.shape.image.{name}");
+        let after = of("mm_per_pixel");
+        let place = self.provenance.iter().position(|p| p.key == after);
+        let found = Provenance {
+            key: of("threshold"),
+            value: source::float(level),
+            unit: "",
+            origin: Origin::Derived("found in the image: the level that divides it best"),
+            assumed: true,
+        };
+        let place = place.map_or(self.provenance.len(), |place| place + 1);
+        self.provenance.insert(place, found);
+    }
+
     /// The scenario as TOML with every default filled in, each assumed value with its reason beside it and in the section `[provenance]`,
     /// so that [`read`] says the same of it.
     pub fn to_toml(&self) -> String {

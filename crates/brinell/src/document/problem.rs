@@ -1,5 +1,6 @@
 //! What is wrong with a scenario file, said so that its author can mend it.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
@@ -142,6 +143,23 @@ impl Problem {
     }
 }
 
+/// Characters of a key, a value or a word that are shown.
+const SHOWN: usize = 200;
+
+/// The first `most` characters: a file may hold a key of megabytes.
+fn cut(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}...", &text[..end]).into(),
+        None => text.into(),
+    }
+}
+
+/// A message may quote what the file holds.
+fn cut_words(message: &str) -> String {
+    let words: Vec<_> = message.split(' ').map(|word| cut(word, SHOWN)).collect();
+    cut(&words.join(" "), 10 * SHOWN).into_owned()
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.severity {
@@ -153,13 +171,13 @@ impl fmt::Display for Problem {
         }
         write!(f, ": ")?;
         if !self.key.is_empty() {
-            write!(f, "{}", self.key)?;
+            write!(f, "{}", cut(&self.key, SHOWN))?;
             if let Some(value) = &self.value {
-                write!(f, " = {value}")?;
+                write!(f, " = {}", cut(value, SHOWN))?;
             }
             write!(f, ": ")?;
         }
-        write!(f, "{}", self.message)?;
+        write!(f, "{}", cut_words(&self.message))?;
         if let Some(allowed) = &self.allowed {
             write!(f, "\n  allowed: {allowed}")?;
             // The words may hold the unit already.
@@ -172,7 +190,7 @@ impl fmt::Display for Problem {
         }
         let mut lead = "\n  see also: ";
         for (key, place) in &self.also {
-            write!(f, "{lead}{key}")?;
+            write!(f, "{lead}{}", cut(key, SHOWN))?;
             if let Some(place) = place {
                 write!(f, " (line {})", place.line)?;
             }

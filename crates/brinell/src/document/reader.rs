@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::keys::{Fallback, Keys, Spec, Variant};
+use super::keys::{Fallback, Keys, Spec, Variant, unit_of_key};
 use super::leaf::{Leaf, Misfit};
 use super::nearest::nearest;
 use super::problem::{Problem, Severity};
@@ -38,6 +38,8 @@ pub(crate) struct Reader<'a> {
     vocabulary: &'a [(String, String)],
     /// What the file says was assumed when it was written.
     recorded: HashMap<String, Assumed>,
+    /// Those of them that tell how files of damage were read.
+    recorded_of_files: Vec<Assumed>,
     pub(crate) problems: Problems<'a>,
     pub(crate) provenance: Vec<Provenance>,
     /// What the file says of each key that the walk has named.
@@ -77,6 +79,7 @@ impl<'a> Reader<'a> {
             preset_unknown: false,
             vocabulary,
             recorded: HashMap::new(),
+            recorded_of_files: Vec::new(),
             problems: Problems::of(text),
             provenance: Vec::new(),
             found: HashMap::new(),
@@ -87,6 +90,7 @@ impl<'a> Reader<'a> {
     pub(crate) fn read_recorded(&mut self) {
         let mut list = None;
         recorded::provenance(self, &mut list);
+        self.recorded_of_files = recorded::of_files(list.as_ref());
         self.recorded = recorded::by_key(list);
         // The list itself is no value of the run.
         self.provenance.clear();
@@ -239,6 +243,29 @@ impl<'a> Reader<'a> {
                 None
             }
         }
+    }
+
+    /// Keeps what was assumed of the file that the geometry of a shape came of. Geometry that an override gives came of none, and a shape that
+    /// names its file says itself how it is read.
+    fn keep_of_file(&mut self, path: &str, variant: &str, node: &Node) {
+        let Value::Table(table) = &node.value else {
+            return;
+        };
+        let given = table.values().any(|entry| entry.node.span.is_none());
+        if given || node.span.is_none() || table.contains_key("file") {
+            return;
+        }
+        let of_file = self.recorded_of_files.iter();
+        let kept = of_file
+            .filter(|entry| entry.is_of(path, variant) && !self.found.contains_key(&entry.key));
+        let kept = kept.map(|entry| Provenance {
+            key: entry.key.clone(),
+            value: entry.value.clone(),
+            unit: unit_of_key(&entry.key),
+            origin: Origin::Recorded(entry.reason.clone()),
+            assumed: true,
+        });
+        self.provenance.extend(kept.collect::<Vec<_>>());
     }
 
     fn fall_back<T: Leaf>(
@@ -531,6 +558,7 @@ impl Keys for Reader<'_> {
             self.enter(inner_path, Some(&inner.node));
             keys(self, value);
             self.leave();
+            self.keep_of_file(&path, name, &inner.node);
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A written scenario gives every key, so the file itself no longer tells what its author stated from what was assumed. Each entry of
 //! `assumed` holds a key, the value that was assumed and the reason. A value of the file that equals its entry's stays assumed. One that
-//! differs is its author's, as is any override. An entry whose key the file does not hold says nothing.
+//! differs is its author's, as is any override. An entry whose key the file does not hold says nothing, but for the keys of a file of
+//! damage: a written scenario holds the geometry that came of them, and they stay beside it.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,7 +23,7 @@ const KEYS: [&str; 3] = ["key", "value", "reason"];
 /// One value that was assumed when the scenario was written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Assumed {
-    key: String,
+    pub(crate) key: String,
     /// As TOML.
     pub(crate) value: String,
     pub(crate) reason: String,
@@ -56,7 +57,33 @@ pub(crate) fn by_key(list: Option<Vec<Assumed>>) -> HashMap<String, Assumed> {
     entries.map(|entry| (entry.key.clone(), entry)).collect()
 }
 
+/// The entries of a list that tell how a file of damage was read.
+pub(crate) fn of_files(list: Option<&Vec<Assumed>>) -> Vec<Assumed> {
+    let entries = list.into_iter().flatten();
+    let of_file = |entry: &&Assumed| {
+        let words: Vec<&str> = entry.key.split('.').collect();
+        matches!(&words[..], ["defects", _, "shape", kind, _] if geometry_of(kind).is_some())
+    };
+    entries.filter(of_file).cloned().collect()
+}
+
+/// The shape that holds the geometry of a file of this kind.
+fn geometry_of(kind: &str) -> Option<&'static str> {
+    match kind {
+        "image" | "svg" => Some("outline"),
+        "depth_map" => Some("depth_map"),
+        _ => None,
+    }
+}
+
 impl Assumed {
+    /// Whether it tells how the file was read that the geometry of the shape `variant` at `path` came of.
+    pub(crate) fn is_of(&self, path: &str, variant: &str) -> bool {
+        let below = self.key.strip_prefix(path);
+        let below = below.and_then(|rest| rest.strip_prefix('.')?.split_once('.'));
+        below.is_some_and(|(kind, _)| geometry_of(kind) == Some(variant))
+    }
+
     fn read(node: &Node) -> Result<Self, Misfit> {
         let Value::Table(table) = &node.value else {
             return Err(Misfit::new(

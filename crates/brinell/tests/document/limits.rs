@@ -166,3 +166,62 @@ fn lit_no_bearing_turns_beyond_its_speed_factor() {
         assert_eq!(problem.also[0].0, "bearing.pitch_diameter_mm");
     }
 }
+
+#[test]
+fn analytic_no_body_moves_faster_than_a_run_can_follow() {
+    let roller = good(BARE).scenario.bearing.roller_mass_kg;
+    // m w at w = 1e9 1/s.
+    let most = roller * 1e9;
+    with(
+        BARE,
+        &[("contact.damping_ns_per_m", &(0.99 * most).to_string())],
+    )
+    .unwrap_or_else(|problems| panic!("{}", report(&problems)));
+    for (key, value) in [
+        ("contact.damping_ns_per_m", (1.01 * most).to_string()),
+        ("contact.inner_stiffness", "1e30".into()),
+        ("contact.outer_stiffness", "1e30".into()),
+        ("cage.contact_damping_ns_per_m", "1e30".into()),
+        ("support.inner_stiffness_n_per_m", "1e30".into()),
+        ("support.outer_stiffness_n_per_m", "1e30".into()),
+        ("support.inner_damping_ns_per_m", "1e30".into()),
+        ("support.outer_damping_ns_per_m", "1e30".into()),
+        ("friction.slip_velocity_m_per_s", "1e-30".into()),
+    ] {
+        let problems = with(BARE, &[(key, &value)]).unwrap_err();
+        let problem = &problems[0];
+        assert_eq!(problem.key, key, "{}", report(&problems));
+        let told = problem.to_string();
+        for words in [
+            key,
+            "= 1",
+            "faster than 1e9 1/s",
+            "allowed: ",
+            " N",
+            "mass_kg",
+        ] {
+            let speed = words == " N" && key.starts_with("friction");
+            assert!(told.contains(words) || speed, "no {words} in {told}");
+        }
+    }
+}
+
+#[test]
+fn regress_keys_and_values_of_megabytes_are_told_in_part() {
+    let long = "k".repeat(3_000_000);
+    for text in [
+        format!("{long} = 1\n{BARE}"),
+        BARE.replace("[bearing]", &format!("[bearing]\npreset = \"{long}\"")),
+        format!(
+            "{BARE}[provenance]\nassumed = [{{ key = \"{long}\", value = 1, reason = \"x\" }}]\n"
+        ),
+    ] {
+        for problem in refused(&text) {
+            assert!(
+                problem.to_string().len() < 5000,
+                "{}",
+                problem.to_string().len()
+            );
+        }
+    }
+}

@@ -5,6 +5,7 @@
 mod bearing;
 mod defects;
 mod operation;
+mod rates;
 mod sensor;
 mod shapes;
 
@@ -124,6 +125,7 @@ pub(crate) fn check<'a>(
     checker.operation();
     checker.speed_factor();
     checker.support();
+    checker.rates();
     checker.defects();
     checker.sensor();
     checker.simulation();
