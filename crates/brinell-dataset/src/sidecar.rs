@@ -247,7 +247,7 @@ pub(crate) fn put(path: &Path, text: &str) -> Result<(), DatasetError> {
     if std::fs::read(path).is_ok_and(|there| there == text.as_bytes()) {
         return Ok(());
     }
-    match atomic_write(path, text.to_owned()) {
+    match atomic_write(path, text) {
         // Another shard that ended at the same time writes the same.
         Err(IoError::Busy { .. }) | Ok(()) => Ok(()),
         Err(error) => Err(error.into()),

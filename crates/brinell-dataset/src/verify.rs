@@ -195,7 +195,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
             found
                 .problems
                 .push(format!("{path} is missing, and others are here: {remedy}"));
-        } else if Some(sha256_of(&folder.root.join(path))?.as_str()) != told.as_str() {
+        } else if Some(sha256_of(folder.root.join(path))?.as_str()) != told.as_str() {
             found.problems.push(format!(
                 "{path}: its checksum is another than when it was written"
             ));

@@ -206,7 +206,7 @@ fn tiles(fs: f64, top: f64, options: &Options) -> Vec<Band> {
         None => (bands::BROAD * bands::highest(options), nyquist),
     };
     let width = top.max((high - low) / BANDS).min(high - low);
-    if !(width > 0.0) {
+    if width.is_nan() || width <= 0.0 {
         return Vec::new();
     }
     let count = ((high - low - width) / (0.5 * width)).floor() as usize + 1;
