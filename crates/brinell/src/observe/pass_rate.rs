@@ -100,7 +100,7 @@ impl PassRates {
     /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
     ///
     /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb splits into lobes, and the
-    /// highest lobe is not the mean rate: farther from the motion's own by more than [`LOBE`], that one stands in its place.
+    /// highest lobe is not the mean rate: farther from the motion's own by more than half a percent, that one stands in its place.
     pub fn mean_rate(
         &self,
         defect: usize,

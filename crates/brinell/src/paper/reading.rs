@@ -52,7 +52,7 @@ impl Record {
     pub fn words(self) -> String {
         match self {
             Self::Steady => "steady part".into(),
-            Self::FromStart(ms) => format!("0 to {} s", f64::from(ms) * 1e-3),
+            Self::FromStart(ms) => format!("0 to {} s", f64::from(ms) / 1e3),
         }
     }
 }
