@@ -160,8 +160,7 @@ fn regress_summary_has_the_documented_members() {
     ];
     let call = brinell(here, &args).exits(0).keeps_quiet();
     assert!(
-        call.out
-            .contains(" Hz in the envelope; pure rolling 131.05 Hz"),
+        call.out.contains("in the envelope; pure rolling 131.05 Hz"),
         "{}",
         call.out
     );
