@@ -310,7 +310,9 @@ fn too_much(text: &str) -> Option<String> {
             None => ("", line),
         };
         let in_value = value.as_bytes().windows(2);
-        tables += key.bytes().filter(|byte| *byte == b'.').count()
+        // Every other piece of a key between quotes is a name, dots and all.
+        let bare = key.split(['"', '\'']).step_by(2);
+        tables += bare.map(|piece| piece.matches('.').count()).sum::<usize>()
             + in_value
                 .filter(|w| w[0] == b'.' && !w[1].is_ascii_digit())
                 .count();
