@@ -103,8 +103,12 @@ impl Loaded {
     /// Says that the level which divides damage from sound was found in the image of a defect, 0 black to 1 white.
     pub fn threshold_found(&mut self, defect: usize, level: f64) {
         let of = |name: &str| format!("defects.{defect}.shape.image.{name}");
-        let after = of("mm_per_pixel");
-        let place = self.provenance.iter().position(|p| p.key == after);
+        // After all that the file says of its image: where a written scenario has it.
+        let of_image = of("");
+        let place = self
+            .provenance
+            .iter()
+            .rposition(|p| p.key.starts_with(&of_image));
         let found = Provenance {
             key: of("threshold"),
             value: source::float(level),
