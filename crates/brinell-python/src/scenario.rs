@@ -59,12 +59,21 @@ impl Source {
         loaded.warnings = lineless(loaded.warnings);
         let mut warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         if let Some(resolved) = &self.resolved {
-            let known = read(resolved, &[])?.scenario.defects;
-            for (k, known) in known.into_iter().enumerate() {
+            let known = read(resolved, &[])?;
+            let found = |k: usize| {
+                let key = format!("defects.{k}.shape.image.threshold");
+                let entry = known.provenance.iter().find(|p| p.assumed && p.key == key);
+                entry.and_then(|p| p.value.parse::<f64>().ok())
+            };
+            let thresholds: Vec<_> = (0..known.scenario.defects.len()).map(found).collect();
+            for (k, known) in known.scenario.defects.into_iter().enumerate() {
                 let file = |d: &brinell::scenario::Defect| d.shape.file().map(str::to_owned);
                 if let Some(file) = loaded.scenario.defects.get(k).and_then(file) {
                     loaded.scenario.defects[k].shape = known.shape;
                     loaded.read_from(k, &file);
+                    if let Some(level) = thresholds[k] {
+                        loaded.threshold_found(k, level);
+                    }
                 }
             }
             return Ok((loaded, warnings));
@@ -182,7 +191,7 @@ impl Scenario {
             s.folder.clone(),
             s.file.clone(),
             s.overrides.clone(),
-            from_files.then(|| self.loaded.scenario.to_toml()),
+            from_files.then(|| self.loaded.to_toml()),
         )
     }
 
