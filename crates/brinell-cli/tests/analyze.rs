@@ -3,7 +3,7 @@
 mod common;
 
 use ::brinell::random::Random;
-use common::{brinell, json};
+use common::{GIVEN, brinell, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
@@ -11,18 +11,6 @@ use std::path::Path;
 use tempfile::tempdir;
 
 const FS: f64 = 12_000.0;
-/// What a call needs beside the file: `6205` at 1800 r/min has BPFO 107.5 Hz.
-const GIVEN: [&str; 8] = [
-    "--rate",
-    "12000",
-    "--unit",
-    "g",
-    "--bearing",
-    "6205",
-    "--speed",
-    "1800",
-];
-
 /// Twelve uniform numbers, summed: something like a normal variable.
 fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.part()).sum::<f64>() - 6.0

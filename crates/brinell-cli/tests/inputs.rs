@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Call, SHORT, brinell, files, json};
+use common::{Call, GIVEN, SHORT, brinell, files, json};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -24,20 +24,7 @@ fn signal(here: &Path, name: &str) {
 }
 
 fn analyze(here: &Path, file: &str, more: &[&str]) -> Call {
-    let given = [
-        "analyze",
-        file,
-        "--rate",
-        "12000",
-        "--unit",
-        "g",
-        "--bearing",
-        "6205",
-        "--speed",
-        "1800",
-        "-q",
-    ];
-    brinell(here, &[&given[..], more].concat())
+    brinell(here, &[&["analyze", file, "-q"], &GIVEN[..], more].concat())
 }
 
 fn run(here: &Path, more: &[&str]) -> Call {
@@ -160,21 +147,11 @@ fn prop_campaigns_spare_their_inputs() {
     let here = folder.path();
     let fit = "operation.speed_rpm=1400:1600";
     let target = "measured_ax.rms=30~1";
-    refused(
-        here,
-        &[
-            "calibrate",
-            "best.toml",
-            "--fit",
-            fit,
-            "--target",
-            target,
-            "--budget",
-            "8",
-            "-o",
-            ".",
-        ],
-    );
+    let calibrate = |base| {
+        let given = ["--fit", fit, "--target", target, "--budget", "8", "-o", "."];
+        [&["calibrate", base], &given[..]].concat()
+    };
+    refused(here, &calibrate("best.toml"));
     fs::create_dir(here.join("scenarios")).unwrap();
     for name in ["a.toml", "b.toml"] {
         fs::write(here.join("scenarios").join(name), SHORT).unwrap();
@@ -186,23 +163,9 @@ fn prop_campaigns_spare_their_inputs() {
     // A file of the same name that is no input is not written over either.
     fs::write(here.join("base.toml"), SHORT).unwrap();
     let before = common::results(here);
-    brinell(
-        here,
-        &[
-            "calibrate",
-            "base.toml",
-            "--fit",
-            fit,
-            "--target",
-            target,
-            "--budget",
-            "8",
-            "-o",
-            ".",
-        ],
-    )
-    .exits(2)
-    .complains(&["best.toml, which `brinell calibrate` would write over"]);
+    brinell(here, &calibrate("base.toml"))
+        .exits(2)
+        .complains(&["best.toml, which `brinell calibrate` would write over"]);
     fs::write(here.join("sweep.json"), "{}").unwrap();
     let args = [
         "sweep",

@@ -200,11 +200,9 @@ impl Folder {
     /// That the files of a part have the lengths that were written.
     fn are_lengths(&self, part: usize, facts: &Value) -> Result<(), DatasetError> {
         let labels = facts["held_out"].is_object();
-        let files = [
-            (self.part(part), &facts["runs"], true),
-            (self.held_out(part), &facts["held_out"], labels),
-        ];
-        for (path, told, _) in files.into_iter().filter(|(_, _, there)| *there) {
+        let runs = (self.part(part), &facts["runs"]);
+        let labels = labels.then(|| (self.held_out(part), &facts["held_out"]));
+        for (path, told) in std::iter::once(runs).chain(labels) {
             // Labels may have been taken elsewhere.
             let Ok(found) = std::fs::metadata(&path) else {
                 continue;

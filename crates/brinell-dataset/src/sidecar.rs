@@ -165,11 +165,12 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     let Some(about) = folder.about()? else {
         return Ok(false);
     };
+    let parts = files_of(&about);
     let Value::Object(mut about) = about else {
         return Ok(false);
     };
     let (mut files, mut labels, mut failed) = (Vec::new(), Vec::new(), 0);
-    for (part, (split, _)) in files_of(&about.clone().into()).iter().enumerate() {
+    for (part, (split, _)) in parts.iter().enumerate() {
         let Some(facts) = folder.finished(part)? else {
             return Ok(false);
         };
@@ -185,7 +186,7 @@ pub(crate) fn write(folder: &Folder) -> Result<bool, DatasetError> {
     if let Some(mut secret) = about.remove("secret") {
         make(&folder.root.join("held_out"))?;
         // A damaged run's labels take more bytes than a sound one's: how many would tell.
-        secret["files"] = std::mem::take(&mut labels).into();
+        secret["files"] = labels.into();
         put(&folder.secret(), &written(&secret))?;
         plan = json!({ "path": SECRET_PATH, "sha256": digest(&written(&secret)) });
     }

@@ -71,7 +71,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         .flatten()
         .filter_map(|c| c["name"].as_str())
         .collect();
-    let files = files_of(&about);
+    let parts = files_of(&about);
     for part in 0..found.of {
         let path = folder.part(part);
         let name = format!("runs/{}", file_name(part));
@@ -115,7 +115,7 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
             facts.columns != columns,
             "other columns than the data set's",
         );
-        let expected = files.get(part).map_or(0, |(_, rows)| *rows);
+        let expected = parts.get(part).map_or(0, |(_, rows)| *rows);
         say(
             facts.rows != expected,
             &format!("{} rows instead of {expected}", facts.rows),
@@ -178,9 +178,8 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
         .filter_map(|entry| Some((entry["path"].as_str()?, &entry["sha256"])))
         .collect();
     let there = |path: &str| folder.root.join(path).exists();
-    let parts = files_of(&about);
-    let labels = (0..parts.len()).filter(|part| folder.held_out(*part).exists());
-    let are_here = labels.count() > 0 || there(SECRET_PATH);
+    let mut labels = (0..parts.len()).map(|part| folder.held_out(part));
+    let are_here = labels.any(|path| path.exists()) || there(SECRET_PATH);
     if plan.is_object() && !are_here {
         found.absent.push("labels are not here".into());
     }

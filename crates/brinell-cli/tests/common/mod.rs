@@ -218,3 +218,15 @@ pub(crate) fn json(path: &Path) -> serde_json::Value {
     let text = std::fs::read_to_string(path).expect("the file is there");
     serde_json::from_str(&text).expect("it is JSON")
 }
+
+/// What `analyze` needs beside the file: `6205` at 1800 r/min has BPFO 107.5 Hz.
+pub(crate) const GIVEN: [&str; 8] = [
+    "--rate",
+    "12000",
+    "--unit",
+    "g",
+    "--bearing",
+    "6205",
+    "--speed",
+    "1800",
+];

@@ -1,13 +1,15 @@
 //! Where nothing stands within the tolerance: what stands beyond it, which a wrong speed would explain.
 
 use super::frequencies::Component;
-use super::verdict::{FAINT, LINE_LEVEL};
+use super::verdict::LINE_LEVEL;
 use super::view::{View, candidates, looking, side_by_side};
 use super::{AnalysisError, Options};
 use crate::signal::{Evidence, diagnose_beside};
 
 /// So many times the tolerance is looked through.
 const FARTHER: f64 = 3.0;
+/// Modulation below which lines say nothing: the load on a healthy race changes with every element, and a long record shows that.
+const FAINT: f64 = 0.015;
 /// Fewest harmonics that say anything: two lines in so wide a range are soon somebody's.
 const FEWEST: usize = 3;
 

@@ -15,10 +15,10 @@
 
 use super::frequencies::Component;
 use super::known_lines;
-use super::view::{Shaft, side_by_side, top};
+use super::view::{Shaft, USUAL_FTF, at_angles, envelope_samples, side_by_side, top};
 use super::{AnalysisError, Options, bands};
 use crate::signal::lengths::fast_up_to;
-use crate::signal::{Band, Segments, Spectrum, Transformed, psd, resample};
+use crate::signal::{Band, Segments, Spectrum, Transformed, psd};
 
 /// Score from which a family is damage in a record of [`REVOLUTIONS`] or more. In a shorter one its lines stand less high over the noise: as the
 /// length, in power.
@@ -77,8 +77,7 @@ impl Family {
 }
 
 /// Power by frequency, averaged over the bands.
-#[derive(Debug, Clone)]
-pub(super) struct Together {
+struct Together {
     step: f64,
     /// Over the floor.
     ratio: Vec<f64>,
@@ -86,8 +85,7 @@ pub(super) struct Together {
     depth: Vec<f64>,
 }
 
-/// The families, and what they were read from.
-#[derive(Debug, Clone)]
+/// The families, and which of them say damage.
 pub(super) struct Families {
     pub(super) all: Vec<Family>,
     /// Of them, those that say damage: the first by itself, any other in what the first one's lines leave.
@@ -117,7 +115,7 @@ pub(super) fn families(
             Component::Cage => vec![Component::Element, Component::Cage],
             other => vec![other],
         });
-        let cage = options.orders.ftf.unwrap_or(super::view::USUAL_FTF) * shaft.hz;
+        let cage = options.orders.ftf.unwrap_or(USUAL_FTF) * shaft.hz;
         together.take_out(first.frequency, [shaft.hz, cage]);
         let left = read(&together, limit, shaft.hz, options);
         // Frequencies that slip may bring together are not told apart.
@@ -155,27 +153,24 @@ fn together(
     shaft: Shaft,
     options: &Options,
 ) -> Result<Option<Together>, AnalysisError> {
-    let fs = transformed.sample_rate();
     let top = top(shaft.hz, options);
-    let tiles = tiles(fs, top, options);
-    let rate = 8.0 * top;
-    let samples = transformed.samples();
-    let count = fast_up_to((samples / ((fs / rate) as usize).max(1)).max(64.min(samples)));
+    let tiles = tiles(transformed.sample_rate(), top, options);
+    let count = envelope_samples(transformed, top);
     let spectra = side_by_side(&tiles, |band| {
         spectrum(transformed, *band, count, shaft.hz, top, options)
     })?;
-    let Some(shortest) = spectra.iter().map(|s| s.1.amplitude.len()).min() else {
+    let (means, spectra): (Vec<f64>, Vec<Spectrum>) = spectra.into_iter().unzip();
+    let Some(shortest) = spectra.iter().map(|s| s.amplitude.len()).min() else {
         return Ok(None);
     };
-    let step = spectra[0].1.frequency_step;
-    let only: Vec<Spectrum> = spectra.iter().map(|s| s.1.clone()).collect();
-    let mut combs = known_lines::combs(&only, shaft.hz, shaft.tolerance)?;
+    let step = spectra[0].frequency_step;
+    let mut combs = known_lines::combs(&spectra, shaft.hz, shaft.tolerance)?;
     combs.push(shaft.hz);
     let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
     let mut ratio = vec![0.0; shortest];
     let mut depth = vec![0.0; shortest];
     let share = 1.0 / spectra.len() as f64;
-    for (mean, spectrum) in &spectra {
+    for (mean, spectrum) in means.iter().zip(&spectra) {
         let power: Vec<f64> = (spectrum.amplitude[..shortest].iter())
             .map(|a| 0.5 * a * a / (mean * mean).max(f64::MIN_POSITIVE))
             .collect();
@@ -226,20 +221,14 @@ fn spectrum(
     options: &Options,
 ) -> Result<(f64, Spectrum), AnalysisError> {
     let envelope = transformed.envelope(band, count);
-    let mut values = envelope.values;
-    values.iter_mut().for_each(|v| *v -= envelope.mean);
-    let mut rate = transformed.sample_rate() * count as f64 / transformed.samples() as f64;
-    if let Some(rotation) = &options.rotation {
-        let per_turn = (rate / shaft).round().max(4.0) as usize;
-        values = resample(&values, rate, rotation, per_turn)?.values;
-        rate = per_turn as f64 * shaft;
-    }
+    let mean = envelope.mean;
+    let (values, rate) = at_angles(envelope, transformed, shaft, options)?;
     let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
     let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
     let bins = (1.03 * top / spectrum.frequency_step) as usize;
     spectrum.amplitude.truncate(bins);
     spectrum.density.truncate(bins);
-    Ok((envelope.mean, spectrum))
+    Ok((mean, spectrum))
 }
 
 /// Medians over `width` neighbours, taken at every eighth of that and joined by lines.

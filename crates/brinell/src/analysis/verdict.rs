@@ -10,9 +10,6 @@ use crate::signal::{
 
 /// A line stands where noise would show as much less often than this.
 pub(super) const LINE_LEVEL: f64 = 1e-3;
-/// Modulation below which lines may stand and still be no damage: the load on a healthy race changes with every element,
-/// and a long record shows that, however weak it is. An assumption of this program, stated with the verdict.
-pub(super) const FAINT: f64 = 0.015;
 /// Power over the median from which a bin belongs to a line: noise goes beyond in one of 500 (two degrees of freedom).
 const STANDS: f64 = 9.0;
 /// A cage's lines lie close to the shaft's and to zero: fewer than this many are not called the cage's.

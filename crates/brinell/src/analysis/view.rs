@@ -110,8 +110,7 @@ pub(super) fn all(
     let fs = transformed.sample_rate();
     let cage = options.orders.ftf.unwrap_or(USUAL_FTF) * shaft.hz;
     let samples = transformed.samples();
-    let factor = ((fs / (ENVELOPE_RATE * top(shaft.hz, options))).floor() as usize).max(1);
-    let count = fast_up_to((samples / factor).max(64.min(samples)));
+    let count = envelope_samples(&transformed, top(shaft.hz, options));
     let rate = fs * count as f64 / samples as f64;
     let mut lengths: Vec<usize> = (RESOLUTIONS.iter())
         .map(|r| fast_up_to(((r * rate / cage) as usize).clamp(64, count.max(64))))
@@ -145,6 +144,31 @@ pub(super) fn side_by_side<T: Sync, R: Send>(
     results.into_iter().flatten().collect()
 }
 
+/// How often an envelope is taken, for lines up to `top` (Hz).
+pub(super) fn envelope_samples(transformed: &Transformed, top: f64) -> usize {
+    let samples = transformed.samples();
+    let factor = ((transformed.sample_rate() / (ENVELOPE_RATE * top)).floor() as usize).max(1);
+    fast_up_to((samples / factor).max(64.min(samples)))
+}
+
+/// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled at, Hz.
+pub(super) fn at_angles(
+    envelope: Thinned,
+    transformed: &Transformed,
+    shaft: f64,
+    options: &Options,
+) -> Result<(Vec<f64>, f64), AnalysisError> {
+    let mut values = envelope.values;
+    values.iter_mut().for_each(|v| *v -= envelope.mean);
+    let rate = transformed.sample_rate() * values.len() as f64 / transformed.samples() as f64;
+    let Some(rotation) = &options.rotation else {
+        return Ok((values, rate));
+    };
+    let per_turn = (rate / shaft).round().max(4.0) as usize;
+    let values = resample(&values, rate, rotation, per_turn)?.values;
+    Ok((values, per_turn as f64 * shaft))
+}
+
 /// The envelope spectra of a band, with the envelope's mean.
 fn spectra(
     transformed: &Transformed,
@@ -156,18 +180,12 @@ fn spectra(
 ) -> Result<Vec<(ChosenBand, f64, Spectrum)>, AnalysisError> {
     // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
     // brought down by 34 dB.
-    let Thinned { mean, values } = match band.choice {
+    let envelope = match band.choice {
         BandChoice::Whitened => transformed.whitened_envelope(band.band, count),
         _ => transformed.envelope(band.band, count),
     };
-    let mut coarse = values;
-    coarse.iter_mut().for_each(|v| *v -= mean);
-    let mut rate = transformed.sample_rate() * count as f64 / transformed.samples() as f64;
-    if let Some(rotation) = &options.rotation {
-        let per_turn = (rate / shaft).round().max(4.0) as usize;
-        coarse = resample(&coarse, rate, rotation, per_turn)?.values;
-        rate = per_turn as f64 * shaft;
-    }
+    let mean = envelope.mean;
+    let (coarse, rate) = at_angles(envelope, transformed, shaft, options)?;
     let top = top(shaft, options);
     let of = |length: &usize| {
         let mut spectrum = psd(&coarse, rate, &Segments::of(*length))?;

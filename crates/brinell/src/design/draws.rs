@@ -228,10 +228,10 @@ impl Draws {
     /// continuous distribution.
     pub(super) fn conditions(&self, run: usize, keys: &[String], bands: f64) -> Vec<String> {
         let class = &self.classes[self.class(run)];
-        let values = self.values(run, 0);
-        let axes = class.axes.iter().zip(values).enumerate();
-        axes.filter(|(_, (axis, _))| keys.contains(&self.parameters[axis.parameter].key))
-            .map(|(k, (axis, value))| match axis.distribution {
+        let of_grid = self.of_grid(run);
+        let axes = class.axes.iter().enumerate();
+        axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
+            .map(|(k, axis)| match axis.distribution {
                 Distribution::Uniform { .. }
                 | Distribution::Log { .. }
                 | Distribution::Normal { .. } => {
@@ -239,7 +239,7 @@ impl Draws {
                 }
                 Distribution::Whole { .. }
                 | Distribution::Choice { .. }
-                | Distribution::Grid { .. } => value.toml,
+                | Distribution::Grid { .. } => self.value(run, k, 0, of_grid.as_deref()).toml,
             })
             .collect()
     }
@@ -288,11 +288,20 @@ impl Draws {
     fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
         let class = &self.classes[self.class(run)];
         let of_grid = self.of_grid(run);
-        let value = |(k, axis): (usize, &Axis)| match (&axis.distribution, &of_grid) {
-            (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[k]].clone(),
-            _ => axis.distribution.value(self.unit(run, k, attempt)),
-        };
-        class.axes.iter().enumerate().map(value).collect()
+        let axes = 0..class.axes.len();
+        axes.map(|k| self.value(run, k, attempt, of_grid.as_deref()))
+            .collect()
+    }
+
+    /// The same along one axis of its class.
+    fn value(&self, run: usize, axis: usize, attempt: u64, of_grid: Option<&[usize]>) -> Value {
+        match (
+            &self.classes[self.class(run)].axes[axis].distribution,
+            of_grid,
+        ) {
+            (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[axis]].clone(),
+            (distribution, _) => distribution.value(self.unit(run, axis, attempt)),
+        }
     }
 
     /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run, whatever the attempt.

@@ -6,6 +6,7 @@
 use crate::random::mix;
 use hmac::{Hmac, Mac};
 use sha2::Sha256;
+use std::collections::BTreeSet;
 
 /// Hexadecimal digits of a secret at least: 128 bits.
 pub(super) const SECRET_DIGITS: usize = 32;
@@ -19,14 +20,11 @@ pub(super) struct Secret(Hmac<Sha256>);
 impl Secret {
     /// Of hexadecimal digits; `None` where there are too few, others, or too few different ones.
     pub(super) fn of(text: &str) -> Option<Self> {
-        let digits = text.bytes();
-        let mut different: Vec<u8> = digits.map(|b| b.to_ascii_lowercase()).collect();
-        let is_hexadecimal = different.iter().all(u8::is_ascii_hexdigit);
-        let key = different.clone();
-        different.sort_unstable();
-        different.dedup();
-        let is_sound =
-            is_hexadecimal && key.len() >= SECRET_DIGITS && different.len() >= SECRET_DIFFERENT;
+        let key = text.to_ascii_lowercase().into_bytes();
+        let different: BTreeSet<u8> = key.iter().copied().collect();
+        let is_sound = different.iter().all(u8::is_ascii_hexdigit)
+            && key.len() >= SECRET_DIGITS
+            && different.len() >= SECRET_DIFFERENT;
         // HMAC takes keys of any length.
         let mac = is_sound.then(|| Hmac::new_from_slice(&key).ok());
         mac.flatten().map(Self)
