@@ -167,7 +167,6 @@ def analyze(
     scenario: Scenario | None,
     orders_given: Sequence[float | None],
     tolerance: float,
-    level: float,
     band_hz: _Band,
     simulated: bool,
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...

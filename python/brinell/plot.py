@@ -315,7 +315,7 @@ def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> mat
     """
     axes = spectrum(of.envelope, to_hz=to_hz, ax=ax)
     top = axes.get_xlim()[1]
-    causes = [finding for finding in of.findings if finding["is_cause"]]
+    causes = [family for family in of.families if family["says"] == "damage"]
     for place, cause in enumerate(causes):
         _mark(axes, cause["found_hz"], cause["name"], 5, top, place)
     low, high = of.envelope.band_hz or (0.0, 0.0)

@@ -357,11 +357,11 @@ class Analysis:
     verdict: str
     """In words."""
     damage: list[str]
-    """Components whose damage stands out, the strongest first: ``outer_race``, ``inner_race``, ``rolling_element``, ``cage``."""
-    findings: list[dict[str, Any]]
-    """Frequencies that stand, their harmonics and sidebands, the chance of noise."""
+    """Damaged components, the one that leads first: ``outer_race``, ``inner_race``, ``rolling_element``, ``cage``."""
+    families: list[dict[str, Any]]
+    """Each defect frequency with its harmonics and sidebands, score and modulation; what is damage comes first."""
     envelope: Spectrum
-    """The envelope spectrum that shows most."""
+    """The envelope spectrum of the band in which the damage stands highest, or of all."""
     report: dict[str, Any] = field(repr=False)
     """Everything, as ``brinell analyze --json`` writes it."""
 
@@ -387,11 +387,10 @@ def analyze(
     bsf: float | None = None,
     ftf: float | None = None,
     tolerance: float = 0.02,
-    level: float = 0.01,
     band_hz: tuple[float, float] | None = None,
     simulated: bool = False,
 ) -> Analysis:
-    """Which component's defect frequencies stand out of a vibration signal, or that nothing does.
+    """Which component of a bearing is damaged, by a vibration signal, or that nothing shows it.
 
     Parameters
     ----------
@@ -405,10 +404,8 @@ def analyze(
         Frequencies as multiples of the shaft's, over those of the bearing.
     tolerance : float
         How far slip and an inexact speed may move a frequency, relative.
-    level : float
-        Chance at most that noise alone is called damage.
     band_hz : (float, float), optional
-        Band to demodulate; it is searched for unless told.
+        Range to demodulate; everything above three times the highest defect frequency unless told.
     simulated : bool
         Whether a simulation made the signal: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
         that enter the load are heard too, and weak lines of the outer race say less.
@@ -431,10 +428,10 @@ def analyze(
     samples = np.asarray(x, dtype=float)
     orders = [bpfo, bpfi, bsf, ftf]
     report, found = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, level, band_hz, simulated
+        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated
     )
     verdict = report["verdict"]
-    return Analysis(verdict["text"], verdict["damage"], report["findings"], Spectrum._of(found, unit), report)
+    return Analysis(verdict["text"], verdict["damage"], report["families"], Spectrum._of(found, unit), report)
 
 
 @dataclass(frozen=True, eq=False)

@@ -111,6 +111,6 @@ def test_xval_analysis_is_that_of_the_command(command, examples, tmp_path):
     settled = signal.values[-expected["signal"]["samples"]:]
     found = brinell.analyze(settled, rate_hz=rate, unit=signal.unit, speed_rpm=1800.0, bearing=scenario, simulated=True)
     assert found.damage == expected["verdict"]["damage"] and found.damage[0] == "outer_race"
-    for part in ("verdict", "findings", "bands", "indicators", "velocity_bands", "kurtogram"):
+    for part in ("verdict", "families", "bands", "indicators", "velocity_bands", "kurtogram"):
         assert found.report[part] == expected[part], part
     assert brinell.simulate(scenario).analyze().damage[0] == "outer_race"

@@ -260,7 +260,6 @@ pub(crate) fn analyze<'py>(
     scenario: Option<&crate::scenario::Scenario>,
     orders_given: [Option<f64>; 4],
     tolerance: f64,
-    level: f64,
     band_hz: Option<(f64, f64)>,
     simulated: bool,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
@@ -271,16 +270,10 @@ pub(crate) fn analyze<'py>(
             "speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min"
         )));
     }
-    if !(level > 0.0 && level < 1.0) {
-        return Err(failed(format!(
-            "level = {level}: expected a chance between 0 and 1"
-        )));
-    }
     let shaft = speed_rpm.abs() / 60.0;
     let geometry = scenario.map(|s| Geometry::of(&s.loaded.scenario.bearing));
     let mut options = Options::new(shaft, orders(bearing, geometry, orders_given)?);
     options.tolerance = tolerance;
-    options.level = level;
     let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
     options.silent = simulated && !scenario.is_some_and(noisy);
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
@@ -295,9 +288,9 @@ pub(crate) fn analyze<'py>(
     });
     let analysis = analysis.map_err(failed)?;
     let json = to_json(&analysis, &unit, bands.as_ref(), None);
-    let view = analysis.view();
+    let view = &analysis.view;
     let envelope = spectrum_dict(py, view.spectrum.clone())?;
     envelope.set_item("mean", view.mean)?;
-    envelope.set_item("band_hz", (view.band.band.low, view.band.band.high))?;
+    envelope.set_item("band_hz", (view.band.low, view.band.high))?;
     Ok((json_to_python(py, &json)?, envelope))
 }

@@ -39,7 +39,7 @@ mod sweep;
 mod tables;
 mod thin;
 
-pub use analysis::{AnalysisReport, analysis_html, analysis_pictures};
+pub use analysis::{AnalysisReport, Badge, analysis_html, analysis_pictures};
 pub use calibrate::{
     CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot,
     key_plot,

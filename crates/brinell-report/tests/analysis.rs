@@ -22,7 +22,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
         subtitle: text.into(),
         version: text.into(),
         verdict: text.into(),
-        damage: at(1) > 0.0,
+        badge: (text.into(), Badge::Bad),
         warnings: vec![text.into()],
         notes: vec![text.into()],
         facts: vec![Fact::new(text, at(2), text, text)],
@@ -123,9 +123,15 @@ fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
 #[test]
 fn regress_the_tag_says_what_the_verdict_says() {
     let mut r = plain();
-    assert!(analysis_html(&r).contains("<span class=\"tag bad\">damage</span>"));
-    r.damage = false;
-    assert!(analysis_html(&r).contains("<span class=\"tag good\">nothing stands out</span>"));
+    for (badge, class) in [
+        (Badge::Bad, "bad"),
+        (Badge::Good, "good"),
+        (Badge::Open, "open"),
+    ] {
+        r.badge = ("outer race".into(), badge);
+        let tag = format!("<span class=\"tag {class}\">outer race</span>");
+        assert!(analysis_html(&r).contains(&tag), "{tag}");
+    }
 }
 
 #[test]

@@ -3,9 +3,11 @@
 use super::Result_;
 use super::words::{ratio, shaft_lines};
 use crate::say::short;
-use brinell::analysis::{Analysis, Component, shown_spectrum};
+use brinell::analysis::{Analysis, COLUMNS, Family, Standing, Verdict, shown_spectrum};
 use brinell::signal::{Estimate, Indicator, Spectrum};
-use brinell_report::{AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Series, Table};
+use brinell_report::{
+    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Marker, Series, Table,
+};
 
 /// Most samples of a waveform that the page is given: more are not seen.
 const WAVEFORM: usize = 1 << 20;
@@ -49,7 +51,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
         ),
         version: brinell::VERSION.into(),
         verdict: a.verdict(),
-        damage: a.causes().next().is_some(),
+        badge: badge(a),
         warnings: m.warnings.clone(),
         notes,
         facts: facts(result),
@@ -80,13 +82,12 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             s.segments
         )
     };
-    let band = a.view().band;
-    let (low, high) = (band.band.low, band.band.high);
+    let (low, high) = (a.view.band.low, a.view.band.high);
     let shaded = format!(
-        " Shaded: the band demodulated, {low:.0} to {high:.0} Hz ({}).",
-        band.choice.words()
+        " Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).",
+        a.view.choice.words()
     );
-    let lanes = " Above the plot lie the defect frequencies and their harmonics; those that stand run through it as dashed lines.";
+    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines stand highest; those of damage run through it as dashed lines.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (
@@ -100,7 +101,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             page.spectra = (shown.iter())
                 .map(|s| spectrum(s, label.clone(), note(s) + &shaded))
                 .collect();
-            let s = &a.view().spectrum;
+            let s = &a.view.spectrum;
             page.envelopes = vec![spectrum(s, of_envelope, note(s) + lanes)];
         }
         Some(other) => {
@@ -120,9 +121,9 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             page.tables.extend(differences(result));
         }
     }
-    page.tables.push(findings(a));
+    // What the verdict rests on comes first.
+    page.tables.insert(0, families(a));
     page.tables.push(indicators(result));
-    page.tables.push(bands(a));
     page
 }
 
@@ -161,18 +162,28 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     }
 }
 
+/// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
+fn badge(a: &Analysis) -> (String, Badge) {
+    let parts: Vec<&str> = a.causes().map(|f| f.component.words()).collect();
+    match a.conclusion() {
+        Verdict::Damage => (parts.join(", "), Badge::Bad),
+        Verdict::CannotTell => ("cannot tell".into(), Badge::Open),
+        Verdict::NothingFound => ("no damage found".into(), Badge::Good),
+    }
+}
+
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.
 fn strike(a: &Analysis) -> f64 {
-    let found = a.findings.first().map(|f| f.evidence.frequency);
+    let found = a.causes().next().map(|f| f.frequency);
     found.unwrap_or(a.options.orders.bpfo.unwrap_or(1.0) * a.shaft)
 }
 
 fn facts(result: &Result_) -> Vec<Fact> {
     let (m, a) = (&result.measured, &result.analysis);
     let mut facts = Vec::new();
-    if let Some(f) = a.findings.first() {
-        let note = format!("pure rolling {:.2} Hz, {}", f.expected, f.clarity());
-        facts.push(Fact::new(f.name, f.evidence.frequency, "Hz", note));
+    if let Some(f) = a.causes().next() {
+        let note = format!("pure rolling {:.2} Hz", f.expected);
+        facts.push(Fact::new(f.name, f.frequency, "Hz", note));
     }
     for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
         if let Some((_, e)) = a.indicators.iter().find(|(k, _)| *k == i) {
@@ -196,78 +207,26 @@ fn capital(text: &str) -> String {
 }
 
 fn markers(a: &Analysis) -> Vec<Marker> {
-    (a.options.orders.strikes())
-        .filter(|(c, name, _)| *c != Component::Element || *name == "2 BSF")
-        .map(|(component, name, order)| {
-            let found = a.causes().find(|f| f.component == component);
-            let at = found.map(|f| match f.name {
-                "BSF" => 2.0 * f.evidence.frequency,
-                _ => f.evidence.frequency,
-            });
-            Marker {
-                label: name.into(),
-                meaning: component.words().into(),
-                frequency_hz: at.unwrap_or(order * a.shaft),
-                harmonics: a.options.harmonics,
-                present: found.is_some(),
-            }
-        })
-        .collect()
+    let marker = |f: &Family| Marker {
+        label: f.name.into(),
+        meaning: f.component.words().into(),
+        frequency_hz: f.frequency,
+        harmonics: f.harmonics.len(),
+        present: f.standing == Standing::Damage,
+    };
+    a.families.iter().map(marker).collect()
 }
 
-fn findings(a: &Analysis) -> Table {
-    let columns = [
-        "Component",
-        "Frequency",
-        "#Pure rolling, Hz",
-        "#Found, Hz",
-        "#Harmonics",
-        "#Sidebands",
-        "#Modulation",
-        "#Chance of noise",
-        "Called",
-    ];
-    let mut rows = Vec::new();
-    for (component, name, order) in a.options.orders.strikes() {
-        let hz = order * a.shaft;
-        let mut row = vec![
-            component.words().to_owned(),
-            name.to_owned(),
-            format!("{hz:.2}"),
-        ];
-        match a.findings.iter().find(|f| f.name == name) {
-            None => row.extend(["–", "–", "–", "–", "–", "does not stand"].map(str::to_owned)),
-            Some(f) => {
-                let called = match (f.is_cause(), f.explained_by.is_empty()) {
-                    (true, _) => format!("damage, {}", f.clarity()),
-                    (false, false) => format!("explained by {}", f.explained_by.join(", ")),
-                    (false, true) => "faint".into(),
-                };
-                row.extend([
-                    format!("{:.2}", f.evidence.frequency),
-                    format!("{} of {}", f.evidence.shown(), a.options.harmonics),
-                    f.sidebands().map_or("–".into(), |s| s.0.to_string()),
-                    format!("{:.1} %", 100.0 * f.modulation),
-                    if f.false_alarm < 1e-15 {
-                        "< 1e-15".into()
-                    } else {
-                        format!("{:.0e}", f.false_alarm)
-                    },
-                    called,
-                ]);
-            }
-        }
-        rows.push(row);
-    }
+fn families(a: &Analysis) -> Table {
     Table {
         title: "Defect frequencies".into(),
-        columns: columns.map(str::to_owned).to_vec(),
-        rows,
+        columns: COLUMNS.map(str::to_owned).to_vec(),
+        rows: a.rows().into_iter().map(Vec::from).collect(),
         note: format!(
-            "Searched within {} % in {} envelope spectra. The chance of noise is an upper bound over all of them; {} % is the level at which something stands.",
+            "Each within {} % of pure rolling, in the envelope spectra of {} bands averaged over their noise floors; a harmonic stands from 3 dB on. \
+             Modulation: depth to which lines and sidebands modulate the envelope, over all bands.",
             100.0 * a.options.tolerance,
-            a.views.len(),
-            100.0 * a.options.level
+            a.bands,
         ),
     }
 }
@@ -321,35 +280,6 @@ fn indicators(result: &Result_) -> Table {
         note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. Bands of velocity are those of ISO 15242 at 1800 r/min, \
                with sharp edges."
             .into(),
-    }
-}
-
-fn bands(a: &Analysis) -> Table {
-    let rows = (a.views.iter().enumerate())
-        .map(|(i, v)| {
-            let best = v.diagnosis.causes().next();
-            let shown = if i == a.best { "shown above" } else { "" };
-            let names: Vec<&str> = a.options.orders.strikes().map(|s| s.1).collect();
-            vec![
-                format!("{:.0} to {:.0}", v.band.band.low, v.band.band.high),
-                v.band.choice.words().to_owned(),
-                short(v.spectrum.frequency_step, 3),
-                v.removed.len().to_string(),
-                best.map_or("nothing".into(), |e| names[e.candidate].to_owned()),
-                shown.to_owned(),
-            ]
-        })
-        .collect();
-    Table {
-        title: "Bands searched".into(),
-        columns: ["#Band, Hz", "Why", "#Line spacing, Hz", "#Shaft and mains lines set aside", "Stands first", ""].map(str::to_owned).to_vec(),
-        rows,
-        note: a.kurtogram.map_or(String::new(), |k| {
-            format!(
-                "Kurtogram: largest kurtosis {} in {:.0} to {:.0} Hz, {} standard deviations of what noise scatters.",
-                short(k.kurtosis, 3), k.band.low, k.band.high, short(k.kurtosis / k.noise_scatter, 2)
-            )
-        }),
     }
 }
 

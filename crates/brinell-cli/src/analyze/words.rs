@@ -2,7 +2,7 @@
 
 use super::{HEADLINES, Result_, whole_indicators};
 use crate::say::{say, short};
-use brinell::analysis::{Analysis, Difference};
+use brinell::analysis::{Analysis, COLUMNS, Difference};
 use brinell::signal::Indicator;
 use std::path::PathBuf;
 
@@ -37,6 +37,24 @@ pub(super) fn shaft_lines(a: &Analysis) -> String {
     )
 }
 
+/// What stands at each defect frequency, in columns.
+fn families(a: &Analysis) {
+    let heads = COLUMNS.map(|c| c.trim_start_matches('#').to_owned());
+    let rows: Vec<_> = [heads].into_iter().chain(a.rows()).collect();
+    let width = |i: usize| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();
+    for row in &rows {
+        let cells = (row.iter().zip(COLUMNS).zip(&widths)).map(|((cell, head), w)| {
+            match head.starts_with('#') {
+                true => format!("{cell:>w$}"),
+                false => format!("{cell:<w$}"),
+            }
+        });
+        say!("  {}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    say!("");
+}
+
 pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
     say!(
@@ -52,6 +70,7 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
     say!("  {}; {}", result.speed, shaft_lines(a));
     say!("  bearing: {}", result.bearing);
     say!("\n{}\n", a.verdict());
+    families(a);
     let rows: Vec<String> = (a.indicators.iter())
         .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {

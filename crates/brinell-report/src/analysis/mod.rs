@@ -14,6 +14,18 @@ use crate::plots::{Layout, legend, marker_lanes};
 use crate::tables::{Table, facts, table};
 use waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
 
+/// Whether a verdict is good, bad or open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Badge {
+    /// Nothing was found.
+    #[default]
+    Good,
+    /// Something is damaged.
+    Bad,
+    /// Neither can be said.
+    Open,
+}
+
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnalysisReport {
@@ -25,8 +37,8 @@ pub struct AnalysisReport {
     pub version: String,
     /// The verdict in a paragraph.
     pub verdict: String,
-    /// Whether it speaks of damage.
-    pub damage: bool,
+    /// The verdict in a word or two, and what colour it has.
+    pub badge: (String, Badge),
     /// What deserves attention.
     pub warnings: Vec<String>,
     /// Where rate, unit, speed and bearing come from.
@@ -324,12 +336,13 @@ fn unit_of(spectra: &[Spectrum]) -> &str {
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {
-    let class = if report.damage { "bad" } else { "good" };
-    let word = if report.damage {
-        "damage"
-    } else {
-        "nothing stands out"
+    let (word, badge) = &report.badge;
+    let class = match badge {
+        Badge::Good => "good",
+        Badge::Bad => "bad",
+        Badge::Open => "open",
     };
+    let word = escape(word);
     let _ = writeln!(
         page,
         "<p><span class=\"tag {class}\">{word}</span></p>\n<p>{}</p>",

@@ -1,6 +1,6 @@
 //! One signal over another: how their indicators, spectra and defect lines differ.
 
-use super::view::candidates;
+use super::together::HARMONICS;
 use super::{Analysis, AnalysisError};
 use crate::signal::{Indicator, Segments, Spectrum, envelope, harmonics, psd};
 
@@ -68,7 +68,7 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
     let sides = [first, second];
     let rates = sides.map(|s| s.analysis.sample_rate);
     let top = 0.5 * rates[0].min(rates[1]);
-    let mut band = first.analysis.view().band.band;
+    let mut band = first.analysis.view.band;
     band.high = band.high.min(top);
     if band.low >= band.high {
         let range = "below half of both sample rates";
@@ -79,7 +79,7 @@ pub fn compare(first: Side, second: Side) -> Result<Comparison, AnalysisError> {
         .into_iter()
         .fold(f64::INFINITY, f64::min);
     let step = (4.0 / shortest).max(1.0);
-    let view = first.analysis.view();
+    let view = &first.analysis.view;
     let envelope_step = (1.0 / shortest).max(view.spectrum.frequency_step);
     let lines_top = view.spectrum.frequency_step * view.spectrum.amplitude.len() as f64;
     let [a, b] = sides.map(|s| one(s, step, top, band, envelope_step, lines_top));
@@ -153,19 +153,11 @@ fn lines(
         let mut sets = Vec::new();
         for (side, spectrum) in sides.iter().zip(envelopes) {
             let analysis = side.analysis;
-            // Where its comb was found, or where pure rolling has it.
-            let place = candidates(analysis.shaft, &analysis.options)
-                .iter()
-                .position(|c| c.1 == name)
-                .map(|i| &analysis.view().diagnosis.evidence[i])
-                .filter(|e| e.stands)
-                .map_or(order * analysis.shaft, |e| e.frequency);
-            sets.push(harmonics(
-                spectrum,
-                place,
-                0.005 * place,
-                options.harmonics,
-            )?);
+            // Where its comb stands highest, or where pure rolling has it.
+            let found = analysis.families.iter().find(|f| f.name == name);
+            let place = (found.filter(|f| f.standing_harmonics() > 0))
+                .map_or(order * analysis.shaft, |f| f.frequency);
+            sets.push(harmonics(spectrum, place, 0.005 * place, HARMONICS)?);
         }
         for (a, b) in sets[0].lines.iter().zip(&sets[1].lines) {
             if a.order == b.order {

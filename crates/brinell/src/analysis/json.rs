@@ -1,8 +1,7 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
-use super::view::candidates;
-use super::{Analysis, Comparison, Finding, Strength, Unit};
-use crate::signal::{Line, VelocityBands};
+use super::{Analysis, Comparison, Family, Standing, Unit};
+use crate::signal::VelocityBands;
 use serde_json::{Map, Value, json};
 
 /// The analysis; `velocity` is in m/s where it was computed.
@@ -12,47 +11,22 @@ pub fn to_json(
     velocity: Option<&VelocityBands>,
     comparison: Option<&Comparison>,
 ) -> Value {
-    let view = analysis.view();
+    let view = &analysis.view;
     let mut object = json!({
         "verdict": {
             "text": analysis.verdict(),
+            "says": analysis.conclusion().key(),
             "damage": analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
-            "nothing_stands_out": analysis.causes().next().is_none(),
-            "level": analysis.options.level,
+            "clarity": analysis.causes().next().map(|f| analysis.clarity(f)),
+            "too_short_to_tell_from": analysis.untold,
         },
-        "findings": analysis.findings.iter().map(|f| finding(analysis, f)).collect::<Vec<_>>(),
-        "families": analysis.families.iter().map(|f| json!({
-            "component": f.component.key(),
-            "name": f.name,
-            "expected_hz": f.expected,
-            "found_hz": f.frequency,
-            "score": f.score,
-            "limit": f.limit,
-            "depth": f.depth,
-            "is_damage": f.is_damage(),
-            "harmonics_db": f.snr_db,
-        })).collect::<Vec<_>>(),
-        "beyond_tolerance": analysis.beyond.as_ref().map(|b| json!({
-            "component": b.component.key(),
-            "name": b.name,
-            "expected_hz": b.expected,
-            "found_hz": b.evidence.frequency,
-            "false_alarm": b.false_alarm,
-            "shaft_hz_if_its": b.shaft,
-            "harmonics": b.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
-        })),
-        "searched": candidates(analysis.shaft, &analysis.options).iter().enumerate().map(|(i, (component, name, c))| {
-            let best = analysis.views.iter().map(|v| v.diagnosis.evidence[i].false_alarm).fold(1.0, f64::min);
-            json!({
-                "name": name,
-                "component": component.key(),
-                "frequency_hz": c.frequency,
-                "order": c.frequency / analysis.shaft,
-                "tolerance_hz": c.tolerance,
-                "stands": analysis.views.iter().any(|v| v.diagnosis.evidence[i].stands),
-                "false_alarm": (best * analysis.views.len() as f64).min(1.0),
-            })
-        }).collect::<Vec<_>>(),
+        "families": analysis.families.iter().map(|f| family(analysis, f)).collect::<Vec<_>>(),
+        "beyond_tolerance": analysis.beyond.as_ref().map(|b| {
+            let mut lines = family(analysis, &b.family);
+            lines["shaft_hz_if_its"] = b.shaft.into();
+            lines
+        }),
+        "tolerance": analysis.options.tolerance,
         "signal": {
             "unit": unit.name,
             "quantity": unit.quantity.words().to_lowercase(),
@@ -67,16 +41,15 @@ pub fn to_json(
             "found_in_signal": !analysis.shaft_lines.is_empty(),
             "harmonics_found": analysis.shaft_lines,
         },
-        "bands": analysis.views.iter().enumerate().map(|(i, v)| json!({
-            "low_hz": v.band.band.low,
-            "high_hz": v.band.band.high,
-            "choice": v.band.choice.words(),
-            "line_spacing_hz": v.spectrum.frequency_step,
-            "averages": v.spectrum.segments,
-            "set_aside_hz": v.removed,
-            "shown": i == analysis.best,
-        })).collect::<Vec<_>>(),
-        "envelope": { "mean": view.mean, "frequency_step_hz": view.spectrum.frequency_step },
+        "bands": analysis.bands,
+        "envelope": {
+            "low_hz": view.band.low,
+            "high_hz": view.band.high,
+            "choice": view.choice.words(),
+            "mean": view.mean,
+            "frequency_step_hz": view.spectrum.frequency_step,
+            "averages": view.spectrum.segments,
+        },
         "kurtogram": analysis.kurtogram.map(|k| json!({
             "low_hz": k.band.low, "high_hz": k.band.high, "kurtosis": k.kurtosis, "noise_scatter": k.noise_scatter,
         })),
@@ -106,37 +79,33 @@ pub fn to_json(
     object
 }
 
-fn line(l: &Line) -> Value {
-    json!({
-        "order": l.order, "frequency_hz": l.frequency, "amplitude": l.amplitude, "floor": l.floor,
-        "snr_db": l.snr_db, "false_alarm": l.false_alarm,
-    })
-}
-
-fn finding(analysis: &Analysis, f: &Finding) -> Value {
-    let band = analysis.views[f.view].band.band;
+fn family(analysis: &Analysis, f: &Family) -> Value {
+    let standing = match f.standing {
+        Standing::Damage => "damage",
+        Standing::Shared(_) => "shared",
+        Standing::Open => "cannot_tell",
+        Standing::Faint => "faint",
+        Standing::Silent => "nothing",
+    };
     json!({
         "component": f.component.key(),
         "name": f.name,
-        "is_cause": f.is_cause(),
-        "strength": match f.strength { Strength::Damage => "damage", Strength::Faint => "faint" },
-        "clarity": f.clarity(),
-        "score": f.score,
-        "false_alarm": f.false_alarm,
+        "says": standing,
+        "shared_with": match f.standing { Standing::Shared(with) => Some(with), _ => None },
+        "may_be_passing": analysis.may_be_passing(f),
         "expected_hz": f.expected,
-        "found_hz": f.evidence.frequency,
+        "found_hz": f.frequency,
+        "order": f.frequency / analysis.shaft,
+        "shift": f.shift(),
+        "score": f.score,
+        "limit": f.limit,
+        "noise": f.noise,
         "modulation": f.modulation,
-        "band_hz": [band.low, band.high],
-        "stands_in": f.standing_in,
-        "of_searches": analysis.views.len(),
-        "explained_by": f.explained_by,
-        "alternatives": f.alternatives,
-        "too_short_to_tell_from": f.untold_from,
-        "may_be_passing": f.may_be_passing,
-        "harmonics": f.evidence.harmonics.lines.iter().map(line).collect::<Vec<_>>(),
-        "shown_by_sidebands": f.evidence.carried,
-        "sidebands": f.evidence.sidebands.as_ref().map(|s| json!({
-            "spacing_hz": s.spacing, "standing": s.standing, "of": s.lines.len(), "false_alarm": s.false_alarm,
+        "harmonics": f.harmonics.iter().map(|h| json!({
+            "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "stands": h.stands,
+        })).collect::<Vec<_>>(),
+        "sidebands": f.sidebands.map(|(standing, of)| json!({
+            "spacing_hz": f.spacing, "standing": standing, "of": of,
         })),
     })
 }

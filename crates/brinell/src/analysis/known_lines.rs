@@ -1,9 +1,9 @@
-//! Lines that are nobody's damage: the shaft's harmonics and the mains'.
+//! Lines that are nobody's damage: the mains', and the shaft's, which tell its speed.
 
-use super::verdict::LINE_LEVEL;
+use super::together::HARMONICS;
 use super::{AnalysisError, Options};
 use crate::signal::lengths::fast_up_to;
-use crate::signal::{Candidate, DiagnosisOptions, Segments, Spectrum, diagnose, harmonics, psd};
+use crate::signal::{Segments, harmonics, psd};
 
 /// A mains frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,22 +32,6 @@ const SHAFT_LEVEL: f64 = 1e-4;
 /// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a whole bin, any line
 /// within the tolerance would agree with any other.
 const AGREE: f64 = 0.5;
-/// Bins to either side of a known line that are filled with the noise about it: Hann's main lobe.
-const FILL: f64 = 2.0;
-/// A comb with fewer bins from line to line is left alone: filled, it would leave little of the spectrum.
-const CLOSEST: f64 = 10.0;
-/// Bins beyond the filled ones, to either side, whose median is that noise.
-const AROUND: usize = 12;
-/// Lines of a comb that are looked for.
-const FAMILY: usize = 10;
-/// Chance under noise at which a comb counts as standing.
-const FAMILY_LEVEL: f64 = 1e-3;
-/// A shaft whose speed is known to within this share may show any of its lines. The mains' frequency is known as well, but a
-/// defect frequency near a multiple of 50 or 60 Hz must not pass for theirs.
-const KNOWN: f64 = 0.0025;
-/// How far the mains wander from their nominal frequency, relative, with the logger's clock.
-const MAINS_WANDERS: f64 = 0.002;
-
 /// A shaft's speed by lines at its harmonics.
 pub(super) struct ShaftLines {
     /// Hz.
@@ -70,7 +54,7 @@ pub(super) fn shaft(
     let spectrum = psd(x, fs, &Segments::of(length))?;
     let step = spectrum.frequency_step;
     let reach = options.tolerance * options.shaft;
-    let lines = harmonics(&spectrum, options.shaft, reach, options.harmonics)?;
+    let lines = harmonics(&spectrum, options.shaft, reach, HARMONICS)?;
     // What the mains could have made says nothing of the shaft.
     let near_mains = |f: f64| {
         let off = |mains: f64| (f - (f / mains).round() * mains).abs();
@@ -104,105 +88,6 @@ pub(super) fn shaft(
     }))
 }
 
-/// The combs of shaft and mains that stand in any of several spectra, Hz: what modulates one band modulates others, if more
-/// faintly. The shaft is sought within `tolerance` of `shaft` (Hz).
-pub(super) fn combs(
-    spectra: &[Spectrum],
-    shaft: f64,
-    tolerance: f64,
-) -> Result<Vec<f64>, AnalysisError> {
-    let sought = (Mains::ALL.map(|m| (m.frequency(), MAINS_WANDERS * m.frequency(), false)))
-        .into_iter()
-        .chain([(shaft, tolerance, tolerance <= KNOWN * shaft)]);
-    let mut combs = Vec::new();
-    for (fundamental, tolerance, known) in sought {
-        let mut best: Option<(f64, f64)> = None;
-        for spectrum in spectra {
-            if fundamental < CLOSEST * spectrum.frequency_step {
-                continue;
-            }
-            if let Some((chance, at)) = family(spectrum, fundamental, tolerance, known)?
-                && best.is_none_or(|b| chance < b.0)
-            {
-                best = Some((chance, at));
-            }
-        }
-        let enough = FAMILY_LEVEL / spectra.len() as f64;
-        combs.extend(best.filter(|b| b.0 <= enough).map(|b| b.1));
-    }
-    Ok(combs)
-}
-
-/// Takes combs out of a spectrum, up to `top` Hz; the places taken.
-pub(super) fn remove(spectrum: &mut Spectrum, combs: &[f64], top: f64) -> Vec<f64> {
-    let mut removed = Vec::new();
-    for fundamental in combs {
-        if *fundamental < CLOSEST * spectrum.frequency_step {
-            continue;
-        }
-        let mut k = 1.0;
-        while k * fundamental < top {
-            if fill(spectrum, k * fundamental) {
-                removed.push(k * fundamental);
-            }
-            k += 1.0;
-        }
-    }
-    removed.sort_by(f64::total_cmp);
-    removed
-}
-
-/// Chance and frequency of a comb that stands; where its frequency is not `known`, with its first or second line, and not
-/// merely as every third of another's.
-fn family(
-    spectrum: &Spectrum,
-    fundamental: f64,
-    tolerance: f64,
-    known: bool,
-) -> Result<Option<(f64, f64)>, AnalysisError> {
-    let candidate = Candidate {
-        name: String::new(),
-        frequency: fundamental,
-        tolerance,
-        sideband_spacing: None,
-    };
-    let options = DiagnosisOptions {
-        harmonics: FAMILY,
-        sidebands: 0,
-        level: FAMILY_LEVEL,
-        rival: 0.0,
-    };
-    let found = diagnose(spectrum, &[candidate], &options)?;
-    let evidence = &found.evidence[0];
-    let orders: Vec<i32> = (evidence.harmonics.standing(LINE_LEVEL))
-        .map(|l| l.order)
-        .collect();
-    let common = orders.iter().fold(0, |a, b| divisor(a, *b));
-    let own = known || orders.first().is_some_and(|o| *o <= 2) && common <= 2;
-    Ok((evidence.stands && own).then_some((evidence.false_alarm, evidence.frequency)))
-}
-
 fn divisor(a: i32, b: i32) -> i32 {
     if b == 0 { a } else { divisor(b, a % b) }
-}
-
-/// Fills the place of a line with the noise about it; `false` beyond the spectrum.
-fn fill(spectrum: &mut Spectrum, frequency: f64) -> bool {
-    let a = &spectrum.amplitude;
-    let at = frequency / spectrum.frequency_step;
-    let first = (at - FILL).ceil().max(1.0) as usize;
-    let last = (at + FILL).floor() as usize;
-    if last + AROUND + 1 >= a.len() {
-        return false;
-    }
-    let mut around: Vec<f64> = (first.saturating_sub(AROUND)..first)
-        .chain(last + 1..=last + AROUND)
-        .map(|i| a[i])
-        .collect();
-    let middle = around.len() / 2;
-    let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
-    for value in &mut spectrum.amplitude[first..=last] {
-        *value = value.min(median);
-    }
-    true
 }

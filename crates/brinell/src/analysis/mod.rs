@@ -1,14 +1,10 @@
 //! Analysis of one vibration signal: samples in, a verdict with its evidence out.
 //!
 //! The chain is that of R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst. Signal
-//! Process. 25 (2011) 485-520: the mean is removed, several bands are demodulated (the most impulsive one by the fast
-//! kurtogram, everything above three times the highest defect frequency, and a tiling by octaves), and each envelope
-//! spectrum is searched for every defect frequency within the slip's tolerance, with harmonics and sidebands
-//! ([`crate::signal::diagnosis`]), at two resolutions: jitter smears lines that a fine one would lose.
-//!
-//! Lines of the shaft's harmonics and of 50 and 60 Hz mains are taken out of the envelope spectrum before it is searched, so
-//! that nobody's damage is made of them. Every search is one more chance for noise, so the level is shared among them
-//! (Bonferroni): for noise whose spectrum is smooth, the chance that *any* damage is reported is at most [`Options::level`].
+//! Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is demodulated in some two dozen bands,
+//! and their envelope spectra are averaged over their noise floors. In the average each defect frequency is sought with its harmonics and sidebands,
+//! all of one slip: a [`Family`]. Line present, source identified and damage likely are three statements; [`Standing`] says which holds. Lines of the
+//! shaft's harmonics and of 50 and 60 Hz mains are set aside.
 //!
 //! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
 //!
@@ -29,36 +25,36 @@
 //! ```
 
 mod bands;
-mod beyond;
 mod compare;
 mod error;
 mod family;
 mod frequencies;
 mod json;
 mod known_lines;
+mod together;
 mod unit;
 mod verdict;
-mod view;
 mod words;
 
-pub use bands::{BandChoice, ChosenBand};
-pub use beyond::Beyond;
+pub use bands::BandChoice;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
-pub use family::Family;
+pub use family::{Family, Harmonic, Standing};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
 pub use unit::{Quantity, Unit};
-pub use verdict::{Finding, Strength};
-pub use view::View;
+pub use verdict::Beyond;
+pub use words::COLUMNS;
 
 use crate::signal::lengths::fast_up_to;
 use crate::signal::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
-    VelocityBands, psd,
+    Transformed, VelocityBands, kurtogram, psd,
 };
 use std::thread::{self, ScopedJoinHandle};
+use together::Together;
+use verdict::Record;
 
 /// What is known beside the samples, and how sure to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,12 +65,8 @@ pub struct Options {
     pub orders: DefectOrders,
     /// How far slip and an inexact speed may move a defect frequency, relative; 0.02 unless told.
     pub tolerance: f64,
-    /// The band to demodulate; `None` searches for it.
+    /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
     pub band: Option<Band>,
-    /// Chance at most that noise alone is called damage; 0.01 unless told.
-    pub level: f64,
-    /// Harmonics of each defect frequency that are searched; 5 unless told.
-    pub harmonics: usize,
     /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency in Hz is
     /// its order times `shaft`, the mean speed. Time counts from the first sample.
     pub rotation: Option<Rotation>,
@@ -83,15 +75,13 @@ pub struct Options {
 }
 
 impl Options {
-    /// With the usual tolerance, level and harmonics, for a measured signal.
+    /// With the usual tolerance, for a measured signal.
     pub fn new(shaft: f64, orders: DefectOrders) -> Self {
         Options {
             shaft,
             orders,
             tolerance: 0.02,
             band: None,
-            level: 0.01,
-            harmonics: 5,
             rotation: None,
             silent: false,
         }
@@ -103,6 +93,50 @@ const LARGEST: f64 = 1e60;
 
 /// How well the shaft's own lines tell its speed, relative.
 const SHAFT_KNOWN: f64 = 0.002;
+/// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
+const DITHER: f64 = 1.0 / 4_294_967_296.0;
+/// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance), which
+/// simulations without noise show. Evidence that modulates by less is weak there; some healthy single-row bearings go beyond.
+const PASSING: f64 = 0.4;
+/// Halvings of the kurtogram.
+const DEPTH: usize = 6;
+/// Longest part of a signal that the kurtogram looks at, samples: it is for the eye, and that takes no more.
+const LONGEST: usize = 1 << 18;
+
+/// What the families amount to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// A part is damaged.
+    Damage,
+    /// Something is there that more or other data would decide.
+    CannotTell,
+    /// No damage was found. Not the same as "healthy".
+    NothingFound,
+}
+
+impl Verdict {
+    /// In files: `damage`, `cannot_tell`, `nothing_found`.
+    pub fn key(self) -> &'static str {
+        match self {
+            Verdict::Damage => "damage",
+            Verdict::CannotTell => "cannot_tell",
+            Verdict::NothingFound => "nothing_found",
+        }
+    }
+}
+
+/// An envelope spectrum.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// The band demodulated.
+    pub band: Band,
+    /// Why this one.
+    pub choice: BandChoice,
+    /// Its envelope's spectrum, up to where lines were sought; peak amplitudes in the signal's unit.
+    pub spectrum: Spectrum,
+    /// Mean of the envelope, in the signal's unit.
+    pub mean: f64,
+}
 
 /// Everything that was found.
 #[derive(Debug, Clone)]
@@ -127,32 +161,62 @@ pub struct Analysis {
     pub kurtogram: Option<KurtogramBand>,
     /// The kurtogram it was found in, unless the band was given.
     pub map: Option<Kurtogram>,
-    /// Every envelope spectrum that was searched.
-    pub views: Vec<View>,
-    /// The one that shows most, by index.
-    pub best: usize,
-    /// Each defect frequency with its harmonics, over all bands together.
+    /// The envelope spectrum to show.
+    pub view: View,
+    /// Bands whose envelope spectra were averaged.
+    pub bands: usize,
+    /// Each defect frequency with its harmonics, over all bands together: damage first, the part that leads before others.
     pub families: Vec<Family>,
-    /// What stands out, the strongest first; empty where nothing does.
-    pub findings: Vec<Finding>,
     /// Where no damage is called: lines farther from a defect frequency than the tolerance, if any stand.
     pub beyond: Option<Beyond>,
+    /// Families that would be damage alone, and that so short a record does not tell from the one that leads.
+    pub untold: Vec<&'static str>,
 }
 
 impl Analysis {
-    /// Findings that are called damage and that no stronger one explains, the strongest first.
-    pub fn causes(&self) -> impl Iterator<Item = &Finding> {
-        self.findings.iter().filter(|f| f.is_cause())
+    /// Families that are damage, the one that leads before others.
+    pub fn causes(&self) -> impl Iterator<Item = &Family> {
+        (self.families.iter()).filter(|f| f.standing == Standing::Damage)
     }
 
-    /// The verdict in plain words.
+    /// What it amounts to.
+    pub fn conclusion(&self) -> Verdict {
+        let open = self.families.iter().any(|f| f.standing == Standing::Open);
+        if self.causes().next().is_some() {
+            Verdict::Damage
+        } else if open || self.beyond.is_some() {
+            Verdict::CannotTell
+        } else {
+            Verdict::NothingFound
+        }
+    }
+
+    /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
+    pub fn clarity(&self, family: &Family) -> &'static str {
+        let leads = self.causes().next() == Some(family);
+        if self.may_be_passing(family) || leads && !self.untold.is_empty() {
+            return "weak";
+        }
+        match family.is_very_clear() {
+            true => "very clear",
+            false => "clear",
+        }
+    }
+
+    /// Whether the rollers of a healthy bearing may show as much, where nothing drowns them ([`Options::silent`]).
+    pub fn may_be_passing(&self, family: &Family) -> bool {
+        let outer = family.component == Component::OuterRace;
+        self.options.silent && outer && family.modulation < PASSING
+    }
+
+    /// The verdict in plain words: the headline first.
     pub fn verdict(&self) -> String {
         words::verdict(self)
     }
 
-    /// The envelope spectrum that shows most.
-    pub fn view(&self) -> &View {
-        &self.views[self.best]
+    /// A row for each family, in the order of [`COLUMNS`].
+    pub fn rows(&self) -> Vec<[String; COLUMNS.len()]> {
+        words::rows(self)
     }
 
     /// Length of what was analysed, s.
@@ -171,44 +235,62 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     // What asks for nothing but the samples goes side by side.
-    let (indicators, choice, shaft, transformed) = thread::scope(|scope| {
+    let (indicators, map, shaft, transformed) = thread::scope(|scope| {
         let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
-        let choice = scope.spawn(|| bands::choose(&x, fs, options));
+        let map = scope.spawn(|| match options.band {
+            Some(_) => Ok(None),
+            None => kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH).map(Some),
+        });
         let shaft = scope.spawn(|| match options.rotation {
             // Followed, it is known.
             Some(_) => Ok(None),
             None => known_lines::shaft(&x, fs, options),
         });
-        let transformed = view::transformed(&x, fs);
-        (done(indicators), done(choice), done(shaft), transformed)
+        // As much as is transformed fast, with a trace of noise.
+        let transformed = Transformed::of(&x[..fast_up_to(x.len())], fs);
+        (done(indicators), done(map), done(shaft), transformed)
     });
-    let choice = choice?;
+    let map = map?;
     let (shaft, shaft_lines) = match shaft? {
         Some(found) => (found.speed, found.orders),
         None => (options.shaft, Vec::new()),
     };
     let shaft_found = options.rotation.is_some() || !shaft_lines.is_empty();
-    let transformed = transformed?;
+    let transformed = transformed?.dithered(DITHER);
     let samples = x.len();
     drop(x);
-    // Half a bin of the finest spectrum, or as far as the speed may be off.
-    let known = view::Shaft {
+    // Half a bin of the finest spectrum.
+    let known = together::Shaft {
         hz: shaft,
-        tolerance: if shaft_found {
-            (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft)
-        } else {
-            options.tolerance * shaft
+        tolerance: match shaft_lines.is_empty() {
+            true => 0.0,
+            false => (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft),
         },
     };
-    let families = family::families(&transformed, known, options)?;
-    let views = view::all(transformed, known, &choice.bands, options)?;
-    // Half the main lobe of a Hann window over the whole record.
-    let resolution = 2.0 * fs / samples as f64;
-    let (findings, best) = verdict::find(&views, shaft, resolution, &families, options)?;
-    let beyond = match findings.iter().any(Finding::is_cause) {
-        true => None,
-        false => beyond::find(&views, shaft, options)?,
+    let mut record = Record {
+        together: Together::of(&transformed, known, options)?,
+        revolutions: samples as f64 / fs * shaft,
+        shaft,
+        options,
     };
+    let families = record.families();
+    let lead = (families.iter()).find(|f| f.standing == Standing::Damage);
+    let beyond = match lead {
+        Some(_) => None,
+        None => record.beyond(),
+    };
+    let untold = match lead {
+        Some(lead) if record.is_short() => untold(lead, &families),
+        _ => Vec::new(),
+    };
+    let range = bands::range(fs, options)?;
+    let (band, choice) = match (options.band, lead) {
+        (Some(_), _) => (range, BandChoice::Given),
+        (None, Some(lead)) => (record.together.clearest(lead), BandChoice::Clearest),
+        (None, None) => (range, BandChoice::Broad),
+    };
+    let (mean_of_envelope, spectrum) =
+        together::envelope_spectrum(&transformed, band, shaft, options)?;
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,
@@ -218,14 +300,29 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         shaft_found,
         shaft_lines,
         indicators,
-        kurtogram: choice.best,
-        map: choice.map,
-        views,
-        best,
-        families: families.all,
-        findings,
+        kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
+        map,
+        view: View {
+            band,
+            choice,
+            spectrum,
+            mean: mean_of_envelope,
+        },
+        bands: record.together.bands(),
+        families,
         beyond,
+        untold,
     })
+}
+
+/// What would be damage alone, where one of the two is a rolling element, whose sidebands fill a short record's spectrum.
+fn untold(lead: &Family, families: &[Family]) -> Vec<&'static str> {
+    let element = |f: &Family| f.component == Component::Element;
+    (families.iter())
+        .filter(|f| matches!(f.standing, Standing::Shared(_)) && f.component != Component::Cage)
+        .filter(|f| element(f) != element(lead))
+        .map(|f| f.name)
+        .collect()
 }
 
 /// Of a signal less its mean, averaged over revolutions of `revolution` samples.

@@ -1,4 +1,4 @@
-//! Spectral lines against the noise around them: harmonics of a frequency, and sidebands.
+//! Spectral lines against the noise around them: harmonics of a frequency.
 //!
 //! The noise at a line is the median power of its neighbourhood, the line itself and its skirt left out, over the
 //! median of chi-square with the spectrum's degrees of freedom: other lines hardly move a median. Under Gaussian noise
@@ -21,7 +21,7 @@ const LOWEST_FLOOR: f64 = 1e-24;
 /// A line sought at a place of the spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Order of the harmonic, or of the sideband (negative below its carrier).
+    /// Order of the harmonic.
     pub order: i32,
     /// Where it was sought, Hz.
     pub expected: f64,
@@ -98,44 +98,9 @@ pub fn harmonics(
     })
 }
 
-/// Sidebands of orders 1 to `count` to either side of `carrier`, `spacing` apart, each sought within `tolerance` (all Hz).
-///
-/// # Errors
-/// As [`harmonics`], with the tolerance below half the spacing.
-pub fn sidebands(
-    spectrum: &Spectrum,
-    carrier: f64,
-    spacing: f64,
-    tolerance: f64,
-    count: usize,
-) -> Result<LineSet, SignalError> {
-    require(
-        spacing > 0.0 && spacing.is_finite(),
-        "spacing of sidebands (Hz)",
-        spacing,
-        "above 0",
-    )?;
-    require(
-        (0.0..0.5 * spacing).contains(&tolerance),
-        "tolerance (Hz)",
-        tolerance,
-        "0 to below half the spacing",
-    )?;
-    let floor = Floor::new(spectrum)?;
-    let count = count as i32;
-    let lines = (-count..=count)
-        .filter(|m| *m != 0)
-        .filter_map(|m| floor.line(m, carrier + f64::from(m) * spacing, tolerance));
-    Ok(LineSet {
-        lines: lines.collect(),
-    })
-}
-
 /// The noise of a spectrum, place by place.
-pub(super) struct Floor<'a> {
+struct Floor<'a> {
     spectrum: &'a Spectrum,
-    /// Bins that are no part of what is looked at, where there are any.
-    hidden: Option<&'a [bool]>,
     freedom: f64,
     /// Median of chi-square over its degrees of freedom.
     median: f64,
@@ -146,20 +111,15 @@ pub(super) struct Floor<'a> {
 
 /// Power of noise at a place, and how well it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Level {
+struct Level {
     /// Square of an amplitude.
-    pub(super) power: f64,
+    power: f64,
     /// Degrees of freedom that it rests on.
-    pub(super) freedom: f64,
+    freedom: f64,
 }
 
 impl<'a> Floor<'a> {
-    pub(super) fn new(spectrum: &'a Spectrum) -> Result<Self, SignalError> {
-        Floor::within(spectrum, LOWEST_FLOOR)
-    }
-
-    /// With a floor of at least a share `lowest` of the strongest power.
-    pub(super) fn within(spectrum: &'a Spectrum, lowest: f64) -> Result<Self, SignalError> {
+    fn new(spectrum: &'a Spectrum) -> Result<Self, SignalError> {
         require(
             spectrum.amplitude.len() > FEWEST_BINS + 2 * SKIRT + 2,
             "bins of the spectrum",
@@ -176,56 +136,26 @@ impl<'a> Floor<'a> {
         )?;
         Ok(Floor {
             spectrum,
-            hidden: None,
             freedom,
             median: chi_square_quantile(0.5, freedom) / freedom,
             correlation: spectrum.noise_bandwidth / spectrum.frequency_step,
-            lowest: lowest * strongest * strongest,
+            lowest: LOWEST_FLOOR * strongest * strongest,
         })
     }
 
-    /// With a floor of at least `power`.
-    pub(super) fn at_least(self, power: f64) -> Self {
-        Floor {
-            lowest: self.lowest.max(power),
-            ..self
-        }
-    }
-
-    /// The same noise, measured without the bins marked in `hidden`, one mark a bin.
-    pub(super) fn hiding(self, hidden: &'a [bool]) -> Self {
-        Floor {
-            hidden: Some(hidden),
-            ..self
-        }
-    }
-
-    pub(super) fn hides(&self, bin: usize) -> bool {
-        self.hidden.is_some_and(|hidden| hidden[bin])
-    }
-
     /// The bin of a frequency; `None` outside the spectrum, or where the line would merge with zero frequency.
-    pub(super) fn bin(&self, frequency: f64) -> Option<usize> {
+    fn bin(&self, frequency: f64) -> Option<usize> {
         let bin = (frequency / self.spectrum.frequency_step).round();
         let last = self.spectrum.amplitude.len() - 2;
         (bin >= SKIRT as f64 && bin <= last as f64).then_some(bin as usize)
     }
 
-    pub(super) fn spectrum(&self) -> &'a Spectrum {
-        self.spectrum
-    }
-
-    /// Hz from bin to bin.
-    pub(super) fn step(&self) -> f64 {
-        self.spectrum.frequency_step
-    }
-
-    pub(super) fn power(&self, bin: usize) -> f64 {
+    fn power(&self, bin: usize) -> f64 {
         self.spectrum.amplitude[bin].powi(2)
     }
 
     /// Noise about the bins `first` to `last`, those and their skirts left out.
-    pub(super) fn level(&self, first: usize, last: usize) -> Level {
+    fn level(&self, first: usize, last: usize) -> Level {
         let top = self.spectrum.amplitude.len() - 2;
         let below = first.saturating_sub(SKIRT).saturating_sub(1);
         let above = (top + 1).saturating_sub(last + SKIRT + 1);
@@ -236,7 +166,6 @@ impl<'a> Floor<'a> {
         let start_above = last + SKIRT + 1;
         let mut powers: Vec<f64> = (start_below..start_below + take_below)
             .chain(start_above..start_above + take_above)
-            .filter(|k| !self.hides(*k))
             .map(|k| self.power(k))
             .collect();
         if powers.is_empty() {
@@ -261,34 +190,13 @@ impl<'a> Floor<'a> {
     }
 
     /// Chance that noise at `level` shows at least a power in a bin.
-    pub(super) fn chance(&self, level: Level) -> impl Fn(f64) -> f64 {
+    fn chance(&self, level: Level) -> impl Fn(f64) -> f64 {
         let tail = FTail::new(self.freedom, level.freedom);
         move |power| tail.at(power / level.power)
     }
 
-    /// Where the peak is whose top or skirt is seen at a frequency, Hz: uphill from there, over `reach` bins at most.
-    pub(super) fn summit(&self, frequency: f64, reach: f64) -> f64 {
-        let step = self.spectrum.frequency_step;
-        let Some(bin) = self.bin(frequency) else {
-            return frequency;
-        };
-        let reach = reach as usize;
-        let amplitude = &self.spectrum.amplitude;
-        let higher = |next: usize, from: usize| amplitude[next] > amplitude[from];
-        let up = (bin..bin + reach).take_while(|k| k + 2 < amplitude.len() && higher(k + 1, *k));
-        let down = (bin - reach + 1..=bin)
-            .rev()
-            .take_while(|k| higher(k - 1, *k));
-        let tops = [bin + up.count(), bin - down.count()];
-        let top = tops
-            .into_iter()
-            .max_by(|a, b| amplitude[*a].total_cmp(&amplitude[*b]));
-        let top = top.unwrap_or(bin) as f64 * step;
-        peak_near(self.spectrum, top, 0.5 * step).map_or(top, |p| p.frequency)
-    }
-
     /// The line within `tolerance` of `expected`, both Hz.
-    pub(super) fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
+    fn line(&self, order: i32, expected: f64, tolerance: f64) -> Option<Line> {
         let step = self.spectrum.frequency_step;
         let nearest = self.bin(expected)?;
         let first = self
@@ -332,13 +240,7 @@ mod tests {
         let mut x: Vec<f64> = (Noise::new(seed).normals(n).iter())
             .map(|v| noise * v)
             .collect();
-        for (f, a) in [
-            (100.3, 1.0),
-            (200.6, 0.5),
-            (300.9, 0.25),
-            (180.6, 0.1),
-            (220.6, 0.1),
-        ] {
+        for (f, a) in [(100.3, 1.0), (200.6, 0.5), (300.9, 0.25)] {
             x.iter_mut()
                 .zip(cosine(n, FS, f, a, f))
                 .for_each(|(x, c)| *x += c);
@@ -369,9 +271,6 @@ mod tests {
         assert!(set.lines[3].false_alarm > 1e-3 && set.lines[3].snr_db < 7.0);
         let rms = set.rms() / (0.5 * (1.0 + 0.25 + 0.0625f64)).sqrt();
         assert!((rms - 1.0).abs() < 0.05);
-        let side = sidebands(&s, 200.6, 20.0, 0.3, 2).unwrap();
-        let standing: Vec<i32> = side.standing(1e-6).map(|l| l.order).collect();
-        assert_eq!(standing, [-1, 1]);
     }
 
     #[test]

@@ -7,8 +7,7 @@
 //!
 //! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
 //! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`filter`] and
-//! [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics and sidebands over the local
-//! noise), [`diagnosis`] (which of several candidates stand out, with the chance that noise would),
+//! [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise),
 //! [`double_impulse`] (entry and exit of a defect, and the length that they imply), and [`distribution`] (what powers
 //! of noise follow). They return [`SignalError`] for input that they cannot use, and do not panic.
 //!
@@ -18,7 +17,6 @@
 
 pub mod blocks;
 pub mod decimate;
-pub mod diagnosis;
 pub mod distribution;
 pub mod double_impulse;
 pub mod envelope;
@@ -42,7 +40,6 @@ pub mod spectrum;
 pub mod stream;
 pub mod transformed;
 pub mod velocity_bands;
-pub mod whiten;
 pub mod window;
 
 #[cfg(test)]
@@ -50,10 +47,6 @@ pub(crate) mod test_signals;
 
 pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 pub use decimate::{Decimator, decimate, kaiser_lowpass};
-pub use diagnosis::{
-    Candidate, Diagnosis, DiagnosisOptions, Evidence, SidebandEvidence, diagnose, diagnose_beside,
-    without,
-};
 pub use double_impulse::{
     DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
 };
@@ -65,7 +58,7 @@ pub use frequency::{LineFrequency, LineSearch, line_frequency};
 pub use indicators::{Indicator, Moments};
 pub use integrate::{velocity, velocity_trapezoid};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
-pub use lines::{Line, LineSet, harmonics, sidebands};
+pub use lines::{Line, LineSet, harmonics};
 pub use order::{Angular, Rotation, order_spectrum, resample};
 pub use psd::{Detrend, Segments, density_interval, psd};
 pub use scatter::{Scatter, scatter, student_t_quantile};
@@ -75,5 +68,4 @@ pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
 pub use stream::{Spectra, StreamSpectra};
 pub use transformed::{Thinned, Transformed};
 pub use velocity_bands::{VelocityBands, velocity_bands};
-pub use whiten::whitened;
 pub use window::Window;

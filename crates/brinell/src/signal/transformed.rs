@@ -112,25 +112,6 @@ impl Transformed {
         })
     }
 
-    /// The same of what [`whitened`](super::whitened()) makes of the signal in the band.
-    ///
-    /// # Panics
-    /// As [`envelope`](Self::envelope).
-    pub fn whitened_envelope(&self, band: Band, count: usize) -> Thinned {
-        let bins = &self.bins[bins(self.fs, self.samples(), band)];
-        // As many bins as hold anything, of one size, make unit RMS.
-        let bins = bins.iter().filter(|bin| **bin != Complex::ZERO);
-        let size = (2.0 / bins.count().max(1) as f64).sqrt();
-        let mut norms = Vec::new();
-        self.thinned(band, count, size, |_, bins, shaped| {
-            norms.resize(bins.len(), 0.0);
-            moduli(bins, &mut norms);
-            for ((shaped, bin), norm) in shaped.iter_mut().zip(bins).zip(&norms) {
-                *shaped = bin / if *norm > 0.0 { *norm } else { 1.0 };
-            }
-        })
-    }
-
     fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -193,7 +174,7 @@ impl Transformed {
 #[cfg(test)]
 mod tests {
     use super::super::test_signals::Noise;
-    use super::super::{Segments, envelope, psd, whitened};
+    use super::super::{Segments, envelope, psd};
     use super::*;
 
     const FS: f64 = 25_600.0;
@@ -225,7 +206,6 @@ mod tests {
         let band = Band::between(1000.0, 3048.0);
         for n in [48_000, 15 << 17] {
             let x = Noise::new(5).normals(n);
-            let whitened = whitened(&x, FS, band).unwrap();
             let transformed = Transformed::of(&x, FS).unwrap();
             for (count, every, apart) in [
                 (n, 1, 1),
@@ -234,16 +214,9 @@ mod tests {
                 (n / 6, 2, 3),
                 (n / 12, 4, 3),
             ] {
-                for (whole, thinned) in [
-                    (
-                        envelope(&x, FS, band).unwrap(),
-                        transformed.envelope(band, count),
-                    ),
-                    (
-                        envelope(&whitened, FS, band).unwrap(),
-                        transformed.whitened_envelope(band, count),
-                    ),
-                ] {
+                {
+                    let whole = envelope(&x, FS, band).unwrap();
+                    let thinned = transformed.envelope(band, count);
                     assert_eq!(thinned.values.len(), count);
                     let taken: Vec<f64> = whole.iter().step_by(apart).copied().collect();
                     let mean = taken.iter().sum::<f64>() / taken.len() as f64;

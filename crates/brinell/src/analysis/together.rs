@@ -1,0 +1,323 @@
+//! The envelope spectra of many bands, averaged: what stands in all of them together.
+//!
+//! The range above three times the highest defect frequency is tiled by bands of equal width, each half over the next. Power in the envelope
+//! spectrum of each is divided by the noise floor about it (a running median) and averaged over the bands: every band counts alike, whatever its
+//! level, as in the integrated cyclic spectral coherence (J. Antoni, "Cyclic spectral analysis in practice", Mech. Syst. Signal
+//! Process. 21 (2007) 597-630).
+
+use super::family::{Family, Harmonic};
+use super::known_lines::Mains;
+use super::{AnalysisError, Options, bands};
+use crate::many;
+use crate::signal::distribution::chi_square_quantile;
+use crate::signal::lengths::fast_up_to;
+use crate::signal::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
+
+/// Harmonics of a defect frequency that are looked at.
+pub(super) const HARMONICS: usize = 5;
+/// Bands side by side in the whole range at most; half as many again lie between them.
+const BANDS: f64 = 12.0;
+/// Revolutions of a segment: lines are then a fraction of 1/120 of the shaft's frequency wide. In longer ones slip would smear them.
+pub(super) const REVOLUTIONS: f64 = 120.0;
+/// The envelope is sampled so many times as often as its highest line sought.
+const ENVELOPE_RATE: f64 = 8.0;
+/// Bins to either side of a line of shaft or mains that count for nobody.
+const ASIDE: f64 = 3.0;
+/// Width of the running median, in shaft's frequencies and in bins at least.
+const FLOOR: (f64, f64) = (3.0, 41.0);
+/// Noise shows this much at a place once in 700 (three standard deviations).
+const NOISE: f64 = 1.0 - 1.35e-3;
+/// Power over floor from which a line stands, however many bands are averaged: 3 dB.
+const STANDS: f64 = 2.0;
+/// Lines of the mains that have to stand before they are set aside.
+const OF_MAINS: usize = 3;
+/// Lines of the shaft by which its comb is placed.
+const OF_SHAFT: usize = 10;
+
+/// Shaft speed, and how far its lines may lie from it where they were found in the signal; both Hz.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shaft {
+    pub(super) hz: f64,
+    pub(super) tolerance: f64,
+}
+
+/// Power by frequency, averaged over the bands.
+pub(super) struct Together {
+    step: f64,
+    /// Over the floor.
+    ratio: Vec<f64>,
+    /// Above the floor, over the envelope's mean squared.
+    depth: Vec<f64>,
+    /// Where lines of shaft or mains lie, or of what was taken out: nothing is seen there.
+    hidden: Vec<bool>,
+    /// Each band, and power over floor in it alone.
+    each: Vec<(Band, Vec<f64>)>,
+    /// Power over floor that noise alone hardly shows at a place.
+    pub(super) noise: f64,
+}
+
+/// What is at a frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Power over floor; `None` where nothing is seen.
+    pub(super) ratio: Option<f64>,
+    /// Power above the floor over the envelope's mean squared.
+    pub(super) depth: f64,
+}
+
+impl Together {
+    /// Of a signal.
+    pub(super) fn of(
+        transformed: &Transformed,
+        shaft: Shaft,
+        options: &Options,
+    ) -> Result<Self, AnalysisError> {
+        let range = bands::range(transformed.sample_rate(), options)?;
+        let tiles = tiles(range, top(shaft.hz, options));
+        let spectra = side_by_side(&tiles, |band| {
+            envelope_spectrum(transformed, *band, shaft.hz, options)
+        })?;
+        let bins = spectra
+            .iter()
+            .map(|s| s.1.amplitude.len())
+            .min()
+            .unwrap_or(0);
+        let (step, freedom) = (spectra.first()).map_or((1.0, 2.0), |(_, s)| {
+            (s.frequency_step, s.degrees_of_freedom)
+        });
+        let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
+        // Bands that overlap by half say what half as many and one would.
+        let apart = 0.5 * (spectra.len() as f64 + 1.0);
+        let mut together = Together {
+            step,
+            ratio: vec![0.0; bins],
+            depth: vec![0.0; bins],
+            hidden: vec![false; bins],
+            each: Vec::new(),
+            noise: chi_square_quantile(NOISE, apart * freedom) / (apart * freedom),
+        };
+        // The median of a power with few degrees of freedom lies below its mean.
+        let unbiased = 1.0 / (1.0 - 2.0 / (9.0 * freedom)).powi(3);
+        let share = 1.0 / spectra.len() as f64;
+        for (band, (mean, spectrum)) in tiles.into_iter().zip(&spectra) {
+            let mut power: Vec<f64> = (spectrum.amplitude[..bins].iter())
+                .map(|a| 0.5 * a * a / (mean * mean).max(f64::MIN_POSITIVE))
+                .collect();
+            let floor = running_median(&power, width);
+            for (k, (power, floor)) in power.iter_mut().zip(floor).enumerate() {
+                let floor = (floor * unbiased).max(f64::MIN_POSITIVE);
+                together.depth[k] += share * (*power - floor).max(0.0);
+                *power /= floor;
+                together.ratio[k] += share * *power;
+            }
+            together.each.push((band, power));
+        }
+        together.hide_known(shaft);
+        Ok(together)
+    }
+
+    /// Lines of the shaft, which stand in every machine, and of the mains where they stand.
+    fn hide_known(&mut self, shaft: Shaft) {
+        let mains = Mains::ALL.map(|m| m.frequency());
+        let this = &*self;
+        let lines =
+            |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
+        let stand = |f: &f64| lines(*f, OF_MAINS).all(|ratio| ratio >= this.standing());
+        // Of the places at which the shaft's lines may be, the one at which they stand highest.
+        let height = |f: f64| -> f64 { lines(f, OF_SHAFT).map(f64::ln).sum() };
+        let step = 0.25 * self.step / OF_SHAFT as f64;
+        let steps = (shaft.tolerance / step) as i32;
+        let places = (-steps..=steps).map(|k| shaft.hz + f64::from(k) * step);
+        let highest = places.max_by(|a, b| height(*a).total_cmp(&height(*b)));
+        let combs: Vec<f64> = (mains.into_iter().filter(stand))
+            .chain(highest.filter(|_| shaft.tolerance > 0.0))
+            .chain([shaft.hz])
+            .collect();
+        for comb in combs {
+            let mut k = 1.0;
+            while k * comb < self.top() {
+                self.hide(k * comb);
+                k += 1.0;
+            }
+        }
+    }
+
+    /// Power over floor from which a line stands.
+    pub(super) fn standing(&self) -> f64 {
+        self.noise.max(STANDS)
+    }
+
+    /// Distance between bins, Hz.
+    pub(super) fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The highest frequency, Hz.
+    pub(super) fn top(&self) -> f64 {
+        self.ratio.len() as f64 * self.step
+    }
+
+    /// Nothing is seen there from now on, nor on the skirts of what stands there: as far as they fall.
+    pub(super) fn hide(&mut self, frequency: f64) {
+        let at = frequency / self.step;
+        let last = self.ratio.len().saturating_sub(1);
+        let mut low = ((at - ASIDE).ceil().max(0.0) as usize).min(last);
+        let mut high = ((at + ASIDE).floor() as usize).min(last);
+        let standing = self.standing();
+        let falls = |to: f64, from: f64| to >= standing && to < from;
+        while low > 0 && falls(self.ratio[low - 1], self.ratio[low]) {
+            low -= 1;
+        }
+        while high < last && falls(self.ratio[high + 1], self.ratio[high]) {
+            high += 1;
+        }
+        self.hidden[low..=high].fill(true);
+        self.ratio[low..=high].fill(1.0);
+        self.depth[low..=high].fill(0.0);
+    }
+
+    /// The highest of the three bins at a frequency; nothing beyond the spectrum.
+    pub(super) fn at(&self, frequency: f64) -> Place {
+        let bin = self.bin(frequency.max(0.0));
+        let hidden = self.hidden.get(bin).is_some_and(|h| *h);
+        match (peak(&self.ratio, bin), peak(&self.depth, bin)) {
+            (Some(ratio), Some(depth)) if !hidden => Place {
+                ratio: Some(ratio),
+                depth,
+            },
+            _ => Place {
+                ratio: (!hidden).then_some(1.0),
+                depth: 0.0,
+            },
+        }
+    }
+
+    /// How many bands.
+    pub(super) fn bands(&self) -> usize {
+        self.each.len()
+    }
+
+    /// The band in which a family's lines stand highest.
+    pub(super) fn clearest(&self, family: &Family) -> Band {
+        let seen = |h: &&Harmonic| h.snr_db.is_some();
+        let height = |ratio: &[f64]| -> f64 {
+            let lines = family.harmonics.iter().filter(seen);
+            lines
+                .map(|h| peak(ratio, self.bin(h.frequency)).unwrap_or(1.0).ln())
+                .sum()
+        };
+        let heights = self.each.iter().map(|(band, ratio)| (*band, height(ratio)));
+        let highest = heights.max_by(|a, b| a.1.total_cmp(&b.1));
+        highest.map_or(Band::above(0.0), |h| h.0)
+    }
+
+    fn bin(&self, frequency: f64) -> usize {
+        (frequency / self.step).round() as usize
+    }
+}
+
+/// The highest of a bin and its neighbours; `None` at the ends of a spectrum and beyond.
+fn peak(of: &[f64], bin: usize) -> Option<f64> {
+    let bins = of.get(bin.checked_sub(1)?..bin + 2)?;
+    Some(bins.iter().fold(0.0, |m: f64, v| m.max(*v)))
+}
+
+/// Highest frequency looked at in an envelope spectrum, Hz.
+fn top(shaft: f64, options: &Options) -> f64 {
+    let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2));
+    highest * shaft * (HARMONICS as f64 + 0.5) * (1.0 + options.tolerance)
+}
+
+/// Bands of one width, each half over the next.
+fn tiles(range: Band, top: f64) -> Vec<Band> {
+    let whole = range.high - range.low;
+    let width = top.max(whole / BANDS).min(whole);
+    if width.is_nan() || width <= 0.0 {
+        return Vec::new();
+    }
+    let count = ((whole - width) / (0.5 * width)).floor() as usize + 1;
+    (0..count)
+        .map(|k| range.low + 0.5 * k as f64 * width)
+        .map(|from| Band::between(from, (from + width).min(range.high)))
+        .collect()
+}
+
+/// Mean of a band's envelope, in the signal's unit, and its spectrum up to the highest line sought.
+pub(super) fn envelope_spectrum(
+    transformed: &Transformed,
+    band: Band,
+    shaft: f64,
+    options: &Options,
+) -> Result<(f64, Spectrum), AnalysisError> {
+    let top = top(shaft, options);
+    let samples = transformed.samples();
+    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
+    // brought down by 34 dB.
+    let factor = ((transformed.sample_rate() / (ENVELOPE_RATE * top)).floor() as usize).max(1);
+    let count = fast_up_to((samples / factor).max(64.min(samples)));
+    let envelope = transformed.envelope(band, count);
+    let mean = envelope.mean;
+    let (values, rate) = at_angles(envelope, transformed, shaft, options)?;
+    let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
+    let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
+    let bins = (1.03 * top / spectrum.frequency_step) as usize;
+    spectrum.amplitude.truncate(bins);
+    spectrum.density.truncate(bins);
+    Ok((mean, spectrum))
+}
+
+/// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled at, Hz.
+fn at_angles(
+    envelope: Thinned,
+    transformed: &Transformed,
+    shaft: f64,
+    options: &Options,
+) -> Result<(Vec<f64>, f64), AnalysisError> {
+    let mut values = envelope.values;
+    values.iter_mut().for_each(|v| *v -= envelope.mean);
+    let rate = transformed.sample_rate() * values.len() as f64 / transformed.samples() as f64;
+    let Some(rotation) = &options.rotation else {
+        return Ok((values, rate));
+    };
+    let per_turn = (rate / shaft).round().max(4.0) as usize;
+    let values = resample(&values, rate, rotation, per_turn)?.values;
+    Ok((values, per_turn as f64 * shaft))
+}
+
+/// A job for each, as many at a time as there are cores; results in the order of what they are of.
+fn side_by_side<T: Sync, R: Send>(
+    of: &[T],
+    one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
+) -> Result<Vec<R>, AnalysisError> {
+    let mut results: Vec<_> = of.iter().map(|_| None).collect();
+    many::each(
+        of.len(),
+        many::threads(of.len()),
+        |k| one(&of[k]),
+        |k, result| results[k] = Some(result),
+    );
+    results.into_iter().flatten().collect()
+}
+
+/// Medians over `width` neighbours, taken at every eighth of that and joined by lines.
+fn running_median(values: &[f64], width: usize) -> Vec<f64> {
+    let n = values.len();
+    let every = (width / 8).max(1);
+    let median = |center: usize| {
+        let from = center
+            .saturating_sub(width / 2)
+            .min(n.saturating_sub(width));
+        let mut near = values[from..(from + width).min(n)].to_vec();
+        let middle = near.len() / 2;
+        *near.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    let knots: Vec<f64> = (0..n.div_ceil(every) + 1)
+        .map(|k| median((k * every).min(n - 1)))
+        .collect();
+    (0..n)
+        .map(|k| {
+            let (knot, part) = (k / every, (k % every) as f64 / every as f64);
+            knots[knot] + part * (knots[knot + 1] - knots[knot])
+        })
+        .collect()
+}
