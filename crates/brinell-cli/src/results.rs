@@ -1,15 +1,15 @@
 //! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them have to go.
 //!
 //! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them: `summary.json` of a run,
-//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed (a run, after its own files
-//! are complete), and nothing else is ever removed. Finished runs that a command resumes from are never removed.
+//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, after its own files are
+//! complete, and nothing else is ever removed. Finished runs that a command resumes from are never removed.
 
 use crate::campaign::JOURNAL;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use brinell::document::read;
 use brinell::scenario::Scenario;
-use brinell_io::{Format, read_text};
+use brinell_io::{Complete, Format, read_text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -413,7 +413,8 @@ impl Place<'_> {
     }
 }
 
-/// The earlier results of a folder, which new ones replace.
+/// The earlier results of a folder, which new ones replace. They stay until all new files are complete beside them: a full disk or an interruption
+/// costs nothing that was there.
 #[derive(Debug, Default)]
 pub(crate) struct Earlier {
     folder: PathBuf,
@@ -422,13 +423,17 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// Removes them.
-    pub(crate) fn remove(&self) -> Result<(), Failure> {
-        self.remove_but(&[])
+    /// Gives the new files their names and removes what they did not take the place of. The file that tells of the new ones comes first: what
+    /// replaces these knows of them even where this is cut short between two names.
+    pub(crate) fn give_way(&self, ready: Vec<Complete>) -> Result<Vec<PathBuf>, Failure> {
+        let published = ready.into_iter().map(Complete::publish);
+        let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
+        self.remove_but(&names_below(&self.folder, &written))?;
+        Ok(written)
     }
 
     /// Removes those that the new results did not take the place of, by their names.
-    pub(crate) fn remove_but(&self, written: &[String]) -> Result<(), Failure> {
+    fn remove_but(&self, written: &[String]) -> Result<(), Failure> {
         for name in self.files.iter().filter(|name| !written.contains(name)) {
             let path = self.folder.join(name);
             match std::fs::remove_file(&path) {

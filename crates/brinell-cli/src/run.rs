@@ -109,8 +109,7 @@ fn earlier(
     place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))
 }
 
-/// Runs, and writes everything that was asked for into the folder, in place of the earlier results. These stay until all files of this run are
-/// complete beside them: a full disk costs nothing that was there.
+/// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
@@ -158,16 +157,13 @@ fn execute(
     let mut summary = summary::to_json(&parts);
     summary["files"] = names_below(folder, &files).into();
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    // First of all: a run that replaces this one knows of its files even where this one is cut short between two names.
     ready.insert(0, atomic_prepare(folder.join(SUMMARY), text)?);
     if let Some(report) = report.filter(|_| !args.no_report) {
         let page = brinell_report::html(&report);
         ready.push(atomic_prepare(folder.join(REPORT), page)?);
     }
     ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
-    let published = ready.into_iter().map(Complete::publish);
-    let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
-    earlier.remove_but(&names_below(folder, &written))?;
+    let written = earlier.give_way(ready)?;
     Ok(Done {
         told: tell(&parts, heard.elapsed, &written),
         end: outcome.end,
@@ -286,7 +282,7 @@ pub(crate) fn write_pictures(
 }
 
 /// The same up to the files' names.
-fn ready_pictures(
+pub(crate) fn ready_pictures(
     pictures: &[brinell_report::Picture],
     formats: &[PlotFormat],
     folder: &Path,
