@@ -178,7 +178,10 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
     for (args, lacks) in [
         ("analyze r -o a -q", "report.html"),
         ("compare s.toml b.toml -o c -q", "compare.json"),
-        ("defect preview s.toml -o p --formats svg", "damage-1-passage.csv"),
+        (
+            "defect preview s.toml -o p --formats svg",
+            "damage-1-passage.csv",
+        ),
     ] {
         let args: Vec<&str> = args.split(' ').collect();
         let output = here.join(args[args.iter().position(|a| *a == "-o").unwrap() + 1]);
