@@ -146,7 +146,7 @@ fn regress_what_no_file_holds_is_refused_in_a_few_lines() {
                 "--set",
                 "operation.load_n=[1e15, 0]",
             ],
-            "times the static load rating C0 = 3.6",
+            "times the static load rating C0 = 36500 N",
         ),
     ] {
         brinell(folder.path(), args).exits(2).complains(&[words]);
