@@ -7,7 +7,7 @@
 use crate::campaign::JOURNAL;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
-use brinell::document::read;
+use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, Format, read_text};
 use serde_json::Value;
@@ -369,6 +369,12 @@ impl Place<'_> {
                 there.join(", ")
             )));
         }
+        // A comment, or a key left out, is somebody's work, though the values are the same.
+        if there.iter().any(|name| name == SCENARIO) && !overwrite && !is_written(folder) {
+            return Err(Failure::Usage(format!(
+                "{at} holds a {SCENARIO} that brinell did not write as it stands; choose another folder with -o, or replace it with --overwrite"
+            )));
+        }
         let tells = kind.tells();
         if !unlisted.is_empty() && !overwrite {
             return Err(Failure::Usage(format!(
@@ -460,11 +466,20 @@ impl Earlier {
 
 /// Whether a run's folder has the results of this scenario, all values the same.
 pub(crate) fn is_of(folder: &Path, scenario: &Scenario) -> bool {
-    let Ok(bytes) = File::open(folder.join(SCENARIO)).and_then(read_text) else {
-        return false;
-    };
-    let text = String::from_utf8_lossy(&bytes);
-    read(&text, &[]).is_ok_and(|loaded| loaded.scenario == *scenario)
+    scenario_in(folder).is_some_and(|(_, there)| there.scenario == *scenario)
+}
+
+/// Whether the scenario in a run's folder is as this version writes it, to the letter.
+fn is_written(folder: &Path) -> bool {
+    scenario_in(folder).is_some_and(|(text, there)| there.to_toml() == text)
+}
+
+/// The scenario that lies in a run's folder, as text and read.
+fn scenario_in(folder: &Path) -> Option<(String, Loaded)> {
+    let bytes = File::open(folder.join(SCENARIO)).and_then(read_text).ok()?;
+    let text = String::from_utf8(bytes).ok()?;
+    let loaded = read(&text, &[]).ok()?;
+    Some((text, loaded))
 }
 
 /// Names below `folder` of what was written into it, as the file that tells of them lists them.
