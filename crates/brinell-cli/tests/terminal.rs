@@ -136,6 +136,31 @@ fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn prop_a_closed_standard_output_is_exit_1_where_something_was_to_be_said() {
+    let folder = folder_with(SHORT);
+    let run = "run s.toml -o o -q --no-report";
+    for (args, output, code) in [
+        ("check s.toml", ">&-", 1),
+        ("--help", ">&-", 1),
+        (run, ">&-", 0),
+        ("check s.toml", ">/dev/null", 0),
+        ("check s.toml", "1<>/dev/null", 0),
+    ] {
+        let call = std::process::Command::new("sh")
+            .args(["-c", &format!("exec \"$0\" {args} {output}")])
+            .arg(env!("CARGO_BIN_EXE_brinell"))
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let call = Call::from(call).exits(code);
+        if code == 1 {
+            call.complains(&["cannot write to standard output: it is closed"]);
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     let folder = folder_with(SHORT);
     let first = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv"];
