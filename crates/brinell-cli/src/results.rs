@@ -369,12 +369,6 @@ impl Place<'_> {
                 there.join(", ")
             )));
         }
-        // A comment, or a key left out, is somebody's work, though the values are the same.
-        if there.iter().any(|name| name == SCENARIO) && !overwrite && !is_written(folder) {
-            return Err(Failure::Usage(format!(
-                "{at} holds a {SCENARIO} that brinell did not write as it stands; choose another folder with -o, or replace it with --overwrite"
-            )));
-        }
         let tells = kind.tells();
         if !unlisted.is_empty() && !overwrite {
             return Err(Failure::Usage(format!(
@@ -469,9 +463,11 @@ pub(crate) fn is_of(folder: &Path, scenario: &Scenario) -> bool {
     scenario_in(folder).is_some_and(|(_, there)| there.scenario == *scenario)
 }
 
-/// Whether the scenario in a run's folder is as this version writes it, to the letter.
-fn is_written(folder: &Path) -> bool {
-    scenario_in(folder).is_some_and(|(text, there)| there.to_toml() == text)
+/// Whether the scenario in a run's folder, where one is, is as this version writes it, to the letter: a comment, or a key left out, is somebody's work
+/// though the values are the same. `new` is what would take its place; that says of files of damage what cannot be read back.
+pub(crate) fn is_written(folder: &Path, new: &str) -> bool {
+    !folder.join(SCENARIO).exists()
+        || scenario_in(folder).is_some_and(|(text, there)| text == new || text == there.to_toml())
 }
 
 /// The scenario that lies in a run's folder, as text and read.

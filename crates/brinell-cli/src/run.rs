@@ -9,7 +9,7 @@ use crate::inputs::Inputs;
 use crate::progress::Progress;
 use crate::recorder::Recorder;
 use crate::results::{
-    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, names_below,
+    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
 use crate::say::{complain, one_line, say, short};
 use crate::{files, page};
@@ -106,7 +106,14 @@ fn earlier(
         folder,
         inputs,
     };
-    place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))
+    let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
+    if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
+        return Err(Failure::Usage(format!(
+            "{} holds a {SCENARIO} that brinell did not write as it stands; choose another folder with -o, or replace it with --overwrite",
+            folder.display()
+        )));
+    }
+    Ok(earlier)
 }
 
 /// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
