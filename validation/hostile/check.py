@@ -259,6 +259,22 @@ def two_pixels_wide(folder):
     return ["check", png(folder, 2, 1 << 25)]
 
 
+# --- Large images that are read: the blur made a second picture.
+
+
+@case("the image has one brightness only")
+def large_image(folder):
+    return ["check", png(folder, 8000, 8000)]
+
+
+# --- Loads that steel flows under: such a run hardly moved.
+
+
+@case("times the static load rating C0")
+def load_beyond_steel(folder):
+    return ["run", scenario(folder, ""), "-o", str(folder / "o"), "--set", "operation.load_n=[1e15, 0]"]
+
+
 # --- Speeds beyond any bearing: their runs took steps of 1e-11 s.
 @case("no bearing stands more than")
 def speed_of_light(folder):

@@ -1,5 +1,6 @@
 """Writes the test files of crates/brinell-io/tests/data with other people's libraries. See README.md."""
 
+import decimal
 import struct
 import sys
 import wave
@@ -158,6 +159,18 @@ nested = {
     "bearing": [{"bore": 30.0, "name": "a"}, {"bore": 35.0, "name": "b"}],
 }
 pq.write_table(pa.table(nested), out / "nested.parquet", compression="zstd")
+# Eighths have three decimal places.
+places = [decimal.Decimal(str(x)) for x in signal(1)]
+numbers = pa.table({
+    "half": signal(0).astype("f2"),
+    "decimal": pa.array(places, pa.decimal128(9, 3)),
+    "wide": pa.array(places, pa.decimal128(38, 5)),
+    "whole": np.abs(8 * signal(2)).astype("u4") + 4_000_000_000,
+    "day": pa.array(np.arange(300) % 2 == 0),
+})
+pq.write_table(numbers, out / "numbers.parquet", compression="snappy")
+# The same decimals as whole numbers of four bytes.
+pq.write_table(numbers.select(["decimal"]), out / "integers.parquet", store_decimal_as_integer=True)
 
 # --- WAV.
 both = 8 * np.column_stack([signal(0), signal(1)])

@@ -17,7 +17,7 @@ use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell::simulate::RunError;
-use brinell_io::atomic_write;
+use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{DamagePanel, Picture};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -103,8 +103,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     // Any scenario's preview gives way to the next: it takes a moment to make.
     let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
     make_folder(&folder)?;
-    earlier.remove()?;
-    let mut written = Vec::new();
+    let mut ready = Vec::new();
     let mut entries = Vec::new();
     for (index, damage) in all.iter().enumerate() {
         if !previewed(index) {
@@ -121,7 +120,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
             pictures.push(brinell_report::damage_section(view, index, wide));
         }
         for picture in &pictures {
-            save(picture, &args.formats, &folder, &mut written)?;
+            save(picture, &args.formats, &folder, &mut ready)?;
         }
         for (name, axis, xs, panels) in [
             ("passage", "angle_deg", &view.angle_deg, &view.passage),
@@ -129,19 +128,19 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         ] {
             if !panels.is_empty() {
                 let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
-                atomic_write(&path, csv(axis, xs, panels).as_bytes())?;
-                written.push(path);
+                ready.push(atomic_prepare(path, csv(axis, xs, panels))?);
             }
         }
         entries.push(entry(index, damage));
     }
     let path = folder.join(PREVIEW);
-    written.push(path.clone());
-    let files = names_below(&folder, &written);
+    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
+    files.push(path.clone());
+    let files = names_below(&folder, &files);
     let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": files, "defects": entries });
     let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    atomic_write(&path, text.as_bytes())?;
-    for path in written {
+    ready.insert(0, atomic_prepare(path, text)?);
+    for path in earlier.give_way(ready)? {
         say!("  wrote {}", path.display());
     }
     Ok(())
@@ -171,7 +170,7 @@ fn save(
     picture: &Picture,
     formats: &[PlotFormat],
     folder: &Path,
-    written: &mut Vec<PathBuf>,
+    ready: &mut Vec<Complete>,
 ) -> Result<(), Failure> {
     for format in formats {
         let (ending, bytes) = match format {
@@ -179,8 +178,7 @@ fn save(
             PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
         };
         let path = folder.join(format!("{}.{ending}", picture.name));
-        atomic_write(&path, &bytes)?;
-        written.push(path);
+        ready.push(atomic_prepare(path, bytes)?);
     }
     Ok(())
 }

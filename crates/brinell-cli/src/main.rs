@@ -33,6 +33,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     hear_of_full_files();
+    allow_open_files();
     let code = match Cli::try_parse() {
         Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),
         Err(words) if words.use_stderr() => words.exit(),
@@ -76,6 +77,19 @@ fn hear_of_full_files() {
     // SAFETY: no thread and no other handler is there yet, and to ignore a signal runs no code.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
+}
+
+/// As many open files as the system lets a process ask for: new results are held open, all of them, until they are complete.
+fn allow_open_files() {
+    #[cfg(unix)]
+    // SAFETY: both calls read and write `limit` alone, which outlives them.
+    unsafe {
+        let mut limit = std::mem::zeroed::<libc::rlimit>();
+        if libc::getrlimit(libc::RLIMIT_NOFILE, &raw mut limit) == 0 {
+            limit.rlim_cur = limit.rlim_max;
+            libc::setrlimit(libc::RLIMIT_NOFILE, &raw const limit);
+        }
     }
 }
 

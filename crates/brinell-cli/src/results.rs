@@ -1,15 +1,15 @@
 //! Folders of results: what a command leaves in its folder, whose results lie there already, and which files of them have to go.
 //!
 //! All results in a folder are of one command and one scenario (or signal, or plan). One file tells of them: `summary.json` of a run,
-//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed (a run, after its own files
-//! are complete), and nothing else is ever removed. Finished runs that a command resumes from are never removed.
+//! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, after its own files are
+//! complete, and nothing else is ever removed. Finished runs that a command resumes from are never removed.
 
 use crate::campaign::JOURNAL;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
-use brinell::document::read;
+use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
-use brinell_io::{Format, read_text};
+use brinell_io::{Complete, Format, read_text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -413,7 +413,8 @@ impl Place<'_> {
     }
 }
 
-/// The earlier results of a folder, which new ones replace.
+/// The earlier results of a folder, which new ones replace. They stay until all new files are complete beside them: a full disk or an interruption
+/// costs nothing that was there.
 #[derive(Debug, Default)]
 pub(crate) struct Earlier {
     folder: PathBuf,
@@ -422,13 +423,17 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// Removes them.
-    pub(crate) fn remove(&self) -> Result<(), Failure> {
-        self.remove_but(&[])
+    /// Gives the new files their names and removes what they did not take the place of. The file that tells of the new ones comes first: what
+    /// replaces these knows of them even where this is cut short between two names.
+    pub(crate) fn give_way(&self, ready: Vec<Complete>) -> Result<Vec<PathBuf>, Failure> {
+        let published = ready.into_iter().map(Complete::publish);
+        let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
+        self.remove_but(&names_below(&self.folder, &written))?;
+        Ok(written)
     }
 
     /// Removes those that the new results did not take the place of, by their names.
-    pub(crate) fn remove_but(&self, written: &[String]) -> Result<(), Failure> {
+    fn remove_but(&self, written: &[String]) -> Result<(), Failure> {
         for name in self.files.iter().filter(|name| !written.contains(name)) {
             let path = self.folder.join(name);
             match std::fs::remove_file(&path) {
@@ -455,11 +460,22 @@ impl Earlier {
 
 /// Whether a run's folder has the results of this scenario, all values the same.
 pub(crate) fn is_of(folder: &Path, scenario: &Scenario) -> bool {
-    let Ok(bytes) = File::open(folder.join(SCENARIO)).and_then(read_text) else {
-        return false;
-    };
-    let text = String::from_utf8_lossy(&bytes);
-    read(&text, &[]).is_ok_and(|loaded| loaded.scenario == *scenario)
+    scenario_in(folder).is_some_and(|(_, there)| there.scenario == *scenario)
+}
+
+/// Whether the scenario in a run's folder, where one is, is as this version writes it, to the letter: a comment, or a key left out, is somebody's work
+/// though the values are the same. `new` is what would take its place; that says of files of damage what cannot be read back.
+pub(crate) fn is_written(folder: &Path, new: &str) -> bool {
+    !folder.join(SCENARIO).exists()
+        || scenario_in(folder).is_some_and(|(text, there)| text == new || text == there.to_toml())
+}
+
+/// The scenario that lies in a run's folder, as text and read.
+fn scenario_in(folder: &Path) -> Option<(String, Loaded)> {
+    let bytes = File::open(folder.join(SCENARIO)).and_then(read_text).ok()?;
+    let text = String::from_utf8(bytes).ok()?;
+    let loaded = read(&text, &[]).ok()?;
+    Some((text, loaded))
 }
 
 /// Names below `folder` of what was written into it, as the file that tells of them lists them.

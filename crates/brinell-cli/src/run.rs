@@ -9,7 +9,7 @@ use crate::inputs::Inputs;
 use crate::progress::Progress;
 use crate::recorder::Recorder;
 use crate::results::{
-    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, names_below,
+    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
 use crate::say::{complain, one_line, say, short};
 use crate::{files, page};
@@ -106,11 +106,17 @@ fn earlier(
         folder,
         inputs,
     };
-    place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))
+    let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
+    if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
+        return Err(Failure::Usage(format!(
+            "{} holds a {SCENARIO} that brinell did not write as it stands; choose another folder with -o, or replace it with --overwrite",
+            folder.display()
+        )));
+    }
+    Ok(earlier)
 }
 
-/// Runs, and writes everything that was asked for into the folder, in place of the earlier results. These stay until all files of this run are
-/// complete beside them: a full disk costs nothing that was there.
+/// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
@@ -158,16 +164,13 @@ fn execute(
     let mut summary = summary::to_json(&parts);
     summary["files"] = names_below(folder, &files).into();
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    // First of all: a run that replaces this one knows of its files even where this one is cut short between two names.
     ready.insert(0, atomic_prepare(folder.join(SUMMARY), text)?);
     if let Some(report) = report.filter(|_| !args.no_report) {
         let page = brinell_report::html(&report);
         ready.push(atomic_prepare(folder.join(REPORT), page)?);
     }
     ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
-    let published = ready.into_iter().map(Complete::publish);
-    let written: Vec<PathBuf> = published.collect::<Result<_, _>>()?;
-    earlier.remove_but(&names_below(folder, &written))?;
+    let written = earlier.give_way(ready)?;
     Ok(Done {
         told: tell(&parts, heard.elapsed, &written),
         end: outcome.end,
@@ -286,7 +289,7 @@ pub(crate) fn write_pictures(
 }
 
 /// The same up to the files' names.
-fn ready_pictures(
+pub(crate) fn ready_pictures(
     pictures: &[brinell_report::Picture],
     formats: &[PlotFormat],
     folder: &Path,

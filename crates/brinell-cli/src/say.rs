@@ -6,9 +6,31 @@ use std::borrow::Cow;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Result, Write};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why standard output did not take something; the first reason.
 static FAILED: OnceLock<std::io::Error> = OnceLock::new();
+
+/// Whether standard output was closed when the process began (`>&-`).
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Rust opens /dev/null in the place of a closed standard output before `main`, and what is said would be lost without a word. So this looks
+/// before that does.
+#[cfg(target_os = "linux")]
+mod before_main {
+    use super::{CLOSED, Ordering};
+
+    extern "C" fn look() {
+        // SAFETY: fcntl with F_GETFD reads a flag of the descriptor and touches no memory.
+        let flags = unsafe { libc::fcntl(libc::STDOUT_FILENO, libc::F_GETFD) };
+        CLOSED.store(flags == -1, Ordering::Relaxed);
+    }
+
+    // SAFETY: the section holds pointers to functions that the loader calls once each, and this is one.
+    #[used]
+    #[unsafe(link_section = ".init_array")]
+    static LOOK: extern "C" fn() = look;
+}
 
 /// Writes one line of words to standard output.
 pub(crate) fn line(text: Arguments) {
@@ -28,6 +50,13 @@ fn put(text: &str) {
 
 /// Keeps what became of a text for standard output.
 pub(crate) fn note(result: Result<()>) {
+    match CLOSED.load(Ordering::Relaxed) {
+        true => keep(Err(std::io::Error::other("it is closed"))),
+        false => keep(result),
+    }
+}
+
+fn keep(result: Result<()>) {
     if let Err(error) = result
         && error.kind() != ErrorKind::BrokenPipe
     {
@@ -40,7 +69,7 @@ pub(crate) fn note(result: Result<()>) {
 /// # Errors
 /// Where standard output did not take it, a closed pipe aside.
 pub(crate) fn arrived() -> std::result::Result<(), Failure> {
-    note(std::io::stdout().flush());
+    keep(std::io::stdout().flush());
     match FAILED.get() {
         Some(error) => Err(Failure::Unsaid(error.to_string())),
         None => Ok(()),

@@ -137,6 +137,17 @@ fn regress_what_no_file_holds_is_refused_in_a_few_lines() {
             &["check", "s.toml", "--set", "operation.speed_rpm=1e12"],
             "is a speed factor of 4.6",
         ),
+        (
+            &[
+                "run",
+                "s.toml",
+                "-o",
+                "o",
+                "--set",
+                "operation.load_n=[1e15, 0]",
+            ],
+            "times the static load rating C0 = 36500 N",
+        ),
     ] {
         brinell(folder.path(), args).exits(2).complains(&[words]);
     }

@@ -183,6 +183,29 @@ fn regress_a_run_beside_its_own_scenario_keeps_it() {
 }
 
 #[test]
+fn regress_a_scenario_that_somebody_wrote_or_changed_is_not_replaced_unasked() {
+    let folder = folder();
+    let here = folder.path();
+    fs::create_dir(here.join("o")).unwrap();
+    let mine = format!("# mine\n{SHORT}");
+    fs::write(here.join("o/scenario.toml"), &mine).unwrap();
+    let refused = || {
+        brinell(here, &run("a.toml", &[]))
+            .exits(2)
+            .complains(&["scenario.toml that brinell did not write", "--overwrite"]);
+    };
+    refused();
+    assert_eq!(files(&here.join("o")), ["scenario.toml"]);
+    assert_eq!(text(here, "o/scenario.toml"), mine);
+    brinell(here, &run("a.toml", &["--overwrite"])).exits(0);
+    brinell(here, &run("a.toml", &[])).exits(0);
+    let noted = text(here, "o/scenario.toml") + "# keep this one\n";
+    fs::write(here.join("o/scenario.toml"), &noted).unwrap();
+    refused();
+    assert_eq!(text(here, "o/scenario.toml"), noted);
+}
+
+#[test]
 fn regress_one_foreign_folder_stops_all_of_several_runs() {
     let folder = folder();
     let here = folder.path();

@@ -136,6 +136,31 @@ fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn prop_a_closed_standard_output_is_exit_1_where_something_was_to_be_said() {
+    let folder = folder_with(SHORT);
+    let run = "run s.toml -o o -q --no-report";
+    for (args, output, code) in [
+        ("check s.toml", ">&-", 1),
+        ("--help", ">&-", 1),
+        (run, ">&-", 0),
+        ("check s.toml", ">/dev/null", 0),
+        ("check s.toml", "1<>/dev/null", 0),
+    ] {
+        let call = std::process::Command::new("sh")
+            .args(["-c", &format!("exec \"$0\" {args} {output}")])
+            .arg(env!("CARGO_BIN_EXE_brinell"))
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let call = Call::from(call).exits(code);
+        if code == 1 {
+            call.complains(&["cannot write to standard output: it is closed"]);
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     let folder = folder_with(SHORT);
     let first = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv"];
@@ -160,4 +185,48 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
         common::files(&folder.path().join("o")),
         ["report.html", "scenario.toml", "summary.json"]
     );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn regress_results_that_cannot_be_written_leave_those_before_them() {
+    let folder = folder_with(SHORT);
+    let here = folder.path();
+    let other = SHORT.replace("depth_um = 20.0", "depth_um = 5.0");
+    fs::write(here.join("b.toml"), other).unwrap();
+    // Enough turns of the shaft for an analysis.
+    let longer = SHORT.replace("speed_rpm = 1500.0", "speed_rpm = 3000.0");
+    let longer = longer.replace("duration_s = 0.02", "duration_s = 0.4");
+    fs::write(here.join("r.toml"), longer).unwrap();
+    brinell(here, &["run", "r.toml", "-o", "r", "-q", "--no-report"]).exits(0);
+    // Fewer files the second time; the first of them fit, the last does not.
+    for (args, lacks) in [
+        ("analyze r -o a -q", "report.html"),
+        ("compare s.toml b.toml -o c -q", "compare.json"),
+        (
+            "defect preview s.toml -o p --formats svg",
+            "damage-1-passage.csv",
+        ),
+    ] {
+        let args: Vec<&str> = args.split(' ').collect();
+        let output = here.join(args[args.iter().position(|a| *a == "-o").unwrap() + 1]);
+        let first = match args[0] {
+            "defect" => [&args[..args.len() - 2], &["--formats", "svg,png"]].concat(),
+            _ => [&args[..], &["--plots", "svg,png"]].concat(),
+        };
+        brinell(here, &first).exits(0);
+        let before = common::results(&output);
+        let limited = format!("ulimit -f 60; exec \"$0\" {}", args.join(" "));
+        let call = std::process::Command::new("sh")
+            .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
+            .current_dir(here)
+            .output()
+            .unwrap();
+        Call::from(call).exits(1).complains(&[lacks]);
+        assert!(common::results(&output) == before, "{args:?}");
+        brinell(here, &args).exits(0);
+        let after = common::files(&output);
+        assert!(after.len() < before.len(), "{after:?}");
+        assert!(!after.iter().any(|name| name.ends_with(".partial")));
+    }
 }

@@ -29,18 +29,26 @@ pub(crate) fn gaussian(pixels: &mut Pixels, sigma: f64) {
             *value = sum.round() as u16;
         }
     }
-    let mut blurred = Vec::with_capacity(pixels.values.len());
+    // In place: a second picture would double the memory. The rows above that are still needed are kept as they were, row y in place y mod reach + 1.
+    let mut above = vec![0; (reach + 1) * width];
+    let kept = |y: usize| (y % (reach + 1)) * width..(y % (reach + 1) + 1) * width;
     let mut sums = vec![0.0_f32; width];
     for y in 0..height {
+        above[kept(y)].copy_from_slice(&pixels.values[y * width..(y + 1) * width]);
         sums.fill(0.0);
         for (i, &k) in kernel.iter().enumerate() {
             let from = (y + i).saturating_sub(reach).min(height - 1);
-            let row = &pixels.values[from * width..(from + 1) * width];
+            let row = match from <= y {
+                true => &above[kept(from)],
+                false => &pixels.values[from * width..(from + 1) * width],
+            };
             for (sum, &value) in sums.iter_mut().zip(row) {
                 *sum += k * f32::from(value);
             }
         }
-        blurred.extend(sums.iter().map(|sum| sum.round() as u16));
+        let row = &mut pixels.values[y * width..(y + 1) * width];
+        for (value, sum) in row.iter_mut().zip(&sums) {
+            *value = sum.round() as u16;
+        }
     }
-    pixels.values = blurred;
 }

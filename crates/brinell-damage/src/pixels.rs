@@ -11,10 +11,12 @@ use crate::depth::{MAX_POINTS, Raw};
 use crate::error::DamageError;
 use crate::kind::{FileKind, describe};
 
-/// The largest image that is read: 8192 x 8192. Two bytes a pixel and a decoder's own need stay well under 1 GB.
+/// The largest image that is read: 8192 x 8192, at two bytes a pixel.
 pub(crate) const MAX_PIXELS: u64 = 1 << 26;
 /// Pixels along a side: one line of pixels encloses nothing, and JPEG has no longer sides.
 const SIDES: std::ops::RangeInclusive<u64> = 2..=65_535;
+/// What an image and the frame that it is decoded into may take, for formats that are not decoded row by row.
+const MOST_BYTES: u64 = 192_000_000;
 /// What a PNG decoder may take for itself, beside the picture.
 const PNG_BYTES: usize = 64 << 20;
 
@@ -34,20 +36,92 @@ pub(crate) struct Pixels {
     pub(crate) values: Vec<u16>,
 }
 
+/// A picture that is filled row by row, each pixel going where a viewer shows it after the EXIF orientation.
+struct Canvas {
+    pixels: Pixels,
+    /// Where pixel (0, 0) of the file goes, and by how much a column and a row of the file move on.
+    origin: isize,
+    column: isize,
+    row: isize,
+}
+
+impl Canvas {
+    /// For a file of `width` x `height` pixels with the EXIF orientation `turn`.
+    fn new(width: usize, height: usize, turn: u8) -> Self {
+        let (w, h) = (width as isize, height as isize);
+        let (origin, column, row) = match turn {
+            2 => (w - 1, -1, w),
+            3 => (w * h - 1, -1, -w),
+            4 => (w * (h - 1), 1, -w),
+            5 => (0, h, 1),
+            6 => (h - 1, h, -1),
+            7 => (w * h - 1, -h, -1),
+            8 => (h * (w - 1), -h, 1),
+            _ => (0, 1, w),
+        };
+        let values = vec![0; width * height];
+        let (width, height) = if turn >= 5 {
+            (height, width)
+        } else {
+            (width, height)
+        };
+        Self {
+            pixels: Pixels {
+                width,
+                height,
+                values,
+            },
+            origin,
+            column,
+            row,
+        }
+    }
+
+    /// Row `y` of the file.
+    fn put(&mut self, y: usize, row: impl Iterator<Item = u16>) {
+        let mut at = self.origin + self.row * y as isize;
+        for value in row {
+            if let Some(pixel) = self.pixels.values.get_mut(at as usize) {
+                *pixel = value;
+            }
+            at += self.column;
+        }
+    }
+}
+
 /// Decodes PNG or JPEG, upright.
 pub(crate) fn decode(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
-    let (pixels, turn) = match FileKind::of_content(bytes) {
-        Some(FileKind::Png) => decode_png(bytes, channel)?,
-        Some(FileKind::Jpeg) => decode_jpeg(bytes, channel)?,
-        _ => {
-            return Err(DamageError::WrongKind {
-                what: describe(bytes),
-                wanted: "an image",
-                way_out: "save it as PNG or JPEG",
-            });
-        }
-    };
-    Ok(upright(pixels, turn))
+    match FileKind::of_content(bytes) {
+        Some(FileKind::Png) => decode_png(bytes, channel),
+        Some(FileKind::Jpeg) => decode_jpeg(bytes, channel),
+        _ => Err(DamageError::WrongKind {
+            what: describe(bytes),
+            wanted: "an image",
+            way_out: "save it as PNG or JPEG",
+        }),
+    }
+}
+
+/// That a picture of two bytes a pixel fits beside the `frame` bytes that it is decoded into.
+fn check_frame(
+    what: &'static str,
+    width: usize,
+    height: usize,
+    frame: u64,
+) -> Result<(), DamageError> {
+    let bytes = frame.saturating_add(2 * (width * height) as u64);
+    if bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    Err(DamageError::TooLarge {
+        what,
+        value: format!(
+            "{width} x {height} pixels, {} MB to decode",
+            bytes / 1_000_000
+        ),
+        limit: format!("{} MB", MOST_BYTES / 1_000_000),
+        way_out: "save it neither interlaced nor progressive, cut out the damage, or scale the image down and adapt the spacing",
+    })
 }
 
 fn check_size(kind: FileKind, width: u64, height: u64) -> Result<(), DamageError> {
@@ -77,10 +151,10 @@ fn broken(kind: FileKind, at: &str, why: impl ToString) -> DamageError {
     }
 }
 
-fn decode_png(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageError> {
-    let mut values = Vec::new();
-    let mut plain = false;
-    let sheet = png_rows(bytes, |row, samples, wide| {
+fn decode_png(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
+    let mut canvas: Option<Canvas> = None;
+    let (mut plain, mut y) = (false, 0);
+    png_rows(bytes, |sheet, row, samples, wide| {
         let pixel = |sample: usize| -> u16 {
             if wide {
                 u16::from_be_bytes([row[2 * sample], row[2 * sample + 1]])
@@ -90,7 +164,9 @@ fn decode_png(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageErro
         };
         let step = if wide { 2 * samples } else { samples };
         plain |= channel == Channel::Alpha && samples % 2 == 1;
-        values.extend((0..row.len() / step).map(|x| {
+        let canvas =
+            canvas.get_or_insert_with(|| Canvas::new(sheet.width, sheet.height, sheet.turn));
+        let row = (0..row.len() / step).map(|x| {
             let at = |i: usize| pixel(x * samples + i);
             let grey = || match samples {
                 1 | 2 => at(0),
@@ -105,19 +181,14 @@ fn decode_png(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageErro
                 Channel::Alpha => alpha,
                 Channel::Luminance { behind } => over(grey(), alpha, behind),
             }
-        }));
+        });
+        canvas.put(y, row);
+        y += 1;
     })?;
-    if plain {
-        return Err(no_alpha(FileKind::Png));
+    match canvas {
+        Some(canvas) if !plain => Ok(canvas.pixels),
+        _ => Err(no_alpha(FileKind::Png)),
     }
-    Ok((
-        Pixels {
-            width: sheet.width,
-            height: sheet.height,
-            values,
-        },
-        sheet.turn,
-    ))
 }
 
 fn no_alpha(kind: FileKind) -> DamageError {
@@ -149,10 +220,10 @@ pub(crate) struct Sheet {
     pub(crate) bits: u8,
 }
 
-/// Gives `take` every row from the top: its bytes, samples per pixel, and whether a sample has two bytes.
+/// Gives `take` every row from the top: the sheet, the row's bytes, samples per pixel, and whether a sample has two bytes.
 pub(crate) fn png_rows(
     bytes: &[u8],
-    mut take: impl FnMut(&[u8], usize, bool),
+    mut take: impl FnMut(&Sheet, &[u8], usize, bool),
 ) -> Result<Sheet, DamageError> {
     let fault = |at: &str, error: png::DecodingError| broken(FileKind::Png, at, error);
     let mut decoder =
@@ -183,22 +254,25 @@ pub(crate) fn png_rows(
     };
     if info.interlaced {
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-        if size as u64 > 8 * MAX_PIXELS {
-            return Err(broken(FileKind::Png, "its header", "its size"));
-        }
+        check_frame(
+            "the interlaced image",
+            sheet.width,
+            sheet.height,
+            size as u64,
+        )?;
         let mut frame = vec![0; size];
         let line = reader
             .next_frame(&mut frame)
             .map_err(|e| fault("its pixels", e))?
             .line_size;
         for row in frame.chunks_exact(line.max(1)).take(sheet.height) {
-            take(row, samples, wide);
+            take(&sheet, row, samples, wide);
         }
     } else {
         for y in 0..sheet.height {
             let at = || format!("pixel row {}", y + 1);
             match reader.next_row().map_err(|e| fault(&at(), e))? {
-                Some(row) => take(row.data(), samples, wide),
+                Some(row) => take(&sheet, row.data(), samples, wide),
                 None => return Err(broken(FileKind::Png, &at(), "it ends here")),
             }
         }
@@ -210,7 +284,7 @@ pub(crate) fn png_rows(
 pub(crate) fn heights(bytes: &[u8]) -> Result<Raw, DamageError> {
     let mut raw = Raw::default();
     let mut colour = false;
-    let sheet = png_rows(bytes, |row, samples, wide| {
+    let sheet = png_rows(bytes, |_, row, samples, wide| {
         colour |= samples > 2;
         if colour {
             return;
@@ -251,7 +325,7 @@ pub(crate) fn heights(bytes: &[u8]) -> Result<Raw, DamageError> {
     Ok(raw)
 }
 
-fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageError> {
+fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<Pixels, DamageError> {
     if channel == Channel::Alpha {
         return Err(no_alpha(FileKind::Jpeg));
     }
@@ -271,6 +345,12 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageErr
         .ok_or_else(|| broken(FileKind::Jpeg, "its header", "no size"))?;
     let (width, height) = (usize::from(info.width), usize::from(info.height));
     check_size(FileKind::Jpeg, width as u64, height as u64)?;
+    // Of a progressive file the decoder holds two bytes a pixel and component; its type for that has no public name.
+    let held = match format!("{:?}", info.sof).starts_with("Progressive") {
+        true => 2 * u64::from(info.components).max(1) - 1,
+        false => 1,
+    };
+    check_frame("the JPEG", width, height, held * (width * height) as u64)?;
     let grey = decoder.decode().map_err(|e| fault("its pixels", e))?;
     if grey.len() != width * height {
         return Err(broken(
@@ -280,15 +360,11 @@ fn decode_jpeg(bytes: &[u8], channel: Channel) -> Result<(Pixels, u8), DamageErr
         ));
     }
     let turn = decoder.exif().map_or(1, |exif| exif_orientation(exif));
-    let values = grey.iter().map(|&v| u16::from(v) * 257).collect();
-    Ok((
-        Pixels {
-            width,
-            height,
-            values,
-        },
-        turn,
-    ))
+    let mut canvas = Canvas::new(width, height, turn);
+    for (y, row) in grey.chunks_exact(width).enumerate() {
+        canvas.put(y, row.iter().map(|&v| u16::from(v) * 257));
+    }
+    Ok(canvas.pixels)
 }
 
 /// The EXIF orientation, 1 to 8; 1 where there is none.
@@ -330,35 +406,6 @@ fn orientation_entry(exif: &[u8]) -> Option<u8> {
     None
 }
 
-/// The picture as a viewer shows it, after its EXIF orientation.
-fn upright(pixels: Pixels, turn: u8) -> Pixels {
-    if turn <= 1 {
-        return pixels;
-    }
-    let (w, h) = (pixels.width, pixels.height);
-    let (width, height) = if turn >= 5 { (h, w) } else { (w, h) };
-    let mut values = Vec::with_capacity(w * h);
-    for y in 0..height {
-        for x in 0..width {
-            let (u, v) = match turn {
-                2 => (w - 1 - x, y),
-                3 => (w - 1 - x, h - 1 - y),
-                4 => (x, h - 1 - y),
-                5 => (y, x),
-                6 => (y, h - 1 - x),
-                7 => (w - 1 - y, h - 1 - x),
-                _ => (w - 1 - y, x),
-            };
-            values.push(pixels.values[v * w + u]);
-        }
-    }
-    Pixels {
-        width,
-        height,
-        values,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -378,12 +425,11 @@ mod tests {
             &["11111", "00101", "00001"],
         ];
         for (turn, rows) in (1..).zip(stored) {
-            let pixels = Pixels {
-                width: rows[0].len(),
-                height: rows.len(),
-                values: rows.concat().bytes().map(|b| u16::from(b - b'0')).collect(),
-            };
-            let shown = upright(pixels, turn);
+            let mut canvas = Canvas::new(rows[0].len(), rows.len(), turn);
+            for (y, row) in rows.iter().enumerate() {
+                canvas.put(y, row.bytes().map(|b| u16::from(b - b'0')));
+            }
+            let shown = canvas.pixels;
             let text: String = shown.values.iter().map(u16::to_string).collect();
             assert_eq!(
                 (shown.width, text),

@@ -465,6 +465,32 @@ fn prop_twenty_thousand_pixels_square_are_refused_at_once() {
 }
 
 #[test]
+fn prop_what_takes_more_than_its_pixels_to_decode_is_refused_before_it_is() {
+    // 8192 x 8192 at three bytes a pixel; 8000 x 8000 at seven, as the decoder holds two of each colour of a progressive file.
+    for (progressive, size, megabytes) in [(false, [0x20, 0x00], 201), (true, [0x1f, 0x40], 448)] {
+        let mut jpeg = Vec::new();
+        let mut encoder = jpeg_encoder::Encoder::new(&mut jpeg, 80);
+        encoder.set_progressive(progressive);
+        encoder
+            .encode(&[9; 192], 8, 8, jpeg_encoder::ColorType::Rgb)
+            .unwrap();
+        let marker = [0xff, if progressive { 0xc2 } else { 0xc0 }];
+        let frame = jpeg.windows(2).position(|at| at == marker).unwrap();
+        for at in [5, 7] {
+            jpeg[frame + at..frame + at + 2].copy_from_slice(&size);
+        }
+        let read = read_image(&jpeg, &options(EDGES)).map(drop);
+        let said = read.unwrap_err().to_string();
+        let expected = format!("{megabytes} MB to decode, more than the 192 MB");
+        assert!(said.contains(&expected), "{said}");
+        assert!(
+            said.contains("neither interlaced nor progressive"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 #[ignore = "half a gigabyte and some seconds; `-- --ignored --nocapture --test-threads 1` by hand"]
 fn prop_the_largest_images_stay_within_a_gigabyte() {
     let side = 8192;

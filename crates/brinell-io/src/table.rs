@@ -6,7 +6,7 @@
 
 #[cfg(feature = "parquet")]
 use crate::Metadata;
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, atomic_prepare};
 use crate::signals::check_columns;
 use crate::{Column, IoError};
 use std::path::{Path, PathBuf};
@@ -74,6 +74,14 @@ impl Table {
     /// # Errors
     /// Where the columns have no sound names or not one length, or the disk refuses.
     pub fn write_csv(&self, path: impl AsRef<Path>) -> Result<PathBuf, IoError> {
+        self.prepare_csv(path)?.publish()
+    }
+
+    /// The same up to the file's name, which [`Complete::publish`] gives.
+    ///
+    /// # Errors
+    /// As [`Table::write_csv`].
+    pub fn prepare_csv(&self, path: impl AsRef<Path>) -> Result<Complete, IoError> {
         let path = path.as_ref();
         self.check(path)?;
         let mut text = String::new();
@@ -99,9 +107,7 @@ impl Table {
             }
             text.push('\n');
         }
-        let mut file = PartialFile::create(path)?;
-        file.append(text.as_bytes())?;
-        file.commit()
+        atomic_prepare(path, text)
     }
 
     /// Writes the table as Parquet; the file appears whole or not at all.
@@ -114,6 +120,19 @@ impl Table {
         path: impl AsRef<Path>,
         metadata: &Metadata,
     ) -> Result<PathBuf, IoError> {
+        self.prepare_parquet(path, metadata)?.publish()
+    }
+
+    /// The same up to the file's name, which [`Complete::publish`] gives.
+    ///
+    /// # Errors
+    /// As [`Table::write_parquet`].
+    #[cfg(feature = "parquet")]
+    pub fn prepare_parquet(
+        &self,
+        path: impl AsRef<Path>,
+        metadata: &Metadata,
+    ) -> Result<Complete, IoError> {
         let path = path.as_ref();
         self.check(path)?;
         let bytes = parquet::bytes(self, metadata).map_err(|error| IoError::NotWritable {
@@ -121,9 +140,7 @@ impl Table {
             format: "Parquet",
             why: error.to_string(),
         })?;
-        let mut file = PartialFile::create(path)?;
-        file.append(&bytes)?;
-        file.commit()
+        atomic_prepare(path, bytes)
     }
 
     /// Reads a table back from Parquet.

@@ -340,6 +340,21 @@ fn xval_parquet_of_pyarrow() {
 
 #[cfg(feature = "parquet")]
 #[test]
+fn xval_parquet_with_half_precision_and_decimals() {
+    let mut file = opened("numbers.parquet");
+    holds(&mut file, "half", &signal(0));
+    holds(&mut file, "decimal", &signal(1));
+    holds(&mut file, "wide", &signal(1));
+    let whole: Vec<f64> = eighths(2).iter().map(|v| v.abs() + 4e9).collect();
+    holds(&mut file, "whole", &whole);
+    let error = file.read("day").unwrap_err().to_string();
+    let why = "`day` is of the type BOOLEAN, which is not supported here: save it as double";
+    assert!(error.ends_with(why), "{error}");
+    holds(&mut opened("integers.parquet"), "decimal", &signal(1));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
 fn xval_parquet_with_nested_columns() {
     let mut file = opened("nested.parquet");
     assert_eq!(

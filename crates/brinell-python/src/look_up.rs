@@ -74,7 +74,7 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
         "load_n": load,
         "inner_contact_pressure_mpa": 1e-6 * pressures[0],
         "outer_contact_pressure_mpa": 1e-6 * pressures[1],
-        "static_load_rating_n": brinell::pressure::static_rating(&s.bearing).load,
+        "static_load_rating_n": brinell::bearing::rating::static_rating(&s.bearing).load,
         "warnings": warnings,
     });
     json_to_python(py, &value)

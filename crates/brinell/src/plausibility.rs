@@ -4,11 +4,12 @@
 //! `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a scenario file alone can say is in
 //! [`crate::document`].
 
+use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::model::Model;
 use crate::operation::Rotation;
-use crate::pressure::{STATIC_LIMIT, pressures, static_rating};
+use crate::pressure::{STATIC_LIMIT, pressures};
 use crate::scenario::{Accuracy, Law, ModelKind, RollerPath, Scenario, Shape, Speed, Surface};
 use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};

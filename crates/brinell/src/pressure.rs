@@ -1,8 +1,7 @@
-//! Hertz's pressure of a roller's line contact, and the static load rating that rests on it.
+//! Hertz's pressure of a roller's line contact.
 //!
-//! Both are for reading, not for motion: the contact law of [`crate::contact`] knows forces and deformations alone. SI.
+//! It is for reading, not for motion: the contact law of [`crate::contact`] knows forces and deformations alone. SI.
 
-use crate::bearing::catalogue;
 use crate::contact::remaining_share;
 use crate::defect::{Side, relative_radius};
 use crate::model::Model;
@@ -74,50 +73,10 @@ pub fn pressure_beside(
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Basic static radial load rating C0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StaticRating {
-    /// C0, N.
-    pub load: f64,
-    /// Where the catalogue has it from; `None` for the estimate of ISO 76.
-    pub source: Option<&'static str>,
-}
-
-/// C0 of a bearing: the catalogue's where the bearing is a preset with its rollers as they are, else ISO 76's formula for cylindrical
-/// rollers, C0 = 44 (1 - d/D_m) i Z L d in N and mm. A maker's rating may differ from that by his own factors.
-pub fn static_rating(bearing: &Bearing) -> StaticRating {
-    let b = bearing;
-    let catalogued = b.preset.as_deref().and_then(catalogue::find);
-    let same = |entry: &&catalogue::Entry| {
-        [
-            ("roller_diameter_mm", b.roller_diameter_mm),
-            ("roller_length_mm", b.roller_length_mm),
-            ("pitch_diameter_mm", b.pitch_diameter_mm),
-            ("rollers_per_row", b.rollers_per_row as f64),
-            ("rows", b.rows as f64),
-        ]
-        .iter()
-        .all(|(key, value)| entry.number(key) == Some(*value))
-    };
-    let printed = catalogued
-        .filter(same)
-        .and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
-    if let Some((load, source)) = printed {
-        return StaticRating {
-            load,
-            source: Some(source),
-        };
-    }
-    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
-    StaticRating {
-        load: 44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d,
-        source: None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing::rating::static_rating;
     use crate::document::read;
 
     fn preset(name: &str) -> Bearing {
@@ -153,15 +112,5 @@ mod tests {
             let inner = pressures(&b, heaviest)[0];
             assert!((inner / STATIC_LIMIT - 1.0).abs() < 0.02, "{name}: {inner}");
         }
-    }
-
-    #[test]
-    fn analytic_rating_of_changed_rollers_is_the_estimate() {
-        let mut b = preset("NU206");
-        b.rollers_per_row = 12;
-        let estimate = static_rating(&b);
-        let by_hand = 44.0 * (1.0 - 9.0 / 46.5) * 12.0 * 8.8 * 9.0;
-        assert_eq!(estimate.source, None);
-        assert!((estimate.load / by_hand - 1.0).abs() < 1e-12);
     }
 }

@@ -11,14 +11,14 @@ pub(crate) use args::AnalyzeArgs;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
-use crate::run::{make_folder, picture_files, write_pictures};
+use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
     Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
     velocity,
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
-use brinell_io::atomic_write;
+use brinell_io::{atomic_prepare, atomic_write};
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -130,8 +130,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let json = as_json(&result);
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
-        earlier.remove()?;
-        write(folder, args, &result, json.clone(), &mut written)?;
+        written = write(folder, args, &result, json.clone(), &earlier)?;
     }
     let text = serde_json::to_string_pretty(&json).unwrap_or_default();
     match args.json.as_deref() {
@@ -378,23 +377,20 @@ fn write(
     args: &AnalyzeArgs,
     result: &Result_,
     mut json: Value,
-    written: &mut Vec<PathBuf>,
-) -> Result<(), Failure> {
+    earlier: &Earlier,
+) -> Result<Vec<PathBuf>, Failure> {
     make_folder(folder)?;
     let report = page::report(result);
     let pictures = brinell_report::analysis_pictures(&report);
     let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
     files.extend(picture_files(&pictures, &args.plots, folder));
-    // Before the others: who replaces them knows of them even where this is cut short.
     json["files"] = names_below(folder, &files).into();
     let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    let mut put = |name: &str, bytes: &[u8]| -> Result<(), Failure> {
-        let path = folder.join(name);
-        atomic_write(&path, bytes)?;
-        written.push(path);
-        Ok(())
-    };
-    put(ANALYSIS, text.as_bytes())?;
-    put(REPORT, brinell_report::analysis_html(&report).as_bytes())?;
-    write_pictures(&pictures, &args.plots, folder, written)
+    let page = brinell_report::analysis_html(&report);
+    let mut ready = vec![
+        atomic_prepare(folder.join(ANALYSIS), text)?,
+        atomic_prepare(folder.join(REPORT), page)?,
+    ];
+    ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
+    earlier.give_way(ready)
 }

@@ -11,12 +11,12 @@ use crate::files::{self, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
-use crate::run::{make_folder, picture_files, safe_name, stop_flag, write_pictures};
+use crate::run::{make_folder, picture_files, ready_pictures, safe_name, stop_flag};
 use crate::say::{complain, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::campaign::{Compared, Finished, Unfinished, compare, run_all};
 use brinell::simulate::Simulation;
-use brinell_io::{Metadata, atomic_write, keys};
+use brinell_io::{Metadata, atomic_prepare, keys};
 use serde_json::Value;
 use sides::Side;
 use std::path::{Path, PathBuf};
@@ -43,19 +43,16 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let named = || Path::new("out").join(format!("compare-{}", stem(&args.scenarios[0])));
     let folder = args.output.clone().unwrap_or_else(named);
     let scenarios = scenario_files(&sides, &folder);
-    earlier(args, &sides, &folder, &inputs)?.remove()?;
+    let earlier = earlier(args, &sides, &folder, &inputs)?;
     make_folder(&folder.join(SCENARIOS))?;
     // Before the runs: a folder that takes no files is told of now.
-    let mut written = Vec::new();
+    let mut ready = Vec::new();
     for (path, side) in scenarios.iter().zip(&sides) {
-        atomic_write(path, side.loaded.to_toml().as_bytes())?;
-        written.push(path.clone());
+        ready.push(atomic_prepare(path, side.loaded.to_toml())?);
     }
     let Some(runs) = run(args, &sides)? else {
         // Results of nothing.
-        for path in &written {
-            let _ = std::fs::remove_file(path);
-        }
+        drop(ready);
         let _ = std::fs::remove_dir(folder.join(SCENARIOS));
         return Ok(ExitCode::from(NOT_DONE));
     };
@@ -63,30 +60,24 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let compared = compare(&all);
     let report = page::report(&sides, &all, &compared);
     let table = table::table(&sides, &compared);
-    written.push(table.write_csv(folder.join(CSV))?);
+    ready.push(table.prepare_csv(folder.join(CSV))?);
     let metadata = Metadata::default().with(keys::VERSION, brinell::VERSION);
-    written.push(table.write_parquet(folder.join(PARQUET), &metadata)?);
+    ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
     let pictures = match &args.plots[..] {
         [] => Vec::new(),
         _ => brinell_report::side_by_side_pictures(&report),
     };
-    let mut files = written.clone();
+    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
     files.extend([COMPARISON, PAGE].map(|name| folder.join(name)));
     files.extend(picture_files(&pictures, &args.plots, &folder));
     let mut json = table::json(&sides, &compared);
     json["files"] = names_below(&folder, &files).into();
-    let json = serde_json::to_string_pretty(&json).unwrap_or_default();
-    let mut put = |name: &str, text: String| -> Result<(), Failure> {
-        let path = folder.join(name);
-        atomic_write(&path, text.as_bytes())?;
-        written.push(path);
-        Ok(())
-    };
-    put(COMPARISON, json + "\n")?;
-    put(PAGE, brinell_report::side_by_side_html(&report))?;
-    if !pictures.is_empty() {
-        write_pictures(&pictures, &args.plots, &folder, &mut written)?;
-    }
+    let json = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
+    ready.insert(0, atomic_prepare(folder.join(COMPARISON), json)?);
+    let page = brinell_report::side_by_side_html(&report);
+    ready.push(atomic_prepare(folder.join(PAGE), page)?);
+    ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
+    let written = earlier.give_way(ready)?;
     if !args.quiet {
         tell(&sides, &compared);
         for path in &written {

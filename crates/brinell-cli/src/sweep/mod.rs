@@ -13,6 +13,8 @@ use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
+use brinell::campaign::fingerprint;
+use brinell::document::read;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 
@@ -52,6 +54,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         inputs: &points.source.inputs(),
     };
     place.alone()?;
+    spare_signals(&points, &work)?;
     make_folder(&folder)?;
     let header = points.header();
     let words = |other: &Value| other_sweep(&folder, other);
@@ -89,6 +92,27 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// That no signals will be written over, or taken for a point's, that are not of the same scenario.
+fn spare_signals(points: &Points, work: &FromSource) -> Result<(), Failure> {
+    let is_of = |task: &Task, path: &Path| {
+        let file = brinell_io::open(path).ok()?;
+        let loaded = read(file.metadata().get(keys::SCENARIO)?, &[]).ok()?;
+        Some(fingerprint(&loaded.scenario) == task.fingerprint)
+    };
+    for task in points.tasks.iter().flatten() {
+        let Some(path) = work.path(&task.fingerprint).filter(|path| path.exists()) else {
+            continue;
+        };
+        if is_of(task, &path) != Some(true) {
+            return Err(Failure::Usage(format!(
+                "{} would be written over, and no sweep wrote it; move it, or choose another folder with -o",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The runs that are to be made: those of sound points that are not finished, once where settings mean the same. Told, where `told`.

@@ -126,7 +126,7 @@ pub(crate) fn give(sink: Sink<'_>, values: &[f64]) -> Result<(), Fault> {
 }
 
 /// IEEE 754 binary16.
-fn half(bits: u16) -> f64 {
+pub(crate) fn half(bits: u16) -> f64 {
     let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
     let fraction = f64::from(bits & 0x3ff);
     let size = match bits >> 10 & 31 {

@@ -6,17 +6,18 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use parquet::basic::{Compression, Type};
+use parquet::basic::{Compression, ConvertedType, LogicalType, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
 use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
 use serde_json::{Map, Value};
 
 use super::channel::{Channel, Rate, RateSource};
 use super::fault::{Fault, damaged, unsupported};
-use super::numbers::{Number, Sink, give};
+use super::numbers::{Number, Sink, give, half};
 use super::{Listing, Source};
 use crate::{Column, IoError, Metadata, Signals, keys};
 
@@ -161,9 +162,13 @@ fn unreadable(about: &ParquetMetaData, index: usize) -> Option<String> {
     if column.path().parts().len() > 1 {
         return Some("is nested, which is not supported here: save it as a flat column".into());
     }
-    match column.physical_type() {
-        Type::DOUBLE | Type::FLOAT | Type::INT32 | Type::INT64 => {}
-        _ => return Some("does not hold numbers".into()),
+    if stored(&column).is_none() {
+        return Some(match (column.physical_type(), column.logical_type_ref()) {
+            (Type::BYTE_ARRAY, Some(LogicalType::String)) => "does not hold numbers".into(),
+            (physical, _) => {
+                format!("is of the type {physical}, which is not supported here: save it as double")
+            }
+        });
     }
     let packed =
         about
@@ -179,6 +184,57 @@ fn unreadable(about: &ParquetMetaData, index: usize) -> Option<String> {
     ))
 }
 
+/// What the numbers of a column are stored as; `None` where it does not hold numbers that are read.
+fn stored(column: &ColumnDescriptor) -> Option<(Number, &'static str)> {
+    let number = match column.physical_type() {
+        Type::DOUBLE => Number::F64,
+        Type::FLOAT => Number::F32,
+        Type::INT32 | Type::INT64 if decimals(column).is_some() => {
+            return Some((Number::F64, "decimal"));
+        }
+        Type::INT32 if is_unsigned(column) => Number::U32,
+        Type::INT32 => Number::I32,
+        Type::INT64 if is_unsigned(column) => Number::U64,
+        Type::INT64 => Number::I64,
+        Type::FIXED_LEN_BYTE_ARRAY => match (column.logical_type_ref(), column.type_length()) {
+            (Some(LogicalType::Float16), 2) => Number::F16,
+            (_, 1..=16) if decimals(column).is_some() => return Some((Number::F64, "decimal")),
+            _ => return None,
+        },
+        _ => return None,
+    };
+    Some((number, number.name()))
+}
+
+/// Decimal places of a column of decimals.
+fn decimals(column: &ColumnDescriptor) -> Option<i32> {
+    match column.logical_type_ref() {
+        Some(LogicalType::Decimal(decimal)) => Some(decimal.scale),
+        None if column.converted_type() == ConvertedType::DECIMAL => Some(column.type_scale()),
+        _ => None,
+    }
+}
+
+fn is_unsigned(column: &ColumnDescriptor) -> bool {
+    match column.logical_type_ref() {
+        Some(LogicalType::Integer(integer)) => !integer.is_signed,
+        Some(_) => false,
+        None => matches!(
+            column.converted_type(),
+            ConvertedType::UINT_32 | ConvertedType::UINT_64
+        ),
+    }
+}
+
+/// An integer of up to 16 bytes, the highest first, in two's complement.
+fn integer(bytes: &[u8]) -> i128 {
+    let negative = bytes.first().is_some_and(|byte| byte & 0x80 != 0);
+    let start = if negative { -1 } else { 0 };
+    bytes
+        .iter()
+        .fold(start, |sum, byte| sum << 8 | i128::from(*byte))
+}
+
 type Take<'a> = &'a mut dyn FnMut(&[f64]) -> Result<(), ParquetError>;
 
 /// Hands on the values of one column, a batch at a time.
@@ -188,13 +244,35 @@ fn column_pieces(
     name: &str,
     take: Take<'_>,
 ) -> Result<(), ParquetError> {
+    let column = reader
+        .metadata()
+        .file_metadata()
+        .schema_descr()
+        .column(index);
+    let unit = decimals(&column).map_or(1.0, |places| 10_f64.powi(places));
+    let is_unsigned = is_unsigned(&column);
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         match group.get_column_reader(index)? {
             ColumnReader::DoubleColumnReader(r) => pieces(r, take, |v| v)?,
             ColumnReader::FloatColumnReader(r) => pieces(r, take, f64::from)?,
-            ColumnReader::Int32ColumnReader(r) => pieces(r, take, f64::from)?,
-            ColumnReader::Int64ColumnReader(r) => pieces(r, take, |v| v as f64)?,
+            ColumnReader::Int32ColumnReader(r) if is_unsigned => {
+                pieces(r, take, |v| f64::from(v as u32))?;
+            }
+            ColumnReader::Int32ColumnReader(r) => pieces(r, take, |v| f64::from(v) / unit)?,
+            ColumnReader::Int64ColumnReader(r) if is_unsigned => {
+                pieces(r, take, |v| v as u64 as f64)?;
+            }
+            ColumnReader::Int64ColumnReader(r) => pieces(r, take, |v| v as f64 / unit)?,
+            ColumnReader::FixedLenByteArrayColumnReader(r) if decimals(&column).is_some() => {
+                pieces(r, take, |v| integer(v.data()) as f64 / unit)?;
+            }
+            ColumnReader::FixedLenByteArrayColumnReader(r) => {
+                pieces(r, take, |v| match v.data() {
+                    [low, high] => half(u16::from_le_bytes([*low, *high])),
+                    _ => f64::NAN,
+                })?
+            }
             _ => {
                 return Err(ParquetError::NYI(format!("`{name}` does not hold numbers")));
             }
@@ -285,21 +363,9 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
         });
     let schema = about.file_metadata().schema_descr();
     let channel = |(i, column): (usize, &Column)| {
-        let stored = match schema.column(i).physical_type() {
-            Type::DOUBLE => Some(Number::F64),
-            Type::FLOAT => Some(Number::F32),
-            Type::INT32 => Some(Number::I32),
-            Type::INT64 => Some(Number::I64),
-            _ => None,
-        };
-        let mut channel = Channel::array(
-            &column.name,
-            vec![rows as u64],
-            stored.unwrap_or(Number::F64),
-        );
-        if stored.is_none() {
-            channel.stored_as = "other";
-        }
+        let (number, name) = stored(&schema.column(i)).unwrap_or((Number::F64, "other"));
+        let mut channel = Channel::array(&column.name, vec![rows as u64], number);
+        channel.stored_as = name;
         channel.unreadable = unreadable(about, i);
         channel.unit = Some(column.unit.clone()).filter(|unit| !unit.is_empty());
         channel.rate.clone_from(&rate);

@@ -168,6 +168,36 @@ fn lit_no_bearing_turns_beyond_its_speed_factor() {
 }
 
 #[test]
+fn lit_no_load_is_beyond_what_steel_stands() {
+    // ISO 76: C0 = 44 (1 - d/D_m) i Z L d. 10 C0 is 12.6 GPa.
+    let b = good(BARE).scenario.bearing;
+    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
+    let most = 440.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d;
+    let gravity = most / b.inner_ring_mass_kg.max(b.outer_ring_mass_kg);
+    for (key, most, unit) in [
+        ("operation.load_n", most, "N"),
+        ("operation.gravity_m_per_s2", gravity, "m/s^2"),
+    ] {
+        let at = |share: f64| {
+            [(
+                key,
+                format!("[{}, {}]", 0.6 * share * most, -0.8 * share * most),
+            )]
+        };
+        let set = |share: f64| with(BARE, &at(share).each_ref().map(|(k, v)| (*k, v.as_str())));
+        set(0.999).unwrap_or_else(|problems| panic!("{}", report(&problems)));
+        for share in [1.001, 1e10] {
+            let problems = set(share).unwrap_err();
+            let problem = &problems[0];
+            assert_eq!((&*problem.key, problem.unit), (key, Some(unit)));
+            assert!(problem.message.contains("times the static load rating"));
+            let allowed = problem.allowed.as_deref().unwrap();
+            assert!(allowed.starts_with("a resultant of at most "), "{allowed}");
+        }
+    }
+}
+
+#[test]
 fn analytic_no_body_moves_faster_than_a_run_can_follow() {
     let roller = good(BARE).scenario.bearing.roller_mass_kg;
     // m w at w = 1e9 1/s.

@@ -124,6 +124,7 @@ pub(crate) fn check<'a>(
     checker.contact();
     checker.operation();
     checker.speed_factor();
+    checker.overload();
     checker.support();
     checker.rates();
     checker.defects();

@@ -2,6 +2,7 @@
 
 use super::{Checker, short};
 use crate::bearing::kinematics::{Geometry, Kinematics};
+use crate::bearing::rating::static_rating;
 use crate::operation::Load;
 use crate::scenario::{LoadOn, ModelKind, Speed};
 use std::f64::consts::PI;
@@ -20,8 +21,15 @@ const PASSBAND: f64 = 0.4;
 /// Lubrication Technology 98, 1976, 580-585); this leaves three times as much.
 const MOST_SPEED_FACTOR: f64 = 1e7;
 
+/// Multiple of the static load rating that no bearing carries. The rating stands for 4 GPa at the heaviest roller (ISO 76), and a line contact's
+/// pressure grows with the square root of the load, so this is 12.6 GPa, and 9.9 GPa on average over the contact: more than the hardness of
+/// bearing steel, some 8 GPa (60 HRC), which is the average pressure that it flows under. From about 30 times the rating on, a roller is squeezed
+/// so hard that a run hardly moves.
+const MOST_RATINGS: f64 = 10.0;
+
 const SPEED: &str = "operation.speed_rpm";
 const LOAD: &str = "operation.load_n";
+const GRAVITY: &str = "operation.gravity_m_per_s2";
 const RATE: &str = "simulation.sample_rate_hz";
 const DURATION: &str = "simulation.duration_s";
 
@@ -93,6 +101,42 @@ impl Checker<'_> {
                 format!("-{0} to {0}", short((MOST_SPEED_FACTOR / pitch).floor())),
                 &["bearing.pitch_diameter_mm"],
             );
+        }
+    }
+
+    /// Forces under which steel flows; the model is elastic.
+    pub(super) fn overload(&mut self) {
+        let (b, o) = (&self.s.bearing, &self.s.operation);
+        let rating = static_rating(b).load;
+        let most = MOST_RATINGS * rating;
+        let load = o.load_n[0].hypot(o.load_n[1]);
+        let gravity = o.gravity_m_per_s2[0].hypot(o.gravity_m_per_s2[1]);
+        let heavier = b.inner_ring_mass_kg.max(b.outer_ring_mass_kg);
+        let rings = ["bearing.inner_ring_mass_kg", "bearing.outer_ring_mass_kg"];
+        for (key, what, force, allowed, also) in [
+            (LOAD, "the load", load, most, &[][..]),
+            (
+                GRAVITY,
+                "the heavier ring's weight",
+                heavier * gravity,
+                most / heavier,
+                &rings,
+            ),
+        ] {
+            if most > 0.0 && force > most {
+                let message = format!(
+                    "{what} of {} N is {} times the static load rating C0 = {} N; steel flows below {MOST_RATINGS} times C0, a contact pressure of 12.6 GPa",
+                    short(force),
+                    short(force / rating),
+                    short(rating)
+                );
+                self.error(
+                    key,
+                    message,
+                    format!("a resultant of at most {}", short(allowed)),
+                    also,
+                );
+            }
         }
     }
 

@@ -36,7 +36,7 @@ pub(super) const CLAIMS: &[Claim] = &[
         id: "speed-change-impacts",
         place: "3",
         sentence: "Due to the significant changes in the roller's rotational speed when entering and exiting the load zone, there can be a \
-                   difference between the roller rotational speed about the bearing axis and the cage rotational speed, leading to impacts \
+                   difference in between the roller rotational speed about the bearing axis and the cage rotational speed, leading to impacts \
                    between them.",
         paper: "",
         statements: &[
@@ -66,8 +66,9 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "frequency",
         place: "4.1, Figs. 10-12",
-        sentence: "The defect frequencies of outer ring of simulated and experimental are 249.60 Hz and 250.97 Hz [rectangle], 250.39 Hz and \
-                   249.23 Hz [circle], 249.40 Hz and 250.21 Hz [irregular].",
+        sentence: "[...] the defect frequencies of outer ring from the simulated and experimental are 249.60 Hz and 250.97 Hz. [...] the defect \
+                   frequencies of outer ring of simulated and experimental are 250.39 Hz and 249.23 Hz. [...] the defect frequencies of outer ring \
+                   of simulated and experimental are 249.40 Hz and 250.21 Hz, respectively.",
         paper: "simulated 249.60, 250.39, 249.40 Hz; measured 250.97, 249.23, 250.21 Hz",
         statements: &[
             near_frequency(
@@ -109,8 +110,8 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "frequency-differences",
         place: "4.1, Figs. 10-12",
-        sentence: "[The simulated defect frequencies are] 249.60 Hz, 250.39 Hz and 249.40 Hz [for the rectangular, circular and irregular \
-                   defect at one speed and one load].",
+        sentence: "[Simulated defect frequencies at one speed and one load:] 249.60 Hz [for the rectangle,] 250.39 Hz [for the circle and] 249.40 Hz \
+                   [for the irregular shape].",
         paper: "250.39 - 249.40 = 0.99 Hz",
         statements: &[so(
             "the shapes' frequencies lie at least 0.5 Hz apart, half of what is printed",
@@ -127,7 +128,8 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "effective-length",
         place: "4.1, Fig. 9",
-        sentence: "The effective roller lengths when the roller rolls over the rectangle, circular and independent-shape defects.",
+        sentence: "The effective roller lengths when the roller rolls over the rectangle defect, the circular defect, and the defect with the \
+                   independent shape are given in Fig. 9.",
         paper: "drawn",
         statements: &[
             so(
@@ -174,7 +176,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "simplified-acceleration",
         place: "4.2, Fig. 14a; 5 (6)",
-        sentence: "The acceleration of the simplified defect is larger than that of the actual defect shape.",
+        sentence: "In Fig. 14a, the acceleration of the simplified defect is larger than that of the actual defect shape.",
         paper: "RMS 32.06 against 30.414 m/s²",
         statements: &[
             greater(
@@ -203,7 +205,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "impact-peak",
         place: "4.2, Fig. 14c",
-        sentence: "The acceleration peak value of impact of simplified defect is greater than that of the actual defect.",
+        sentence: "Note that the acceleration peak value of impact of simplified defect is greater than that of the actual defect.",
         paper: "drawn",
         statements: &[
             greater(
@@ -268,7 +270,8 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "gradual-entry",
         place: "4.2, Fig. 14",
-        sentence: "When the roller enters the defect, the TVCS and ECL of the simplified defect change greatly, but those of the actual defect change slowly.",
+        sentence: "When the roller enters the defect, the TVCS and ECL of the simplified defect change greatly, but the TVCS and ECL of the actual \
+                   defect change slowly, which makes different impact characteristics.",
         paper: "drawn",
         statements: &[greater(
             "share of the drop in stiffness met within the first tenth of the arc",
@@ -306,7 +309,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "width-outer",
         place: "4.3, Fig. 16",
-        sentence: "The outer ring accelerations increase with the increment of the maximum width of the defect.",
+        sentence: "Note that the outer ring accelerations increase with the increment of the maximum width of the defect.",
         paper: "drawn",
         statements: &[trend(
             "peak to peak of the outer ring, x",
@@ -320,7 +323,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "width-rms",
         place: "4.3, Fig. 17",
-        sentence: "The inner/outer ring acceleration RMS values increase with the increment of the maximum width of the defect.",
+        sentence: "Note that the inner/outer ring acceleration RMS values increase with the increment of the maximum width of the defect.",
         paper: "drawn",
         statements: &[
             trend(
@@ -354,7 +357,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "x-above-y",
         place: "4.3, Fig. 17",
-        sentence: "The accelerations in the X direction are larger than those in the Y direction.",
+        sentence: "Moreover, the accelerations in the X direction are larger than those in the Y direction.",
         paper: "drawn",
         statements: &[
             greater(

@@ -29,7 +29,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "speed-matters",
         place: "4.4, Fig. 18; 5 (2)",
-        sentence: "The rotating speed can greatly affect the inner/outer ring and cage vibrations.",
+        sentence: "Note that the rotating speed can greatly affect the inner/outer ring and cage vibrations.",
         paper: "drawn",
         statements: &[
             so(
@@ -63,7 +63,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "speed-matters-more",
         place: "5 (2)",
-        sentence: "Rotating speed has a significant impact on the acceleration RMS and PTP values of the inner/outer ring, rollers, and cage.",
+        sentence: "Rotating speed has a significant impact on the acceleration RMS and PTP values of the inner/outer ring, rollers, and cage, [...]",
         paper: "",
         statements: &[
             changes(
@@ -140,7 +140,8 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "speed-cage-conclusion",
         place: "5 (4)",
-        sentence: "Inner/outer ring and cage vibrations, with acceleration increasing and then decreasing with increasing rotating speed.",
+        sentence: "Rotating speed has a significant impact on the inner/outer ring and cage vibrations, with acceleration increasing and then \
+                   decreasing with increasing rotating speed.",
         paper: "",
         statements: &[
             trend(
@@ -162,7 +163,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "speed-inner-above-outer",
         place: "5 (2)",
-        sentence: "The inner ring having higher [RMS and PTP] values than the outer ring.",
+        sentence: "[RMS and PTP values ...] with the inner ring having higher values than the outer ring, [...]",
         paper: "",
         statements: &[
             greater(
@@ -202,7 +203,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "speed-rollers",
         place: "5 (2)",
-        sentence: "The roller values [RMS and PTP] increasing with increasing rotating speed.",
+        sentence: "[RMS and PTP values ...] and the roller values increasing with increasing rotating speed.",
         paper: "",
         statements: &[
             trend(
@@ -230,7 +231,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     Claim {
         id: "load-matters",
         place: "4.4, Fig. 19; 5 (5)",
-        sentence: "The load has a remarkable effect on the inner/outer ring and the cage vibrations.",
+        sentence: "Note that the load has a remarkable effect on the inner/outer ring and the cage vibrations.",
         paper: "drawn",
         statements: &[
             so(

@@ -1,0 +1,104 @@
+//! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not fit is told.
+
+mod bytes;
+#[path = "../common/mod.rs"]
+mod common;
+mod refusals;
+mod rows;
+
+use common::{Call, SHORT, brinell, command, files, json};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::{Field, Row};
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+const PLAN: &str = r#"name = "test"
+base = "base.toml"
+runs = 7
+seed = 11
+runs_per_file = 3
+licence = "CC0-1.0"
+
+[vary]
+operation.speed_rpm = { uniform = [1400, 1600] }
+
+[[classes]]
+name = "healthy"
+defects = []
+
+[[classes]]
+name = "outer"
+[[classes.defects]]
+on = "outer-raceway"
+depth_um = { log = [5, 20] }
+shape.random = { length_mm = { uniform = [1, 3] }, width_mm = 4 }
+"#;
+
+const SECRET: &str = "9f86d081884c7d659a2feaa0c55ad015";
+
+fn folder_with(plan: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("base.toml"), SHORT).unwrap();
+    fs::write(folder.path().join("plan.toml"), plan).unwrap();
+    folder
+}
+
+fn make(folder: &Path, more: &[&str]) -> Call {
+    brinell(folder, &[&["dataset", "plan.toml"], more].concat())
+}
+
+fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let names = files(folder).into_iter();
+    names
+        .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
+        .collect()
+}
+
+#[track_caller]
+fn same(a: &Path, b: &Path) {
+    let (a, b) = (contents(a), contents(b));
+    let names = |all: &[(String, Vec<u8>)]| all.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&a), names(&b));
+    for ((name, a), (_, b)) in a.iter().zip(&b) {
+        assert!(a == b, "{name} differs");
+    }
+}
+
+fn rows(path: &Path) -> Vec<Row> {
+    let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
+    reader
+        .get_row_iter(None)
+        .unwrap()
+        .map(Result::unwrap)
+        .collect()
+}
+
+fn cell<'a>(row: &'a Row, name: &str) -> &'a Field {
+    row.get_column_iter()
+        .find(|(n, _)| *n == name)
+        .unwrap_or_else(|| panic!("{name}"))
+        .1
+}
+
+fn text(row: &Row, name: &str) -> Option<String> {
+    match cell(row, name) {
+        Field::Str(text) => Some(text.clone()),
+        Field::Null => None,
+        other => panic!("{name}: {other}"),
+    }
+}
+
+fn list(row: &Row, name: &str) -> Option<Vec<f64>> {
+    let number = |field: &Field| match field {
+        Field::Float(x) => f64::from(*x),
+        Field::Double(x) => *x,
+        Field::Long(x) => *x as f64,
+        other => panic!("{name}: {other}"),
+    };
+    match cell(row, name) {
+        Field::ListInternal(list) => Some(list.elements().iter().map(number).collect()),
+        Field::Null => None,
+        other => panic!("{name}: {other}"),
+    }
+}

@@ -1,0 +1,230 @@
+//! What a row says of its run, and where held-out labels lie.
+
+use super::{PLAN, SECRET, brinell, cell, files, folder_with, json, list, make, rows, text};
+use parquet::record::{Field, Row};
+use std::fs;
+
+#[test]
+fn prop_a_row_is_the_run_that_its_scenario_gives() {
+    let folder = folder_with(PLAN);
+    make(folder.path(), &["-o", "out", "-q"]).exits(0);
+    let all: Vec<Row> = (0..3)
+        .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
+        .collect();
+    for (run, row) in all.iter().enumerate() {
+        assert_eq!(cell(row, "run"), &Field::Long(run as i64));
+        let outer = run % 2 == 1;
+        assert_eq!(
+            text(row, "class").as_deref(),
+            Some(if outer { "outer" } else { "healthy" })
+        );
+        assert_eq!(
+            list(row, "defect_depth_um").unwrap().len(),
+            usize::from(outer)
+        );
+        let entries = list(row, "entry_t_s").unwrap();
+        assert_eq!(entries.is_empty(), !outer, "{run}");
+        assert!(entries.is_sorted() && entries.iter().all(|t| (0.0..0.03).contains(t)));
+        assert_eq!(list(row, "entry_force_n").unwrap().len(), entries.len());
+    }
+    // The row's own scenario, run by itself, gives the same signal.
+    let row = &all[3];
+    fs::write(
+        folder.path().join("again.toml"),
+        text(row, "scenario").unwrap(),
+    )
+    .unwrap();
+    brinell(
+        folder.path(),
+        &["run", "again.toml", "-o", "again", "--no-report", "-q"],
+    )
+    .exits(0);
+    let again = brinell_io::read_parquet(folder.path().join("again/signals.parquet")).unwrap();
+    let whole = again.column("measured_ax").unwrap();
+    // All but the sample at the run's end: 0.02 s at 25.6 kHz are 512.
+    assert_eq!(whole.len(), 513);
+    let expected: Vec<f64> = whole[..512].iter().map(|x| f64::from(*x as f32)).collect();
+    assert_eq!(list(row, "measured_ax").unwrap(), expected);
+    let about = json(&folder.path().join("out/dataset.json"));
+    assert_eq!(about["licence"], "CC0-1.0");
+    assert_eq!(about["rate"]["sample_rate_hz"], 25600.0);
+    assert_eq!(about["runs"]["complete"], 7);
+    let unit = about["columns"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|c| c["name"] == "measured_ax")
+        .unwrap();
+    assert_eq!(unit["unit"], "m/s^2");
+}
+
+#[test]
+fn prop_a_failed_run_is_a_row_with_its_reason() {
+    // Values that make no scenario, in two runs of six.
+    let plan = PLAN.replace("runs = 7", "runs = 6").replace(
+        "[vary]",
+        "out_of_range = \"fail\"\n[vary]\nlubricant.viscosity_pa_s = { grid = [0.01, -1.0, 0.02] }",
+    );
+    let folder = folder_with(&plan);
+    make(folder.path(), &["-o", "out"])
+        .exits(0)
+        .says(&[
+            "2 of 6 runs looked at draw values that make no scenario: kept as failed",
+            "6 runs in",
+        ])
+        .complains(&[
+            "2 of 6 runs, such as run 2: lubricant.viscosity_pa_s = -1.0: out of range; allowed: >= 0 Pa s",
+            "failed: lubricant.viscosity_pa_s = -1.0: out of range",
+        ]);
+    let all: Vec<Row> = (0..2)
+        .flat_map(|k| rows(&folder.path().join(format!("out/runs/part-0000{k}.parquet"))))
+        .collect();
+    let failed: Vec<&Row> = all
+        .iter()
+        .filter(|row| text(row, "status").as_deref() == Some("failed"))
+        .collect();
+    assert_eq!(failed.len(), 2);
+    for row in failed {
+        assert!(text(row, "reason").unwrap().contains("out of range"));
+        assert_eq!(cell(row, "lubricant.viscosity_pa_s"), &Field::Double(-1.0));
+        assert_eq!(
+            (list(row, "measured_ax"), list(row, "entry_t_s")),
+            (None, None)
+        );
+        assert!(text(row, "class").is_some() && text(row, "settings").unwrap().contains("-1.0"));
+    }
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(0)
+        .says(&["6 runs with 2 failed"]);
+    // A scenario that is sound, and has nothing to start from.
+    let loose = "vary.simulation.start = \"equilibrium\"\nvary.support = { inner_stiffness_n_per_m = 0.0, outer_stiffness_n_per_m = 0.0 }";
+    let plan = PLAN.replace("name = \"outer\"", &format!("name = \"outer\"\n{loose}"));
+    let folder = folder_with(&plan.replace("runs = 7", "runs = 2"));
+    make(folder.path(), &["-o", "out"]).exits(0);
+    let row = &rows(&folder.path().join("out/runs/part-00000.parquet"))[1];
+    assert_eq!(text(row, "status").as_deref(), Some("failed"));
+    let reason = text(row, "reason").unwrap();
+    assert!(reason.contains("no static balance") && !reason.contains('\n'));
+    assert!(text(row, "scenario").is_some() && list(row, "measured_ax").is_none());
+    // Nothing to start from in any run.
+    let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
+    let folder = folder_with(&plan);
+    make(folder.path(), &["-o", "out"]).exits(2).complains(&[
+        "none of the first runs can begin; run 0: start = \"equilibrium\": no static balance",
+    ]);
+}
+
+#[test]
+fn prop_held_out_labels_lie_apart() {
+    let folder = folder_with(&PLAN.replace(
+        "runs = 7",
+        &format!("runs = 12\nheld_out = 0.5\nsecret = \"{SECRET}\""),
+    ));
+    make(folder.path(), &["-o", "out"])
+        .exits(0)
+        .says(&["labels of "]);
+    let out = folder.path().join("out");
+    let secret = ["class", "label", "settings", "scenario", "reason"];
+    let mut apart = 0;
+    let about = json(&out.join("dataset.json"));
+    let parts = about["files"].as_array().unwrap();
+    for (part, file) in parts.iter().enumerate() {
+        let open = rows(&out.join(format!("runs/part-0000{part}.parquet")));
+        let labels = out.join(format!("held_out/part-0000{part}.parquet"));
+        // Runs of a file are for one thing.
+        assert_eq!(labels.exists(), file["split"] == "held-out");
+        assert!(
+            open.iter()
+                .all(|row| text(row, "split").as_deref() == file["split"].as_str())
+        );
+        let held = if labels.exists() {
+            rows(&labels)
+        } else {
+            Vec::new()
+        };
+        let mut held = held.iter();
+        for row in &open {
+            let is_held = text(row, "split").as_deref() == Some("held-out");
+            for name in secret {
+                assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
+            }
+            for name in [
+                "entry_t_s",
+                "defect_on",
+                "largest_contact_force_n",
+                "defects.0.depth_um",
+                "solver_steps",
+            ] {
+                assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
+            }
+            // What a sensor knows stays.
+            assert_eq!(list(row, "measured_ax").unwrap().len(), 512);
+            assert!(matches!(cell(row, "operation.speed_rpm"), Field::Double(_)));
+            assert!(matches!(cell(row, "bpfo_hz"), Field::Double(_)));
+            if is_held {
+                let label = held.next().unwrap();
+                assert_eq!(cell(label, "run"), cell(row, "run"));
+                assert!(text(label, "class").is_some() && list(label, "entry_t_s").is_some());
+                apart += 1;
+            }
+        }
+        assert!(held.next().is_none());
+    }
+    assert!((1..12).contains(&apart), "{apart}");
+    let sidecar = fs::read_to_string(out.join("dataset.json")).unwrap();
+    // Nor does anything else that is published give them away: plan and secret would.
+    for name in files(&out)
+        .iter()
+        .filter(|name| !name.starts_with("held_out") && !name.starts_with("work"))
+    {
+        let bytes = fs::read(out.join(name)).unwrap();
+        let has = |words: &str| bytes.windows(words.len()).any(|w| w == words.as_bytes());
+        assert!(
+            !has(SECRET) && !has("depth_um = {") && !has("\"seed\""),
+            "{name}"
+        );
+    }
+    assert!(
+        fs::read_to_string(out.join("held_out/_plan.json"))
+            .unwrap()
+            .contains("\"seed\": 11")
+    );
+    // How many bytes the labels take would tell too: a damaged run has more.
+    assert!(
+        about["held_out"].get("files").is_none(),
+        "{}",
+        about["held_out"]
+    );
+    for (part, file) in parts.iter().enumerate() {
+        if file["split"] == "held-out" {
+            let labels = fs::read(out.join(format!("held_out/part-0000{part}.parquet"))).unwrap();
+            assert!(!sidecar.contains(&format!(" {}", labels.len())), "{part}");
+        }
+    }
+    // The classes' numbers are those of the runs whose labels anybody sees.
+    let classes = json(&out.join("dataset.json"))["classes"].clone();
+    let counted = classes
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["open_runs"].as_u64().unwrap());
+    assert_eq!(counted.sum::<u64>(), 12 - apart);
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
+    // What the labels are made from is checked as well; and one file of labels may not be missing where others are here.
+    let secret = fs::read(out.join("held_out/_plan.json")).unwrap();
+    fs::write(out.join("held_out/_plan.json"), "").unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&["held_out/_plan.json: its checksum is another than when it was written"]);
+    fs::write(out.join("held_out/_plan.json"), secret).unwrap();
+    let last = format!("held_out/part-0000{}.parquet", parts.len() - 1);
+    fs::remove_file(out.join(&last)).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(1)
+        .complains(&[&format!("{last} is missing, and others are here")]);
+    // All labels may be elsewhere.
+    fs::remove_dir_all(out.join("held_out")).unwrap();
+    brinell(folder.path(), &["dataset", "verify", "out"])
+        .exits(0)
+        .says(&["; labels are not here"]);
+}
