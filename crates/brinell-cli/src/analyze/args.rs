@@ -10,6 +10,7 @@ use std::path::PathBuf;
     Examples:\n  \
     brinell analyze 105.mat --channel DE --rate 12000 --unit g --bearing 6205-2RS\n  \
     brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
+    brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n\n\
@@ -34,6 +35,17 @@ pub(crate) struct AnalyzeArgs {
     /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
+    /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
+    #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
+    pub(crate) sensitivity: Option<String>,
+    /// Of a WAV: what its largest number stands for, as 5V (with --sensitivity) or 10g
+    #[arg(
+        long,
+        value_name = "VALUE",
+        conflicts_with = "unit",
+        allow_negative_numbers = true
+    )]
+    pub(crate) full_scale: Option<String>,
     /// Shaft speed (the inner ring turns, the outer rests)
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
@@ -116,6 +128,23 @@ pub(crate) struct AnalyzeArgs {
     /// Unit of the other, where its file does not state it
     #[arg(long, value_name = "UNIT", requires = "against")]
     pub(crate) against_unit: Option<String>,
+    /// Sensitivity of the other's sensor
+    #[arg(
+        long,
+        value_name = "mV/g",
+        requires = "against",
+        allow_negative_numbers = true
+    )]
+    pub(crate) against_sensitivity: Option<String>,
+    /// Full scale of the other, a WAV
+    #[arg(
+        long,
+        value_name = "VALUE",
+        requires = "against",
+        conflicts_with = "against_unit",
+        allow_negative_numbers = true
+    )]
+    pub(crate) against_full_scale: Option<String>,
     /// Write the result as JSON; `-` prints it instead of words
     #[arg(long, value_name = "PATH|-")]
     pub(crate) json: Option<PathBuf>,

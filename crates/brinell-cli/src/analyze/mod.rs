@@ -68,6 +68,8 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             time_channel: args.time_channel.as_deref(),
             time_unit: args.time_unit.as_deref(),
             unit: args.unit.as_deref(),
+            sensitivity: args.sensitivity.as_deref(),
+            full_scale: args.full_scale.as_deref(),
             speed_channel: args.speed_channel.as_deref(),
             start: args.start,
             duration: args.duration,
@@ -272,6 +274,8 @@ fn lay_over(
         channel: args.against_channel.as_deref(),
         rate: args.against_rate,
         unit: args.against_unit.as_deref(),
+        sensitivity: args.against_sensitivity.as_deref(),
+        full_scale: args.against_full_scale.as_deref(),
         whose: "against-",
         ..Wanted::default()
     };
