@@ -188,3 +188,46 @@ fn regress_scales_that_say_nothing_are_refused() {
         brinell(folder.path(), &args).exits(2).complains(&[part]);
     }
 }
+
+/// 2 g at 160 Hz are 13.80 mm/s RMS; on the console, in JSON and on the page.
+#[test]
+fn analytic_velocity_and_zone_of_a_tone() {
+    let folder = tempdir().unwrap();
+    column(&folder.path().join("x.csv"), &tone(2.0));
+    let call = |more: &[&str]| {
+        let args = [&["analyze", "x.csv", "--rate", "12000"][..], &MACHINE, more].concat();
+        brinell(folder.path(), &args)
+    };
+    let with_class = ["--unit", "g", "--machine-class", "2-rigid", "-o", "look"];
+    call(&with_class).exits(0).says(&[
+        "velocity RMS 10 to 1000 Hz 13.8",
+        "zone D, above 4.5 mm/s: severe enough to damage the machine (group 2, rigid support; ISO 20816-3",
+        "above 15 kW at 120 to 30000 r/min",
+        "envelope RMS ",
+    ]);
+    let found = &json(&folder.path().join("look/analysis.json"))["severity"];
+    let velocity = found["velocity_rms_10_1000_hz"]["value"].as_f64().unwrap();
+    let expected = 1e3 * 2.0 * 9.80665 / (TAU * 160.0) / 2f64.sqrt();
+    // The noise adds 0.006 mm/s, in power.
+    assert!((velocity / expected - 1.0).abs() < 1e-3, "{velocity}");
+    assert_eq!(found["iso_20816_3"]["zone"], "D");
+    assert!(
+        found["band_shown"]["envelope_rms"]["value"]
+            .as_f64()
+            .unwrap()
+            > 0.0
+    );
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert!(page.contains("RMS velocity, 10 to 1000 Hz") && page.contains("zone D"));
+
+    call(&["--unit", "V", "--machine-class", "1-flexible"]).exits(0).says(&[
+        "velocity RMS 10 to 1000 Hz not known, as a signal in V is neither an acceleration nor a velocity",
+        "zone not known, without a velocity",
+    ]);
+    call(&["--unit", "g", "--duration", "0.9"])
+        .exits(0)
+        .says(&["not known, as 0.900 s are too short for 10 Hz"]);
+    call(&["--unit", "g", "--machine-class", "3"])
+        .exits(2)
+        .complains(&["1-rigid, 1-flexible, 2-rigid, 2-flexible"]);
+}

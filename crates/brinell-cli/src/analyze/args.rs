@@ -1,7 +1,9 @@
 //! The options of `brinell analyze`.
 
 use crate::args::PlotFormat;
+use brinell::analysis::MachineClass;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -94,6 +96,9 @@ pub(crate) struct AnalyzeArgs {
     /// Frequency of the cage
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) ftf: Option<String>,
+    /// Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW
+    #[arg(long, value_name = "CLASS", value_parser = machine_class())]
+    pub(crate) machine_class: Option<MachineClass>,
     /// How far slip and an inexact speed may move a defect frequency
     #[arg(
         long,
@@ -165,6 +170,16 @@ pub(crate) struct AnalyzeArgs {
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+/// Reads `2-rigid`.
+fn machine_class() -> impl TypedValueParser<Value = MachineClass> {
+    PossibleValuesParser::new(MachineClass::ALL.map(MachineClass::name)).try_map(|name| {
+        (MachineClass::ALL
+            .into_iter()
+            .find(|class| class.name() == name))
+        .ok_or("no such class")
+    })
 }
 
 impl AnalyzeArgs {

@@ -2,6 +2,7 @@
 
 mod args;
 mod bearing;
+mod level;
 pub(crate) mod measured;
 mod page;
 mod words;
@@ -19,6 +20,7 @@ use brinell::analysis::{
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::atomic_write;
+use level::Level;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -46,6 +48,7 @@ struct Result_ {
     /// The end of a long signal.
     last: Option<Analysis>,
     velocity: Option<VelocityBands>,
+    level: Level,
     against: Option<Against>,
 }
 
@@ -100,6 +103,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let reading = measured.beyond.take().map(Beyond::start);
     let analysis = look(&measured, &options)?;
     let velocity = velocities(&measured, shaft);
+    let level = Level::of(&measured, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(
@@ -127,6 +131,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         bearing,
         last,
         velocity,
+        level,
         against,
     };
     let json = as_json(&result);
@@ -332,6 +337,7 @@ fn as_json(result: &Result_) -> Value {
         comparison,
     );
     value["brinell"] = brinell::VERSION.into();
+    value["severity"] = result.level.json(&m.unit.name);
     value["file"] = json!({
         "path": m.path.display().to_string(),
         "channel": m.channel,

@@ -34,6 +34,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     notes.extend(m.notes.iter().cloned());
     notes.push(format!("{}; {}", result.speed, shaft_lines(a)));
     notes.push(format!("bearing: {}", result.bearing));
+    notes.extend(result.level.notes());
     notes.push(format!(
         "mean removed: {} {}",
         short(a.mean, 4),
@@ -185,6 +186,7 @@ fn facts(result: &Result_) -> Vec<Fact> {
             facts.push(Fact::new(capital(&label), e.value, unit, ""));
         }
     }
+    facts.extend(result.level.fact());
     facts
 }
 
@@ -279,6 +281,15 @@ fn with_interval(e: &Estimate) -> String {
     }
 }
 
+/// In a smaller unit.
+fn scaled(mut e: Estimate, factor: f64) -> Estimate {
+    e.value *= factor;
+    if let Some(i) = &mut e.interval {
+        (i.low, i.high) = (factor * i.low, factor * i.high);
+    }
+    e
+}
+
 fn indicators(result: &Result_) -> Table {
     let unit = &result.measured.unit.name;
     let mut rows: Vec<Vec<String>> = (result.analysis.indicators.iter())
@@ -296,6 +307,15 @@ fn indicators(result: &Result_) -> Table {
             ]
         })
         .collect();
+    for (name, e, scale, unit) in result.level.rows(unit) {
+        let e = scaled(e, scale);
+        rows.push(vec![
+            name,
+            short(e.value, 4),
+            with_interval(&e),
+            unit.to_owned(),
+        ]);
+    }
     for b in result.velocity.iter().flatten().flatten() {
         let cut = if b.cut_short {
             ", cut short by the sample rate"
@@ -308,9 +328,7 @@ fn indicators(result: &Result_) -> Table {
                 b.band.low, b.band.high
             ),
             short(1e3 * b.rms.value, 4),
-            b.rms.interval.map_or("–".into(), |i| {
-                format!("{} to {}", short(1e3 * i.low, 4), short(1e3 * i.high, 4))
-            }),
+            with_interval(&scaled(b.rms, 1e3)),
             "mm/s".into(),
         ]);
     }
@@ -318,8 +336,8 @@ fn indicators(result: &Result_) -> Table {
         title: "Indicators".into(),
         columns: ["Indicator", "#Value", "#95 % interval", "Unit"].map(str::to_owned).to_vec(),
         rows,
-        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. Bands of velocity are those of ISO 15242 at 1800 r/min, \
-               with sharp edges."
+        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. The envelope is the amplitude of what lies in the band shown. \
+               Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges."
             .into(),
     }
 }

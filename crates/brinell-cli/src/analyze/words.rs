@@ -64,6 +64,9 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
+    for line in result.level.lines(&m.unit.name) {
+        say!("  {line}");
+    }
     if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
         say!(
             "\nThe last {} samples, from {:.1} s on: {}",

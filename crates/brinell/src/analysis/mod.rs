@@ -37,6 +37,7 @@ mod frequencies;
 mod json;
 mod known_lines;
 mod sensitivity;
+mod severity;
 mod unit;
 mod verdict;
 mod view;
@@ -51,6 +52,9 @@ pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
 pub use sensitivity::{FullScale, Sensitivity};
+pub use severity::{
+    BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
+};
 pub use unit::{Quantity, Unit};
 pub use verdict::{Finding, Strength};
 pub use view::View;
