@@ -15,13 +15,16 @@ use std::path::PathBuf;
     brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
-    brinell analyze measured.mat ... --against out/my-bearing -o look\n\n\
+    brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
+    brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
     Bearings by name: the catalogue (`brinell bearing list`), and 6205-2RS, 6203-2RS, NICE, ZA-2115, UER204 of public data sets.\n\n\
-    Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, 2 bad input."
+    Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run
-    pub(crate) file: PathBuf,
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run. Several files, or a folder of
+    /// them, are analysed with the same options, one after the other; a folder's by name, with 2 before 10
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
     /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
     #[arg(long, value_name = "NAME|N")]
     pub(crate) channel: Option<String>,

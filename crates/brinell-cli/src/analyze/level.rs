@@ -88,12 +88,12 @@ impl Level {
     }
 
     pub(super) fn json(&self, unit: &str) -> Value {
-        let of = |e: &Estimate, scale: f64, unit: &str| {
-            let interval = e.interval.map(|i| [scale * i.low, scale * i.high]);
-            json!({ "value": scale * e.value, "unit": unit, "interval_95": interval })
+        let of = |e: &Estimate, unit: &str| {
+            let interval = e.interval.map(|i| [i.low, i.high]);
+            json!({ "value": e.value, "unit": unit, "interval_95": interval })
         };
         let velocity = match &self.velocity {
-            Ok(v) => of(v, 1e3, "mm/s"),
+            Ok(v) => of(&scaled(v, 1e3), "mm/s"),
             Err(why) => json!({ "value": null, "why": why.to_string() }),
         };
         json!({
@@ -107,9 +107,9 @@ impl Level {
             "band_shown": self.band.map(|b| json!({
                 "low_hz": b.band.low,
                 "high_hz": b.band.high,
-                "kurtosis": of(&b.kurtosis, 1.0, ""),
-                "envelope_rms": of(&b.envelope_rms, 1.0, unit),
-                "envelope_peak": of(&b.envelope_peak, 1.0, unit),
+                "kurtosis": of(&b.kurtosis, ""),
+                "envelope_rms": of(&b.envelope_rms, unit),
+                "envelope_peak": of(&b.envelope_peak, unit),
             })),
         })
     }
@@ -127,16 +127,20 @@ impl Level {
     }
 
     /// Rows of the page's table of indicators: name, value, unit.
-    pub(super) fn rows<'a>(&self, unit: &'a str) -> Vec<(String, Estimate, f64, &'a str)> {
+    pub(super) fn rows<'a>(&self, unit: &'a str) -> Vec<(String, Estimate, &'a str)> {
         let mut rows = Vec::new();
         if let Ok(v) = &self.velocity {
-            rows.push(("RMS velocity, 10 to 1000 Hz".to_owned(), *v, 1e3, "mm/s"));
+            rows.push((
+                "RMS velocity, 10 to 1000 Hz".to_owned(),
+                scaled(v, 1e3),
+                "mm/s",
+            ));
         }
         if let Some(b) = &self.band {
             let of = |what: &str| format!("{what}, {:.0} to {:.0} Hz", b.band.low, b.band.high);
-            rows.push((of("Kurtosis"), b.kurtosis, 1.0, ""));
-            rows.push((of("RMS of the envelope"), b.envelope_rms, 1.0, unit));
-            rows.push((of("Peak of the envelope"), b.envelope_peak, 1.0, unit));
+            rows.push((of("Kurtosis"), b.kurtosis, ""));
+            rows.push((of("RMS of the envelope"), b.envelope_rms, unit));
+            rows.push((of("Peak of the envelope"), b.envelope_peak, unit));
         }
         rows
     }
@@ -151,4 +155,14 @@ impl Level {
         notes.extend(self.zone_words());
         notes
     }
+}
+
+/// In another unit, of which `factor` make one.
+pub(super) fn scaled(e: &Estimate, factor: f64) -> Estimate {
+    let mut e = *e;
+    e.value *= factor;
+    if let Some(i) = &mut e.interval {
+        (i.low, i.high) = (factor * i.low, factor * i.high);
+    }
+    e
 }

@@ -2,13 +2,16 @@
 
 mod args;
 mod bearing;
+mod files;
 mod level;
 pub(crate) mod measured;
 mod page;
+mod several;
 mod words;
 
 pub(crate) use args::AnalyzeArgs;
 
+use crate::args::PlotFormat;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
@@ -20,6 +23,8 @@ use brinell::analysis::{
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::atomic_write;
+use brinell_report::Picture;
+use files::{Files, files};
 use level::Level;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
@@ -63,8 +68,55 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     if let Some(rpm) = args.speed {
         turning(rpm, "--speed")?;
     }
+    if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
+        return Err(Failure::Usage(format!(
+            "--tolerance {}: expected more than 0 to 10 per cent",
+            args.tolerance
+        )));
+    }
+    match files(&args.files)? {
+        Files::One(path) => one(args, &path),
+        Files::Several(paths) => several::analyze(args, &paths),
+    }
+}
+
+/// Of one file, with all that is known of it.
+fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
+    let measured = load(args, path)?;
+    let name = measured.path.display().to_string();
+    let same = |told: &Value| told.is_null() || told["file"]["path"] == name.as_str();
+    let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;
+    let result = examine(args, measured)?;
+    let json = as_json(&result);
+    let mut written = Vec::new();
+    if let Some(folder) = &args.output {
+        earlier.remove()?;
+        let report = page::report(&result);
+        put_pages(
+            folder,
+            &args.plots,
+            &json,
+            &brinell_report::analysis_html(&report),
+            &brinell_report::analysis_pictures(&report),
+            &mut written,
+        )?;
+    }
+    put_json(args, &json, &mut written)?;
+    if !args.quiet {
+        for warning in &result.measured.warnings {
+            complain!("warning: {warning}");
+        }
+        if args.json.as_deref() != Some(Path::new("-")) {
+            words::tell(&result, &written);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The signal in a file.
+fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
     let mut measured = measured::load(
-        &args.file,
+        path,
         &Wanted {
             channel: args.channel.as_deref(),
             rate: args.rate,
@@ -82,17 +134,15 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         },
     )?;
     (measured.notes).extend(measured.scenario.as_deref().map(truth));
-    let earlier = earlier(args, &measured)?;
+    Ok(measured)
+}
+
+/// Everything that follows from a signal.
+fn examine(args: &AnalyzeArgs, mut measured: Measured) -> Result<Result_, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
     let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
     let mut options = Options::new(shaft, orders);
-    if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
-        return Err(Failure::Usage(format!(
-            "--tolerance {}: expected more than 0 to 10 per cent",
-            args.tolerance
-        )));
-    }
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
@@ -119,7 +169,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
         None => None,
     };
-    let result = Result_ {
+    Ok(Result_ {
         measured,
         rest,
         analysis,
@@ -133,39 +183,18 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         velocity,
         level,
         against,
-    };
-    let json = as_json(&result);
-    let mut written = Vec::new();
-    if let Some(folder) = &args.output {
-        earlier.remove()?;
-        write(folder, args, &result, json.clone(), &mut written)?;
-    }
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default();
-    match args.json.as_deref() {
-        Some(path) if path == Path::new("-") => document(&text),
-        Some(path) => {
-            atomic_write(path, (text + "\n").as_bytes())?;
-            written.push(path.to_owned());
-        }
-        None => {}
-    }
-    if !args.quiet {
-        for warning in &result.measured.warnings {
-            complain!("warning: {warning}");
-        }
-        if args.json.as_deref() != Some(Path::new("-")) {
-            words::tell(&result, &written);
-        }
-    }
-    Ok(ExitCode::SUCCESS)
+    })
 }
 
-/// That no result will be written over what is read; and the earlier results in the folder.
-fn earlier(args: &AnalyzeArgs, measured: &Measured) -> Result<Earlier, Failure> {
+/// That no result will be written over what is `read`; and the earlier results in the folder. `same` says whether these are of the same signals.
+fn earlier(
+    args: &AnalyzeArgs,
+    read: &[PathBuf],
+    same: impl FnOnce(&Value) -> bool,
+) -> Result<Earlier, Failure> {
     let mut inputs = Inputs::default();
-    inputs.add(&measured.path);
     // Of a run everything, whichever of its files is read.
-    for path in [&args.file].into_iter().chain(&args.against) {
+    for path in read.iter().chain(&args.against) {
         inputs.add(path);
         // What lies beside a run's signals is read with them.
         inputs.add(&path.with_file_name(SCENARIO));
@@ -182,8 +211,6 @@ fn earlier(args: &AnalyzeArgs, measured: &Measured) -> Result<Earlier, Failure> 
         folder,
         inputs: &inputs,
     };
-    let path = measured.path.display().to_string();
-    let same = |told: &Value| told.is_null() || told["file"]["path"] == path.as_str();
     place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
 }
 
@@ -383,28 +410,45 @@ fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
     })
 }
 
-fn write(
+/// A page with its pictures, and the JSON that tells of them, into a folder.
+fn put_pages(
     folder: &Path,
-    args: &AnalyzeArgs,
-    result: &Result_,
-    mut json: Value,
+    formats: &[PlotFormat],
+    json: &Value,
+    page: &str,
+    pictures: &[Picture],
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
     make_folder(folder)?;
-    let report = page::report(result);
-    let pictures = brinell_report::analysis_pictures(&report);
     let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
-    files.extend(picture_files(&pictures, &args.plots, folder));
+    files.extend(picture_files(pictures, formats, folder));
     // Before the others: who replaces them knows of them even where this is cut short.
-    json["files"] = names_below(folder, &files).into();
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
+    let mut listing = json.clone();
+    listing["files"] = names_below(folder, &files).into();
     let mut put = |name: &str, bytes: &[u8]| -> Result<(), Failure> {
         let path = folder.join(name);
         atomic_write(&path, bytes)?;
         written.push(path);
         Ok(())
     };
-    put(ANALYSIS, text.as_bytes())?;
-    put(REPORT, brinell_report::analysis_html(&report).as_bytes())?;
-    write_pictures(&pictures, &args.plots, folder, written)
+    put(ANALYSIS, pretty(&listing).as_bytes())?;
+    put(REPORT, page.as_bytes())?;
+    write_pictures(pictures, formats, folder, written)
+}
+
+/// The JSON where `--json` wants it.
+fn put_json(args: &AnalyzeArgs, json: &Value, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    match args.json.as_deref() {
+        Some(path) if path == Path::new("-") => document(pretty(json).trim_end()),
+        Some(path) => {
+            atomic_write(path, pretty(json).as_bytes())?;
+            written.push(path.to_owned());
+        }
+        None => {}
+    }
+    Ok(())
+}
+
+fn pretty(json: &Value) -> String {
+    serde_json::to_string_pretty(json).unwrap_or_default() + "\n"
 }

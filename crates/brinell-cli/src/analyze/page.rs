@@ -1,6 +1,7 @@
 //! The page of an analysis, from its findings.
 
 use super::Result_;
+use super::level::scaled;
 use super::words::{ratio, shaft_lines};
 use crate::say::short;
 use brinell::analysis::{Analysis, Component, shown_spectrum};
@@ -281,15 +282,6 @@ fn with_interval(e: &Estimate) -> String {
     }
 }
 
-/// In a smaller unit.
-fn scaled(mut e: Estimate, factor: f64) -> Estimate {
-    e.value *= factor;
-    if let Some(i) = &mut e.interval {
-        (i.low, i.high) = (factor * i.low, factor * i.high);
-    }
-    e
-}
-
 fn indicators(result: &Result_) -> Table {
     let unit = &result.measured.unit.name;
     let mut rows: Vec<Vec<String>> = (result.analysis.indicators.iter())
@@ -307,8 +299,7 @@ fn indicators(result: &Result_) -> Table {
             ]
         })
         .collect();
-    for (name, e, scale, unit) in result.level.rows(unit) {
-        let e = scaled(e, scale);
+    for (name, e, unit) in result.level.rows(unit) {
         rows.push(vec![
             name,
             short(e.value, 4),
@@ -328,7 +319,7 @@ fn indicators(result: &Result_) -> Table {
                 b.band.low, b.band.high
             ),
             short(1e3 * b.rms.value, 4),
-            with_interval(&scaled(b.rms, 1e3)),
+            with_interval(&scaled(&b.rms, 1e3)),
             "mm/s".into(),
         ]);
     }

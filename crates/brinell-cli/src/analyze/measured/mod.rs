@@ -228,16 +228,20 @@ fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }
+    run_in(path).ok_or_else(|| {
+        usage(format!(
+            "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
+            path.display()
+        ))
+    })
+}
+
+/// The signals in a folder, where it is a run's.
+pub(super) fn run_in(folder: &Path) -> Option<PathBuf> {
     ["parquet", "npz", "mat", "csv", "uff", "wav"]
         .iter()
-        .map(|ending| path.join(format!("signals.{ending}")))
+        .map(|ending| folder.join(format!("signals.{ending}")))
         .find(|file| file.is_file())
-        .ok_or_else(|| {
-            usage(format!(
-                "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
-                path.display()
-            ))
-        })
 }
 
 /// What damage the run had that made a signal.
