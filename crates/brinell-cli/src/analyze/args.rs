@@ -57,9 +57,9 @@ pub(crate) struct AnalyzeArgs {
     /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
-    /// Bearing by name
+    /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
-    pub(crate) bearing: Option<String>,
+    pub(crate) bearing: Vec<String>,
     /// Rolling elements in a row
     #[arg(long, value_name = "Z", conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
@@ -190,7 +190,7 @@ impl AnalyzeArgs {
     pub(super) fn names_a_bearing(&self) -> bool {
         let frequencies = [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf];
         let lengths = [self.pitch, self.diameter, self.contact_angle];
-        self.bearing.is_some()
+        !self.bearing.is_empty()
             || self.rollers.is_some()
             || lengths.iter().any(Option::is_some)
             || frequencies.iter().any(|f| f.is_some())

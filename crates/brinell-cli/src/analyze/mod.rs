@@ -2,6 +2,7 @@
 
 mod args;
 mod bearing;
+mod ends;
 mod files;
 mod level;
 pub(crate) mod measured;
@@ -48,13 +49,25 @@ struct Result_ {
     analysis: Analysis,
     /// Where the speed comes from.
     speed: String,
+    /// The bearing's name, where one was given.
+    name: String,
     /// Where the defect frequencies come from.
     bearing: String,
+    /// What is to be said in view of the machine's other bearings.
+    beside: Option<String>,
     /// The end of a long signal.
     last: Option<Analysis>,
     velocity: Option<VelocityBands>,
     level: Level,
     against: Option<Against>,
+}
+
+impl Result_ {
+    /// The verdict, and what is to be said beside it.
+    fn told(&self) -> String {
+        let beside = (self.beside.iter()).map(|words| format!(" {words}"));
+        self.analysis.verdict() + &beside.collect::<String>()
+    }
 }
 
 /// What the signal is laid over, in the signal's unit.
@@ -74,6 +87,14 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             args.tolerance
         )));
     }
+    if args.bearing.len() > 1 {
+        let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
+        if args.against.is_some() || beside.iter().any(|option| option.is_some()) {
+            return Err(Failure::Usage(
+                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf, --ftf or --against, and there are several".into(),
+            ));
+        }
+    }
     match files(&args.files)? {
         Files::One(path) => one(args, &path),
         Files::Several(paths) => several::analyze(args, &paths),
@@ -86,12 +107,17 @@ fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
     let name = measured.path.display().to_string();
     let same = |told: &Value| told.is_null() || told["file"]["path"] == name.as_str();
     let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;
-    let result = examine(args, measured)?;
-    let json = as_json(&result);
+    let results = results(args, path, measured)?;
+    let json = ends::whole(&results);
+    let lead = &results[ends::lead(&results).unwrap_or(0)];
     let mut written = Vec::new();
     if let Some(folder) = &args.output {
         earlier.remove()?;
-        let report = page::report(&result);
+        let mut report = page::report(lead);
+        if results.len() > 1 {
+            report.verdict = format!("{}: {}", lead.name, report.verdict);
+            report.tables.insert(0, ends::table(&results));
+        }
         put_pages(
             folder,
             &args.plots,
@@ -103,14 +129,25 @@ fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
     }
     put_json(args, &json, &mut written)?;
     if !args.quiet {
-        for warning in &result.measured.warnings {
+        for warning in &lead.measured.warnings {
             complain!("warning: {warning}");
         }
         if args.json.as_deref() != Some(Path::new("-")) {
-            words::tell(&result, &written);
+            words::tell(&results, lead, &written);
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A result for each bearing that was named, or one. The file is read anew for each but the first.
+fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Result_>, Failure> {
+    let mut names = args.bearing.iter().map(String::as_str);
+    let mut results = vec![examine(args, measured, names.next())?];
+    for name in names {
+        results.push(examine(args, load(args, path)?, Some(name))?);
+    }
+    ends::set_beside(&mut results);
+    Ok(results)
 }
 
 /// The signal in a file.
@@ -138,10 +175,14 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
 }
 
 /// Everything that follows from a signal.
-fn examine(args: &AnalyzeArgs, mut measured: Measured) -> Result<Result_, Failure> {
+fn examine(
+    args: &AnalyzeArgs,
+    mut measured: Measured,
+    name: Option<&str>,
+) -> Result<Result_, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
-    let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
+    let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     let mut options = Options::new(shaft, orders);
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
@@ -178,7 +219,9 @@ fn examine(args: &AnalyzeArgs, mut measured: Measured) -> Result<Result_, Failur
             "shaft speed {} r/min, from {speed}",
             (100.0 * rpm).round() / 100.0
         ),
+        name: name.unwrap_or_default().to_owned(),
         bearing,
+        beside: None,
         last,
         velocity,
         level,

@@ -50,7 +50,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             60.0 * a.shaft
         ),
         version: brinell::VERSION.into(),
-        verdict: a.verdict(),
+        verdict: result.told(),
         damage: a.causes().next().is_some(),
         warnings: m.warnings.clone(),
         notes,

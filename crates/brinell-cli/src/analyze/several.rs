@@ -2,11 +2,11 @@
 
 use super::args::AnalyzeArgs;
 use super::level::scaled;
-use super::{Result_, as_json, earlier, examine, load, put_pages};
+use super::{Result_, as_json, earlier, ends, load, put_pages, results};
 use crate::failure::Failure;
 use crate::results::Earlier;
 use crate::say::{complain, one_line, say, short};
-use brinell::analysis::{Analysis, Unit};
+use brinell::analysis::{Analysis, MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
     IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, trend_html, trend_pictures,
@@ -33,7 +33,10 @@ struct Found {
     velocity: Option<Estimate>,
     zone: Option<&'static str>,
     /// Scores of the families, by name.
-    scores: Vec<(&'static str, f64)>,
+    scores: Vec<(String, f64)>,
+    /// Where speed and bearings come from.
+    said: String,
+    class: Option<MachineClass>,
     json: Value,
 }
 
@@ -69,8 +72,10 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
     let names = names(files);
     let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
     let width = width.clamp(4, WIDEST);
+    let mut columns = COLUMNS;
+    columns[1].1 *= args.bearing.len().max(1);
     if !quiet {
-        let heads = COLUMNS.map(|(head, width)| format!("{head:>width$}"));
+        let heads = columns.map(|(head, width)| format!("{head:>width$}"));
         say!("{:<width$} {}", "file", heads.join(" "));
     }
     let mut rows: Vec<Row> = Vec::new();
@@ -88,7 +93,7 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
             match &row.found {
                 Ok(found) => {
                     let cells = found.cells();
-                    let cells = (cells.iter().zip(COLUMNS))
+                    let cells = (cells.iter().zip(columns))
                         .map(|(cell, (_, width))| format!("{cell:>width$}"));
                     let cells: Vec<String> = cells.collect();
                     say!("{:<width$} {}", one_line(&row.name), cells.join(" "));
@@ -129,13 +134,13 @@ pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode,
 }
 
 fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
-    let result = examine(args, load(args, path)?)?;
+    let results = results(args, path, load(args, path)?)?;
     if !args.quiet {
-        for warning in &result.measured.warnings {
+        for warning in results.iter().take(1).flat_map(|r| &r.measured.warnings) {
             complain!("warning: {}: {warning}", path.display());
         }
     }
-    Ok(Found::of(&result))
+    Ok(Found::of(&results))
 }
 
 /// File names, or whole paths where two are called alike.
@@ -154,7 +159,7 @@ fn names(files: &[PathBuf]) -> Vec<String> {
 }
 
 /// The damaged parts, in a word each.
-fn verdict(a: &Analysis) -> String {
+pub(super) fn verdict(a: &Analysis) -> String {
     let parts: Vec<&str> = a.causes().map(|f| f.component.words()).collect();
     match (parts.is_empty(), &a.beyond) {
         (false, _) => parts.join(", "),
@@ -165,31 +170,52 @@ fn verdict(a: &Analysis) -> String {
 }
 
 impl Found {
-    fn of(result: &Result_) -> Self {
+    /// Levels are those of the bearing that leads: its band is the one shown.
+    fn of(results: &[Result_]) -> Self {
+        let lead = ends::lead(results);
+        let result = &results[lead.unwrap_or(0)];
         let (m, a) = (&result.measured, &result.analysis);
         let indicator = |wanted| {
             (a.indicators.iter())
                 .find(|(i, _)| *i == wanted)
                 .map(|i| i.1)
         };
-        let mut json = as_json(result);
-        if let Some(all) = json.as_object_mut() {
-            // The bulk of it, of little use for a trend.
-            for key in ["bands", "searched", "brinell"] {
-                all.remove(key);
+        let prefix = |r: &Result_| match results.len() {
+            1 => String::new(),
+            _ => format!("{} ", r.name),
+        };
+        let verdicts = results.iter().enumerate().map(|(k, r)| {
+            let calls = r.analysis.causes().next().is_some();
+            let doubt = if calls && lead != Some(k) { "?" } else { "" };
+            format!("{}{}{doubt}", prefix(r), verdict(&r.analysis))
+        });
+        let scores = results.iter().flat_map(|r| {
+            let families = r.analysis.families.iter();
+            families.map(move |f| (format!("{}{}", prefix(r), f.name), f.score))
+        });
+        let json = ends::to_json(results, |result| {
+            let mut json = as_json(result);
+            if let Some(all) = json.as_object_mut() {
+                // The bulk of it, of little use for a trend.
+                for key in ["bands", "searched", "brinell"] {
+                    all.remove(key);
+                }
             }
-        }
+            json
+        });
         Found {
             seconds: a.duration(),
-            verdict: verdict(a),
-            damage: a.causes().next().is_some(),
+            verdict: verdicts.collect::<Vec<_>>().join("; "),
+            damage: lead.is_some(),
             unit: m.unit.clone(),
             rms: indicator(Indicator::Rms),
             peak: indicator(Indicator::Peak),
             kurtosis: indicator(Indicator::Kurtosis),
             velocity: result.level.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
             zone: result.level.letter(),
-            scores: a.families.iter().map(|f| (f.name, f.score)).collect(),
+            said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
+            class: result.level.class,
+            scores: scores.collect(),
             json,
         }
     }
@@ -211,6 +237,12 @@ impl Found {
             self.zone.unwrap_or("-").into(),
         ]
     }
+}
+
+/// Where each bearing's frequencies come from.
+fn said_of_bearings(results: &[Result_]) -> String {
+    let all: Vec<&str> = results.iter().map(|r| r.bearing.as_str()).collect();
+    all.join("; ")
 }
 
 fn write(
@@ -297,16 +329,9 @@ fn report(rows: &[Row]) -> TrendReport {
 fn note(rows: &[Row]) -> String {
     let mut note = "RMS velocity: 10 to 1000 Hz.".to_owned();
     if let Some(first) = rows.iter().find_map(|r| r.found.as_ref().ok()) {
-        let said = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-        let file = &first.json["file"];
-        note += &format!(
-            " Of the first: {}; bearing: {}.",
-            said(&file["speed"]),
-            said(&file["bearing"])
-        );
-        let class = &first.json["severity"]["iso_20816_3"]["machine_class"];
-        if let Some(class) = class.as_str() {
-            note += &format!(" Class {class} of {}.", super::level::ZONES);
+        note += &format!(" Of the first: {}.", first.said);
+        if let Some(class) = first.class {
+            note += &format!(" Class {} of {}.", class.name(), super::level::ZONES);
         }
     }
     note
@@ -366,13 +391,13 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
     }
     let mut families: Vec<&str> = Vec::new();
     for (name, _) in found().flat_map(|f| &f.scores) {
-        if !families.contains(name) {
+        if !families.contains(&name.as_str()) {
             families.push(name);
         }
     }
     let lines = families.into_iter().map(|name| {
         line(rows, name, |f| {
-            let score = f.scores.iter().find(|(n, _)| *n == name)?.1;
+            let score = f.scores.iter().find(|(n, _)| n == name)?.1;
             Some(Estimate {
                 value: score,
                 interval: None,

@@ -37,7 +37,8 @@ pub(super) fn shaft_lines(a: &Analysis) -> String {
     )
 }
 
-pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
+/// Of each bearing the verdict, of the signal the rest: `result` is one of them.
+pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
     say!(
         "{}, channel {}: {:.3} s, {} samples",
@@ -50,8 +51,25 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
         say!("  {note}");
     }
     say!("  {}; {}", result.speed, shaft_lines(a));
-    say!("  bearing: {}", result.bearing);
-    say!("\n{}\n", a.verdict());
+    for one in results {
+        say!("  bearing: {}", one.bearing);
+    }
+    for (k, one) in results.iter().enumerate() {
+        let of = match results.len() {
+            1 => String::new(),
+            n => format!("Bearing {} of {n}, {}: ", k + 1, one.name),
+        };
+        say!("\n{of}{}", one.told());
+        if let (Some(rest), Some(last)) = (&one.rest, &one.last) {
+            say!(
+                "\nThe last {} samples, from {:.1} s on: {}",
+                last.samples,
+                rest.last_start,
+                last.verdict()
+            );
+        }
+    }
+    say!("");
     let rows: Vec<String> = (a.indicators.iter())
         .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {
@@ -67,17 +85,11 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
     for line in result.level.lines(&m.unit.name) {
         say!("  {line}");
     }
-    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
-        say!(
-            "\nThe last {} samples, from {:.1} s on: {}",
-            last.samples,
-            rest.last_start,
-            last.verdict()
-        );
+    if let Some(rest) = &result.rest {
         let whole: Vec<String> = whole_indicators(rest)
             .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
             .collect();
-        say!("\n  of all {} samples: {}", rest.samples, whole.join(", "));
+        say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
         say!(
