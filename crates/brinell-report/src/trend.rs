@@ -50,7 +50,7 @@ pub fn trend_html(report: &TrendReport) -> String {
     section(&mut page, "trend", "Trend", |page| {
         none(
             page,
-            "Numbers on the axis are those of the table's first column. Bars: 95 % intervals. Crosses on the axis: no value.",
+            "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; rings: values without one; crosses on the axis: no value.",
         );
         for (index, plot) in report.plots.iter().enumerate() {
             let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));

@@ -337,12 +337,18 @@ fn note(rows: &[Row]) -> String {
     note
 }
 
-/// A point for each file, numbered from 1.
+/// Whether the files' names have room on the axis of a trend; else they are numbered.
+fn named(rows: &[Row]) -> bool {
+    const MOST: usize = 8;
+    rows.len() <= MOST
+}
+
+/// A point for each file, named or numbered from 1.
 fn line(rows: &[Row], label: &str, of: impl Fn(&Found) -> Option<Estimate>) -> IndicatorLine {
     let point = |(i, row): (usize, &Row)| {
         let e = row.found.as_ref().ok().and_then(&of);
         IndicatorPoint {
-            x: (i + 1) as f64,
+            x: if named(rows) { i } else { i + 1 } as f64,
             value: e.map_or(f64::NAN, |e| e.value),
             interval: e.and_then(|e| e.interval).map(|i| (i.low, i.high)),
         }
@@ -360,6 +366,11 @@ fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
         label: label.into(),
         unit: unit.into(),
         x_label: "File".into(),
+        x_names: match named(rows) {
+            true => rows.iter().map(|row| row.name.clone()).collect(),
+            false => Vec::new(),
+        },
+        ordered: true,
         lines,
         ..IndicatorPlot::default()
     };
