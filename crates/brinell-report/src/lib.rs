@@ -38,6 +38,7 @@ mod study;
 mod sweep;
 mod tables;
 mod thin;
+mod trend;
 
 pub use analysis::{AnalysisReport, Badge, analysis_html, analysis_pictures};
 pub use calibrate::{
@@ -77,3 +78,4 @@ pub use sweep::{
     sweep_pictures,
 };
 pub use tables::Table;
+pub use trend::{TrendReport, trend_html, trend_pictures};

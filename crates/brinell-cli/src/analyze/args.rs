@@ -1,7 +1,9 @@
 //! The options of `brinell analyze`.
 
 use crate::args::PlotFormat;
+use brinell::analysis::MachineClass;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -10,15 +12,19 @@ use std::path::PathBuf;
     Examples:\n  \
     brinell analyze 105.mat --channel DE --rate 12000 --unit g --bearing 6205-2RS\n  \
     brinell analyze rig.csv --channel 2 --rate 25600 --unit m/s^2 --speed 1500 --rollers 13 --pitch 39 --diameter 7.5\n  \
+    brinell analyze pump.wav --full-scale 5V --sensitivity 100mV/g --speed 1480 --bearing 6205\n  \
     brinell analyze rig.csv --channel acc --rate 25600 --unit g --speed 1500 --bpfo 89.6 --bpfi 5.415x\n  \
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
-    brinell analyze measured.mat ... --against out/my-bearing -o look\n\n\
+    brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
+    brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
     Bearings by name: the catalogue (`brinell bearing list`), and 6205-2RS, 6203-2RS, NICE, ZA-2115, UER204 of public data sets.\n\n\
-    Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, 2 bad input."
+    Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
-    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run
-    pub(crate) file: PathBuf,
+    /// Signals: csv and other text, parquet, mat (v5 to v7.3), hdf5, npy, npz, wav, uff; or the folder of a run. Several files, or a folder of
+    /// them, are analysed with the same options, one after the other; a folder's by name, with 2 before 10
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
     /// Channel: its name, a part of it that no other has, or its number from 1; `X(:,2)` takes a matrix's column
     #[arg(long, value_name = "NAME|N")]
     pub(crate) channel: Option<String>,
@@ -34,15 +40,26 @@ pub(crate) struct AnalyzeArgs {
     /// Unit of the signal: m/s^2, g, mm/s, m/s, V, counts, ...
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
+    /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
+    #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
+    pub(crate) sensitivity: Option<String>,
+    /// Of a WAV: what its largest number stands for, as 5V (with --sensitivity) or 10g
+    #[arg(
+        long,
+        value_name = "VALUE",
+        conflicts_with = "unit",
+        allow_negative_numbers = true
+    )]
+    pub(crate) full_scale: Option<String>,
     /// Shaft speed (the inner ring turns, the outer rests)
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub(crate) speed: Option<f64>,
     /// Channel that holds the shaft speed in r/min; where it strays by more than 0.5 % it is followed (order tracking), else its mean counts
     #[arg(long, value_name = "NAME|N", conflicts_with = "speed")]
     pub(crate) speed_channel: Option<String>,
-    /// Bearing by name
+    /// Bearing by name; again for a further one of the same shaft, as at a motor's other end: each is judged
     #[arg(long, value_name = "NAME")]
-    pub(crate) bearing: Option<String>,
+    pub(crate) bearing: Vec<String>,
     /// Rolling elements in a row
     #[arg(long, value_name = "Z", conflicts_with = "bearing")]
     pub(crate) rollers: Option<usize>,
@@ -82,6 +99,9 @@ pub(crate) struct AnalyzeArgs {
     /// Frequency of the cage
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) ftf: Option<String>,
+    /// Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW
+    #[arg(long, value_name = "CLASS", value_parser = machine_class())]
+    pub(crate) machine_class: Option<MachineClass>,
     /// How far slip and an inexact speed may move a defect frequency
     #[arg(
         long,
@@ -116,6 +136,23 @@ pub(crate) struct AnalyzeArgs {
     /// Unit of the other, where its file does not state it
     #[arg(long, value_name = "UNIT", requires = "against")]
     pub(crate) against_unit: Option<String>,
+    /// Sensitivity of the other's sensor
+    #[arg(
+        long,
+        value_name = "mV/g",
+        requires = "against",
+        allow_negative_numbers = true
+    )]
+    pub(crate) against_sensitivity: Option<String>,
+    /// Full scale of the other, a WAV
+    #[arg(
+        long,
+        value_name = "VALUE",
+        requires = "against",
+        conflicts_with = "against_unit",
+        allow_negative_numbers = true
+    )]
+    pub(crate) against_full_scale: Option<String>,
     /// Write the result as JSON; `-` prints it instead of words
     #[arg(long, value_name = "PATH|-")]
     pub(crate) json: Option<PathBuf>,
@@ -138,12 +175,22 @@ pub(crate) struct AnalyzeArgs {
     pub(crate) quiet: bool,
 }
 
+/// Reads `2-rigid`.
+fn machine_class() -> impl TypedValueParser<Value = MachineClass> {
+    PossibleValuesParser::new(MachineClass::ALL.map(MachineClass::name)).try_map(|name| {
+        (MachineClass::ALL
+            .into_iter()
+            .find(|class| class.name() == name))
+        .ok_or("no such class")
+    })
+}
+
 impl AnalyzeArgs {
     /// Whether anything says which bearing it is.
     pub(super) fn names_a_bearing(&self) -> bool {
         let frequencies = [&self.bpfo, &self.bpfi, &self.bsf, &self.ftf];
         let lengths = [self.pitch, self.diameter, self.contact_angle];
-        self.bearing.is_some()
+        !self.bearing.is_empty()
             || self.rollers.is_some()
             || lengths.iter().any(Option::is_some)
             || frequencies.iter().any(|f| f.is_some())

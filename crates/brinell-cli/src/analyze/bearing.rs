@@ -6,13 +6,14 @@ use crate::failure::Failure;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
 
-/// Orders over the shaft's frequency `shaft` (Hz), and where they come from.
+/// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come from.
 pub(super) fn orders(
     args: &AnalyzeArgs,
+    name: Option<&str>,
     measured: &Measured,
     shaft: f64,
 ) -> Result<(DefectOrders, String), Failure> {
-    let (mut orders, mut source) = base(args, measured)?;
+    let (mut orders, mut source) = base(args, name, measured)?;
     let given = [
         ("--bpfo", "BPFO", &args.bpfo, &mut orders.bpfo),
         ("--bpfi", "BPFI", &args.bpfi, &mut orders.bpfi),
@@ -40,8 +41,12 @@ pub(super) fn orders(
     Ok((orders, source))
 }
 
-fn base(args: &AnalyzeArgs, measured: &Measured) -> Result<(DefectOrders, String), Failure> {
-    if let Some(name) = &args.bearing {
+fn base(
+    args: &AnalyzeArgs,
+    name: Option<&str>,
+    measured: &Measured,
+) -> Result<(DefectOrders, String), Failure> {
+    if let Some(name) = name {
         if let Some(known) = DefectOrders::named(name) {
             return Ok(known);
         }

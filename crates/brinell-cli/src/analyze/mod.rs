@@ -2,12 +2,17 @@
 
 mod args;
 mod bearing;
+mod ends;
+mod files;
+mod level;
 pub(crate) mod measured;
 mod page;
+mod several;
 mod words;
 
 pub(crate) use args::AnalyzeArgs;
 
+use crate::args::PlotFormat;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
@@ -19,6 +24,9 @@ use brinell::analysis::{
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
+use brinell_report::Picture;
+use files::{Files, files};
+use level::Level;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -41,12 +49,25 @@ struct Result_ {
     analysis: Analysis,
     /// Where the speed comes from.
     speed: String,
+    /// The bearing's name, where one was given.
+    name: String,
     /// Where the defect frequencies come from.
     bearing: String,
+    /// What is to be said in view of the machine's other bearings.
+    beside: Option<String>,
     /// The end of a long signal.
     last: Option<Analysis>,
     velocity: Option<VelocityBands>,
+    level: Level,
     against: Option<Against>,
+}
+
+impl Result_ {
+    /// The verdict, and what is to be said beside it.
+    fn told(&self) -> String {
+        let beside = (self.beside.iter()).map(|words| format!(" {words}"));
+        self.analysis.verdict() + &beside.collect::<String>()
+    }
 }
 
 /// What the signal is laid over, in the signal's unit.
@@ -60,14 +81,86 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     if let Some(rpm) = args.speed {
         turning(rpm, "--speed")?;
     }
+    if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
+        return Err(Failure::Usage(format!(
+            "--tolerance {}: expected more than 0 to 10 per cent",
+            args.tolerance
+        )));
+    }
+    if args.bearing.len() > 1 {
+        let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
+        if args.against.is_some() || beside.iter().any(|option| option.is_some()) {
+            return Err(Failure::Usage(
+                "--bearing: expected one bearing with --bpfo, --bpfi, --bsf, --ftf or --against, and there are several".into(),
+            ));
+        }
+    }
+    match files(&args.files)? {
+        Files::One(path) => one(args, &path),
+        Files::Several(paths) => several::analyze(args, &paths),
+    }
+}
+
+/// Of one file, with all that is known of it.
+fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
+    let measured = load(args, path)?;
+    let name = measured.path.display().to_string();
+    let same = |told: &Value| told.is_null() || told["file"]["path"] == name.as_str();
+    let earlier = earlier(args, &[path.to_owned(), measured.path.clone()], same)?;
+    let results = results(args, path, measured)?;
+    let json = ends::whole(&results);
+    let lead = &results[ends::lead(&results).unwrap_or(0)];
+    let mut written = Vec::new();
+    if let Some(folder) = &args.output {
+        let mut report = page::report(lead);
+        if results.len() > 1 {
+            report.verdict = format!("{}: {}", lead.name, report.verdict);
+            report.tables.insert(0, ends::table(&results));
+        }
+        written = put_pages(
+            folder,
+            &args.plots,
+            &json,
+            &brinell_report::analysis_html(&report),
+            &brinell_report::analysis_pictures(&report),
+            &earlier,
+        )?;
+    }
+    put_json(args, &json, &mut written)?;
+    if !args.quiet {
+        for warning in &lead.measured.warnings {
+            complain!("warning: {warning}");
+        }
+        if args.json.as_deref() != Some(Path::new("-")) {
+            words::tell(&results, lead, &written);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A result for each bearing that was named, or one. The file is read anew for each but the first.
+fn results(args: &AnalyzeArgs, path: &Path, measured: Measured) -> Result<Vec<Result_>, Failure> {
+    let mut names = args.bearing.iter().map(String::as_str);
+    let mut results = vec![examine(args, measured, names.next())?];
+    for name in names {
+        results.push(examine(args, load(args, path)?, Some(name))?);
+    }
+    ends::set_beside(&mut results);
+    Ok(results)
+}
+
+/// The signal in a file.
+fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
     let mut measured = measured::load(
-        &args.file,
+        path,
         &Wanted {
             channel: args.channel.as_deref(),
             rate: args.rate,
             time_channel: args.time_channel.as_deref(),
             time_unit: args.time_unit.as_deref(),
             unit: args.unit.as_deref(),
+            sensitivity: args.sensitivity.as_deref(),
+            full_scale: args.full_scale.as_deref(),
             speed_channel: args.speed_channel.as_deref(),
             start: args.start,
             duration: args.duration,
@@ -77,17 +170,19 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         },
     )?;
     (measured.notes).extend(measured.scenario.as_deref().map(truth));
-    let earlier = earlier(args, &measured)?;
+    Ok(measured)
+}
+
+/// Everything that follows from a signal.
+fn examine(
+    args: &AnalyzeArgs,
+    mut measured: Measured,
+    name: Option<&str>,
+) -> Result<Result_, Failure> {
     let (rpm, speed) = speed(args, &measured)?;
     let shaft = rpm.abs() / 60.0;
-    let (orders, bearing) = bearing::orders(args, &measured, shaft)?;
+    let (orders, bearing) = bearing::orders(args, name, &measured, shaft)?;
     let mut options = Options::new(shaft, orders);
-    if !(args.tolerance > 0.0 && args.tolerance <= 10.0) {
-        return Err(Failure::Usage(format!(
-            "--tolerance {}: expected more than 0 to 10 per cent",
-            args.tolerance
-        )));
-    }
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
@@ -98,6 +193,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
     let reading = measured.beyond.take().map(Beyond::start);
     let analysis = look(&measured, &options)?;
     let velocity = velocities(&measured, shaft);
+    let level = Level::of(&measured, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(
@@ -113,7 +209,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
         Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
         None => None,
     };
-    let result = Result_ {
+    Ok(Result_ {
         measured,
         rest,
         analysis,
@@ -122,42 +218,25 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             "shaft speed {} r/min, from {speed}",
             (100.0 * rpm).round() / 100.0
         ),
+        name: name.unwrap_or_default().to_owned(),
         bearing,
+        beside: None,
         last,
         velocity,
+        level,
         against,
-    };
-    let json = as_json(&result);
-    let mut written = Vec::new();
-    if let Some(folder) = &args.output {
-        written = write(folder, args, &result, json.clone(), &earlier)?;
-    }
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default();
-    match args.json.as_deref() {
-        Some(path) if path == Path::new("-") => document(&text),
-        Some(path) => {
-            atomic_write(path, (text + "\n").as_bytes())?;
-            written.push(path.to_owned());
-        }
-        None => {}
-    }
-    if !args.quiet {
-        for warning in &result.measured.warnings {
-            complain!("warning: {warning}");
-        }
-        if args.json.as_deref() != Some(Path::new("-")) {
-            words::tell(&result, &written);
-        }
-    }
-    Ok(ExitCode::SUCCESS)
+    })
 }
 
-/// That no result will be written over what is read; and the earlier results in the folder.
-fn earlier(args: &AnalyzeArgs, measured: &Measured) -> Result<Earlier, Failure> {
+/// That no result will be written over what is `read`; and the earlier results in the folder. `same` says whether these are of the same signals.
+fn earlier(
+    args: &AnalyzeArgs,
+    read: &[PathBuf],
+    same: impl FnOnce(&Value) -> bool,
+) -> Result<Earlier, Failure> {
     let mut inputs = Inputs::default();
-    inputs.add(&measured.path);
     // Of a run everything, whichever of its files is read.
-    for path in [&args.file].into_iter().chain(&args.against) {
+    for path in read.iter().chain(&args.against) {
         inputs.add(path);
         // What lies beside a run's signals is read with them.
         inputs.add(&path.with_file_name(SCENARIO));
@@ -174,8 +253,6 @@ fn earlier(args: &AnalyzeArgs, measured: &Measured) -> Result<Earlier, Failure> 
         folder,
         inputs: &inputs,
     };
-    let path = measured.path.display().to_string();
-    let same = |told: &Value| told.is_null() || told["file"]["path"] == path.as_str();
     place.earlier(args.overwrite, &[ANALYSIS.into(), REPORT.into()], same)
 }
 
@@ -271,6 +348,8 @@ fn lay_over(
         channel: args.against_channel.as_deref(),
         rate: args.against_rate,
         unit: args.against_unit.as_deref(),
+        sensitivity: args.against_sensitivity.as_deref(),
+        full_scale: args.against_full_scale.as_deref(),
         whose: "against-",
         ..Wanted::default()
     };
@@ -327,6 +406,7 @@ fn as_json(result: &Result_) -> Value {
         comparison,
     );
     value["brinell"] = brinell::VERSION.into();
+    value["severity"] = result.level.json(&m.unit.name);
     value["file"] = json!({
         "path": m.path.display().to_string(),
         "channel": m.channel,
@@ -372,25 +452,41 @@ fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
     })
 }
 
-fn write(
+/// A page with its pictures, and the JSON that tells of them, into a folder.
+fn put_pages(
     folder: &Path,
-    args: &AnalyzeArgs,
-    result: &Result_,
-    mut json: Value,
+    formats: &[PlotFormat],
+    json: &Value,
+    page: &str,
+    pictures: &[Picture],
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
     make_folder(folder)?;
-    let report = page::report(result);
-    let pictures = brinell_report::analysis_pictures(&report);
     let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
-    files.extend(picture_files(&pictures, &args.plots, folder));
-    json["files"] = names_below(folder, &files).into();
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    let page = brinell_report::analysis_html(&report);
+    files.extend(picture_files(pictures, formats, folder));
+    let mut listing = json.clone();
+    listing["files"] = names_below(folder, &files).into();
     let mut ready = vec![
-        atomic_prepare(folder.join(ANALYSIS), text)?,
+        atomic_prepare(folder.join(ANALYSIS), pretty(&listing))?,
         atomic_prepare(folder.join(REPORT), page)?,
     ];
-    ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
+    ready.extend(ready_pictures(pictures, formats, folder)?);
     earlier.give_way(ready)
+}
+
+/// The JSON where `--json` wants it.
+fn put_json(args: &AnalyzeArgs, json: &Value, written: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    match args.json.as_deref() {
+        Some(path) if path == Path::new("-") => document(pretty(json).trim_end()),
+        Some(path) => {
+            atomic_write(path, pretty(json).as_bytes())?;
+            written.push(path.to_owned());
+        }
+        None => {}
+    }
+    Ok(())
+}
+
+fn pretty(json: &Value) -> String {
+    serde_json::to_string_pretty(json).unwrap_or_default() + "\n"
 }

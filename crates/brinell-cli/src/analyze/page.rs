@@ -1,7 +1,8 @@
 //! The page of an analysis, from its findings.
 
 use super::Result_;
-use super::words::{ratio, shaft_lines};
+use super::level::scaled;
+use super::words::{called, ratio, shaft_lines};
 use crate::say::short;
 use brinell::analysis::{Analysis, COLUMNS, Family, Standing, Verdict, shown_spectrum};
 use brinell::signal::{Estimate, Indicator, Spectrum};
@@ -36,6 +37,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     notes.extend(m.notes.iter().cloned());
     notes.push(format!("{}; {}", result.speed, shaft_lines(a)));
     notes.push(format!("bearing: {}", result.bearing));
+    notes.extend(result.level.notes());
     notes.push(format!(
         "mean removed: {} {}",
         short(a.mean, 4),
@@ -50,7 +52,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
             60.0 * a.shaft
         ),
         version: brinell::VERSION.into(),
-        verdict: a.verdict(),
+        verdict: result.told(),
         badge: badge(a),
         warnings: m.warnings.clone(),
         notes,
@@ -164,12 +166,12 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
 
 /// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
 fn badge(a: &Analysis) -> (String, Badge) {
-    let parts: Vec<&str> = a.causes().map(|f| f.component.words()).collect();
-    match a.conclusion() {
-        Verdict::Damage => (parts.join(", "), Badge::Bad),
-        Verdict::CannotTell => ("cannot tell".into(), Badge::Open),
-        Verdict::NothingFound => ("no damage found".into(), Badge::Good),
-    }
+    let badge = match a.conclusion() {
+        Verdict::Damage => Badge::Bad,
+        Verdict::CannotTell => Badge::Open,
+        Verdict::NothingFound => Badge::Good,
+    };
+    (called(a), badge)
 }
 
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.
@@ -196,6 +198,7 @@ fn facts(result: &Result_) -> Vec<Fact> {
             facts.push(Fact::new(capital(&label), e.value, unit, ""));
         }
     }
+    facts.extend(result.level.fact());
     facts
 }
 
@@ -255,6 +258,14 @@ fn indicators(result: &Result_) -> Table {
             ]
         })
         .collect();
+    for (name, e, unit) in result.level.rows(unit) {
+        rows.push(vec![
+            name,
+            short(e.value, 4),
+            with_interval(&e),
+            unit.to_owned(),
+        ]);
+    }
     for b in result.velocity.iter().flatten().flatten() {
         let cut = if b.cut_short {
             ", cut short by the sample rate"
@@ -267,9 +278,7 @@ fn indicators(result: &Result_) -> Table {
                 b.band.low, b.band.high
             ),
             short(1e3 * b.rms.value, 4),
-            b.rms.interval.map_or("–".into(), |i| {
-                format!("{} to {}", short(1e3 * i.low, 4), short(1e3 * i.high, 4))
-            }),
+            with_interval(&scaled(&b.rms, 1e3)),
             "mm/s".into(),
         ]);
     }
@@ -277,8 +286,8 @@ fn indicators(result: &Result_) -> Table {
         title: "Indicators".into(),
         columns: ["Indicator", "#Value", "#95 % interval", "Unit"].map(str::to_owned).to_vec(),
         rows,
-        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. Bands of velocity are those of ISO 15242 at 1800 r/min, \
-               with sharp edges."
+        note: "Of the signal less its mean: averages over whole revolutions; peaks are those of a revolution. The envelope is the amplitude of what lies in the band shown. \
+               Bands of velocity from 50 Hz up are those of ISO 15242 at 1800 r/min, with sharp edges."
             .into(),
     }
 }

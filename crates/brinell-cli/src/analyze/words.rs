@@ -2,7 +2,7 @@
 
 use super::{HEADLINES, Result_, whole_indicators};
 use crate::say::{say, short};
-use brinell::analysis::{Analysis, COLUMNS, Difference};
+use brinell::analysis::{Analysis, COLUMNS, Difference, Verdict};
 use brinell::signal::Indicator;
 use std::path::PathBuf;
 
@@ -37,6 +37,16 @@ pub(super) fn shaft_lines(a: &Analysis) -> String {
     )
 }
 
+/// The damaged parts in a word or two each, or what is said instead.
+pub(super) fn called(a: &Analysis) -> String {
+    let parts: Vec<&str> = a.causes().map(|f| f.component.words()).collect();
+    match a.conclusion() {
+        Verdict::Damage => parts.join(", "),
+        Verdict::CannotTell => "cannot tell".into(),
+        Verdict::NothingFound => "no damage found".into(),
+    }
+}
+
 /// What stands at each defect frequency, in columns.
 fn families(a: &Analysis) {
     let heads = COLUMNS.map(|c| c.trim_start_matches('#').to_owned());
@@ -55,7 +65,8 @@ fn families(a: &Analysis) {
     say!("");
 }
 
-pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
+/// Of each bearing the verdict, of the signal the rest: `result` is one of them.
+pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
     let (m, a) = (&result.measured, &result.analysis);
     say!(
         "{}, channel {}: {:.3} s, {} samples",
@@ -68,9 +79,25 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
         say!("  {note}");
     }
     say!("  {}; {}", result.speed, shaft_lines(a));
-    say!("  bearing: {}", result.bearing);
-    say!("\n{}\n", a.verdict());
-    families(a);
+    for one in results {
+        say!("  bearing: {}", one.bearing);
+    }
+    for (k, one) in results.iter().enumerate() {
+        let of = match results.len() {
+            1 => String::new(),
+            n => format!("Bearing {} of {n}, {}: ", k + 1, one.name),
+        };
+        say!("\n{of}{}\n", one.told());
+        families(&one.analysis);
+        if let (Some(rest), Some(last)) = (&one.rest, &one.last) {
+            say!(
+                "\nThe last {} samples, from {:.1} s on: {}",
+                last.samples,
+                rest.last_start,
+                last.verdict()
+            );
+        }
+    }
     let rows: Vec<String> = (a.indicators.iter())
         .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {
@@ -83,17 +110,14 @@ pub(super) fn tell(result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
-    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
-        say!(
-            "\nThe last {} samples, from {:.1} s on: {}",
-            last.samples,
-            rest.last_start,
-            last.verdict()
-        );
+    for line in result.level.lines(&m.unit.name) {
+        say!("  {line}");
+    }
+    if let Some(rest) = &result.rest {
         let whole: Vec<String> = whole_indicators(rest)
             .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
             .collect();
-        say!("\n  of all {} samples: {}", rest.samples, whole.join(", "));
+        say!("  of all {} samples: {}", rest.samples, whole.join(", "));
     }
     if let Some(other) = &result.against {
         say!(

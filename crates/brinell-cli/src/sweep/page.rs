@@ -170,6 +170,7 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
                 Some(_) => Vec::new(),
                 None => values.iter().map(|v| (*v).to_owned()).collect(),
             },
+            ordered: false,
             legend: legend.join(", "),
             lines: lines.to_vec(),
         })

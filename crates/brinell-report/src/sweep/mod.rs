@@ -46,6 +46,8 @@ pub struct IndicatorPlot {
     pub x_unit: String,
     /// Names on the x axis where the key's values are no numbers; x then counts them from 0.
     pub x_names: Vec<String>,
+    /// Whether there is an order in these names, so that points are joined.
+    pub ordered: bool,
     /// What the lines' labels are values of; may be empty.
     pub legend: String,
     /// The lines.

@@ -71,7 +71,7 @@ pub fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let step = BESIDE.min(BESIDE_ALL / count.max(1) as f64);
     for (k, line) in plot.lines.iter().enumerate() {
         let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
-        draw(&mut chart, line, paint(k), beside, !named);
+        draw(&mut chart, line, paint(k), beside, !named || plot.ordered);
     }
     let mut drawn = chart.finish();
     if named {

@@ -19,6 +19,7 @@ fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
         x_unit: "r/min".into(),
         x_names: names.iter().map(|n| (*n).to_owned()).collect(),
         legend: String::new(),
+        ordered: false,
         lines: vec![IndicatorLine {
             label: "full".into(),
             points,

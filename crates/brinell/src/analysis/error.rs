@@ -1,6 +1,6 @@
 //! Why there is no analysis.
 
-use super::Unit;
+use super::{Sensitivity, Unit};
 use crate::signal::SignalError;
 
 /// What is wrong with the signal, or with what was asked of it.
@@ -85,6 +85,23 @@ pub enum AnalysisError {
     UnknownUnit {
         /// As it was given.
         spelling: String,
+    },
+    /// No sensitivity.
+    #[error(
+        "`{text}`: expected a sensor's output for one unit of vibration, with both units, such as {}",
+        Sensitivity::FORMS
+    )]
+    NoSensitivity {
+        /// As it was given.
+        text: String,
+    },
+    /// No full scale.
+    #[error(
+        "`{text}`: expected what the largest number stands for, with its unit, such as 5V, 500mV or 10g"
+    )]
+    NoFullScale {
+        /// As it was given.
+        text: String,
     },
     /// No defect frequency to look for.
     #[error("no defect frequency is known, so there is nothing to look for")]

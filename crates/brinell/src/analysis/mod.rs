@@ -31,6 +31,8 @@ mod family;
 mod frequencies;
 mod json;
 mod known_lines;
+mod sensitivity;
+mod severity;
 mod together;
 mod unit;
 mod verdict;
@@ -43,6 +45,10 @@ pub use family::{Family, Harmonic, Standing};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
+pub use sensitivity::{FullScale, Sensitivity};
+pub use severity::{
+    BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
+};
 pub use unit::{Quantity, Unit};
 pub use verdict::Beyond;
 pub use words::COLUMNS;

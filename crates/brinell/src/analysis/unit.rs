@@ -11,7 +11,11 @@ pub enum Quantity {
     Velocity,
     /// Displacement.
     Displacement,
-    /// A sensor's raw voltage, or anything else whose scale to vibration nobody stated.
+    /// A sensor's voltage, whose scale to vibration nobody stated.
+    Voltage,
+    /// A sensor's current, likewise.
+    Current,
+    /// Anything else.
     Other,
 }
 
@@ -22,6 +26,8 @@ impl Quantity {
             Quantity::Acceleration => "Acceleration",
             Quantity::Velocity => "Velocity",
             Quantity::Displacement => "Displacement",
+            Quantity::Voltage => "Voltage",
+            Quantity::Current => "Current",
             Quantity::Other => "Signal",
         }
     }
@@ -62,7 +68,7 @@ impl Unit {
     }
 
     fn known(spelling: &str) -> Option<Self> {
-        use Quantity::{Acceleration, Displacement, Other, Velocity};
+        use Quantity::{Acceleration, Current, Displacement, Other, Velocity, Voltage};
         let plain: String = (spelling.chars().filter(|c| !c.is_whitespace()))
             .map(|c| if c == '²' { '2' } else { c })
             .filter(|c| *c != '^' && *c != '*')
@@ -80,11 +86,11 @@ impl Unit {
             "m" => ("m", Displacement, 1.0),
             "mm" => ("mm", Displacement, 1e-3),
             "um" | "µm" | "μm" => ("µm", Displacement, 1e-6),
-            "v" | "volt" | "volts" => ("V", Other, 1.0),
-            "mv" => ("mV", Other, 1.0),
-            "uv" | "µv" | "μv" => ("µV", Other, 1.0),
-            "a" => ("A", Other, 1.0),
-            "ma" => ("mA", Other, 1.0),
+            "v" | "volt" | "volts" => ("V", Voltage, 1.0),
+            "mv" => ("mV", Voltage, 1e-3),
+            "uv" | "µv" | "μv" => ("µV", Voltage, 1e-6),
+            "a" => ("A", Current, 1.0),
+            "ma" => ("mA", Current, 1e-3),
             "n" => ("N", Other, 1.0),
             "pa" => ("Pa", Other, 1.0),
             "count" | "counts" => ("counts", Other, 1.0),
@@ -115,7 +121,8 @@ mod tests {
             let unit = Unit::of(text);
             assert_eq!((unit.name.as_str(), unit.to_si), (name, si));
         }
-        assert_eq!(Unit::of("V").quantity, Quantity::Other);
+        assert_eq!(Unit::of("V").quantity, Quantity::Voltage);
+        assert_eq!(Unit::of("furlong").quantity, Quantity::Other);
     }
 
     #[test]

@@ -25,10 +25,32 @@ use super::psd::Detrend;
 /// [`SignalError`] with fewer than 8 samples, samples that are not finite, or a lower edge that is not above 0 and below
 /// half the sampling rate and the upper edge.
 pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
+    whole(a, fs, band, Motion::Acceleration)
+}
+
+/// What lies within a band of `x`, sampled at `fs` Hz, with the edges and ends of [`velocity`] and its errors.
+///
+/// # Errors
+/// As [`velocity`].
+pub fn band_pass(x: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError> {
+    whole(x, fs, band, Motion::Velocity)
+}
+
+/// What a velocity is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// An acceleration, integrated.
+    Acceleration,
+    /// A velocity, as it is.
+    Velocity,
+}
+
+fn whole(a: &[f64], fs: f64, band: Band, from: Motion) -> Result<Vec<f64>, SignalError> {
     let mut v = Vec::new();
     velocities(
         a,
         fs,
+        from,
         &[band],
         |_| a.len(),
         |_, velocity| {
@@ -43,6 +65,7 @@ pub fn velocity(a: &[f64], fs: f64, band: Band) -> Result<Vec<f64>, SignalError>
 pub(super) fn velocities(
     a: &[f64],
     fs: f64,
+    from: Motion,
     bands: &[Band],
     count: impl Fn(usize) -> usize,
     mut each: impl FnMut(usize, &[f64]),
@@ -62,11 +85,19 @@ pub(super) fn velocities(
     Detrend::Linear.apply(&mut v);
     let spectrum = Interleaved::planned(a.len(), &mut planner).forward(&v, &mut room);
     // Twice the positive frequencies are the whole; half the sampling rate has no quadrature, and so no integral.
-    let scale = 2.0 / (TAU * fs);
+    let scale = match from {
+        Motion::Acceleration => 2.0 / (TAU * fs),
+        Motion::Velocity => 2.0 / a.len() as f64,
+    };
     for (place, band) in bands.iter().enumerate() {
         let integral = |first: usize, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| {
             for (i, (shaped, bin)) in shaped.iter_mut().zip(bins).enumerate() {
-                *shaped = Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64);
+                *shaped = match from {
+                    Motion::Acceleration => {
+                        Complex::new(bin.im, -bin.re) * (scale / (first + i) as f64)
+                    }
+                    Motion::Velocity => bin * scale,
+                };
             }
         };
         let inside = bins(fs, a.len(), *band);
@@ -153,9 +184,14 @@ mod tests {
         ];
         let mut v = Vec::new();
         let whole = |_| a.len();
-        velocities(&a, FS, &bands, whole, |_, velocity| {
-            v.push(velocity.to_vec())
-        })
+        velocities(
+            &a,
+            FS,
+            Motion::Acceleration,
+            &bands,
+            whole,
+            |_, velocity| v.push(velocity.to_vec()),
+        )
         .unwrap();
         let worst = (0..999)
             .map(|i| (v[0][i] + v[1][i] - v[2][i]).abs())

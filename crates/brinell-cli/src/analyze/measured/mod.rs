@@ -10,16 +10,16 @@ use crate::failure::Failure;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Speed;
-use brinell_io::{Channel, IoError, SignalFile, open};
+use brinell_io::{Channel, FileKind, IoError, SignalFile, open};
 use channel::{Chosen, channel};
 use rate::rate;
 pub(crate) use speed::StatedSpeed;
 use speed::{speed, states_speed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use stretch::stretch;
 pub(crate) use stretch::{Beyond, Reading, Rest};
-use unit::unit;
+use stretch::{scale, stretch};
+use unit::{Scaled, unit};
 
 /// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
 pub(crate) const MOST: usize = 1 << 22;
@@ -32,6 +32,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) time_channel: Option<&'a str>,
     pub(crate) time_unit: Option<&'a str>,
     pub(crate) unit: Option<&'a str>,
+    pub(crate) sensitivity: Option<&'a str>,
+    pub(crate) full_scale: Option<&'a str>,
     pub(crate) speed_channel: Option<&'a str>,
     pub(crate) start: Option<f64>,
     pub(crate) duration: Option<f64>,
@@ -115,7 +117,16 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     };
     let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
     notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
-    let unit = unit(&name, &channel, wanted, run, &mut notes, &mut warnings)?;
+    let is_wav = file.kind() == FileKind::Wav;
+    let unit = unit(
+        &name,
+        &channel,
+        is_wav,
+        wanted,
+        run,
+        &mut notes,
+        &mut warnings,
+    )?;
     asked.extend(rate.as_ref().err().cloned());
     asked.extend(unit.as_ref().err().cloned());
     if wanted.ask_speed && !states_speed(&file, wanted, run, &name) {
@@ -124,7 +135,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     if wanted.ask_bearing && run.is_none() {
         asked.push(ASK_BEARING.into());
     }
-    let (Ok((rate, _)), Ok(unit), []) = (rate, unit, &asked[..]) else {
+    let (Ok((rate, _)), Ok(Scaled { unit, factor }), []) = (rate, unit, &asked[..]) else {
         return Err(asking(&path, &asked));
     };
 
@@ -157,7 +168,8 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         Some(d) => ((d * rate).round() as usize).max(1),
         None => MOST,
     };
-    let (x, more) = stretch(&mut file, &name, skip, most)?;
+    let (mut x, more) = stretch(&mut file, &name, skip, most)?;
+    scale(&mut x, factor);
     let long = more && wanted.duration.is_none();
     if x.is_empty() {
         return Err(usage(format!(
@@ -191,6 +203,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
             name: name.clone(),
             skip,
             rate,
+            factor,
         }),
         path,
         channel: name,
@@ -215,16 +228,20 @@ fn signals_in(path: &Path) -> Result<PathBuf, Failure> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }
+    run_in(path).ok_or_else(|| {
+        usage(format!(
+            "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
+            path.display()
+        ))
+    })
+}
+
+/// The signals in a folder, where it is a run's.
+pub(super) fn run_in(folder: &Path) -> Option<PathBuf> {
     ["parquet", "npz", "mat", "csv", "uff", "wav"]
         .iter()
-        .map(|ending| path.join(format!("signals.{ending}")))
+        .map(|ending| folder.join(format!("signals.{ending}")))
         .find(|file| file.is_file())
-        .ok_or_else(|| {
-            usage(format!(
-                "{} is a folder without signals.parquet, .npz, .mat, .csv, .uff or .wav; name a file, or the folder of a run",
-                path.display()
-            ))
-        })
 }
 
 /// What damage the run had that made a signal.

@@ -33,6 +33,13 @@ pub(super) fn stretch(
     Ok((values, more))
 }
 
+/// From a file's numbers to the signal's unit.
+pub(super) fn scale(values: &mut [f64], factor: f64) {
+    if factor != 1.0 {
+        values.iter_mut().for_each(|v| *v *= factor);
+    }
+}
+
 /// What lies beyond the first [`MOST`] samples of a long signal.
 pub(crate) struct Rest {
     /// Samples of the whole, from the first one analysed on.
@@ -54,6 +61,8 @@ pub(crate) struct Beyond {
     /// Samples before the first one analysed.
     pub(super) skip: usize,
     pub(super) rate: f64,
+    /// The signal's unit over the file's numbers.
+    pub(super) factor: f64,
 }
 
 /// The same while a thread reads it.
@@ -63,7 +72,13 @@ impl Beyond {
     /// Begins to read, beside whatever else is done.
     pub(crate) fn start(mut self) -> Reading {
         Reading(std::thread::spawn(move || {
-            whole(&mut self.file, &self.name, self.skip, self.rate)
+            whole(
+                &mut self.file,
+                &self.name,
+                self.skip,
+                self.rate,
+                self.factor,
+            )
         }))
     }
 }
@@ -78,8 +93,14 @@ impl Reading {
 }
 
 /// All samples after the first `skip`, in one pass; of those beyond the first [`MOST`], the last.
-fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64) -> Result<Rest, IoError> {
-    let mut passed = 0;
+fn whole(
+    file: &mut SignalFile,
+    name: &str,
+    skip: usize,
+    rate: f64,
+    factor: f64,
+) -> Result<Rest, IoError> {
+    let (mut passed, mut scaled) = (0, Vec::new());
     let mut rest = Rest {
         samples: 0,
         moments: Moments::new(),
@@ -91,7 +112,10 @@ fn whole(file: &mut SignalFile, name: &str, skip: usize, rate: f64) -> Result<Re
     file.read_pieces(name, |piece| {
         let from = skip.saturating_sub(passed).min(piece.len());
         passed += piece.len();
-        let piece = &piece[from..];
+        scaled.clear();
+        scaled.extend_from_slice(&piece[from..]);
+        scale(&mut scaled, factor);
+        let piece = &scaled[..];
         if piece.iter().all(|v| v.is_finite()) {
             rest.moments.extend(piece);
         } else {
@@ -134,7 +158,7 @@ mod tests {
             bytes.extend((0..n).flat_map(|i| value(i).to_le_bytes()));
             std::fs::write(&path, bytes).unwrap();
             let mut file = open(&path).unwrap();
-            let rest = whole(&mut file, "array", skip, 100.0).unwrap();
+            let rest = whole(&mut file, "array", skip, 100.0, 2.0).unwrap();
             assert_eq!(rest.samples, (n - skip) as u64);
             assert_eq!(rest.missing, 0);
             let first = (n - MOST).max(skip + MOST);
@@ -143,9 +167,9 @@ mod tests {
             assert!(
                 (first..n)
                     .zip(&rest.last)
-                    .all(|(i, v)| *v == f64::from(value(i)))
+                    .all(|(i, v)| *v == 2.0 * f64::from(value(i)))
             );
-            let sum: f64 = (skip..n).map(|i| f64::from(value(i))).sum();
+            let sum: f64 = (skip..n).map(|i| 2.0 * f64::from(value(i))).sum();
             let mean = rest.moments.get(Indicator::Mean).unwrap();
             assert!((mean * rest.samples as f64 / sum - 1.0).abs() < 1e-12);
         }

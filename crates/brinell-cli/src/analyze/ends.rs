@@ -1,0 +1,130 @@
+//! Several bearings of one machine in one signal: which one leads, and what may be another's.
+//!
+//! Each bearing is judged by itself. A sensor hears all of them, so where two are called damaged the lines of one may be sidebands or
+//! harmonics of the other's; the higher score leads.
+
+use super::{Result_, as_json};
+use brinell::analysis::Family;
+use brinell_report::Table;
+use serde_json::{Value, json};
+
+/// Its highest-scoring damage.
+fn call(result: &Result_) -> Option<&Family> {
+    (result.analysis.causes()).max_by(|a, b| a.score.total_cmp(&b.score))
+}
+
+/// The bearing whose damage scores highest, by index; the first of equals.
+pub(super) fn lead(results: &[Result_]) -> Option<usize> {
+    let score = |k: usize| call(&results[k]).map(|f| f.score);
+    let mut best: Option<(usize, f64)> = None;
+    for k in 0..results.len() {
+        if let Some(score) = score(k)
+            && best.is_none_or(|(_, most)| score > most)
+        {
+            best = Some((k, score));
+        }
+    }
+    best.map(|(k, _)| k)
+}
+
+/// What is to be said of each beside its verdict, in view of the others.
+pub(super) fn set_beside(results: &mut [Result_]) {
+    let lead = lead(results);
+    let all = 0..results.len();
+    let beside: Vec<Option<String>> = all.map(|k| beside(results, k, lead)).collect();
+    for (result, beside) in results.iter_mut().zip(beside) {
+        result.beside = beside;
+    }
+}
+
+fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> {
+    let this = &results[k];
+    let mut parts = Vec::new();
+    for found in this.analysis.causes() {
+        let (hz, tolerance) = (found.frequency, this.analysis.options.tolerance);
+        for other in (results.iter().enumerate()).filter(|(j, _)| *j != k) {
+            let a = &other.1.analysis;
+            let near = (a.options.orders.strikes())
+                .map(|(_, name, order)| (name, order * a.shaft))
+                .find(|(_, at)| (hz / at - 1.0).abs() <= tolerance);
+            parts.extend(near.map(|(name, at)| {
+                format!(
+                    "The lines of {} are either bearing's: {name} of {} lies at {at:.2} Hz.",
+                    found.name, other.1.name
+                )
+            }));
+        }
+    }
+    if let Some(lead) = lead.filter(|l| *l != k).map(|l| &results[l])
+        && let Some(first) = call(lead)
+    {
+        let name = &lead.name;
+        parts.extend(match (call(this), &this.analysis.beyond) {
+            (Some(own), _) => Some(format!(
+                "It may be {name}'s, which leads: {} there scores {:.1}, and {} here {:.1}. One sensor hears both.",
+                first.name, first.score, own.name, own.score
+            )),
+            (None, Some(_)) => Some(format!(
+                "Or these lines are {name}'s, which is called damaged: one sensor hears both."
+            )),
+            (None, None) => None,
+        });
+    }
+    (!parts.is_empty()).then(|| parts.join(" "))
+}
+
+/// One bearing's JSON as it is; of several, each under `bearings`.
+pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Value {
+    if let [only] = results {
+        return of(only);
+    }
+    let path = results
+        .first()
+        .map(|r| r.measured.path.display().to_string());
+    json!({
+        "brinell": brinell::VERSION,
+        "file": { "path": path },
+        "leads": lead(results).map(|k| results[k].name.clone()),
+        "bearings": results.iter().map(|result| {
+            let mut one = of(result);
+            one["bearing"] = result.name.clone().into();
+            one["beside"] = result.beside.clone().into();
+            one
+        }).collect::<Vec<_>>(),
+    })
+}
+
+/// The JSON of everything.
+pub(super) fn whole(results: &[Result_]) -> Value {
+    to_json(results, as_json)
+}
+
+/// The bearings on the page.
+pub(super) fn table(results: &[Result_]) -> Table {
+    let row = |result: &Result_| {
+        let call = call(result);
+        let found = call.map(|f| {
+            let hz = f.frequency;
+            [
+                format!("{} at {hz:.2} Hz", f.name),
+                format!("{:.1}", f.score),
+            ]
+        });
+        let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
+        vec![
+            result.name.clone(),
+            super::words::called(&result.analysis),
+            frequency,
+            score,
+            result.told(),
+        ]
+    };
+    Table {
+        title: "Bearings".into(),
+        columns: ["Bearing", "Damage", "Frequency", "#Score", "Verdict"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: results.iter().map(row).collect(),
+        note: "Each bearing is judged by itself, and one sensor hears all. The pictures are of the one that leads, or of the first.".into(),
+    }
+}

@@ -1,0 +1,112 @@
+//! Which files are meant: one, several, or those of a folder.
+
+use super::measured::run_in;
+use crate::failure::Failure;
+use std::cmp::Ordering;
+use std::path::{Path, PathBuf};
+
+/// Endings of files of signals that are looked for in a folder.
+const ENDINGS: [&str; 15] = [
+    "csv", "tsv", "lvm", "wav", "mat", "npz", "npy", "parquet", "pq", "h5", "hdf5", "hdf", "uff",
+    "unv", "uf",
+];
+
+/// What was named.
+pub(super) enum Files {
+    /// One file, or the folder of a run.
+    One(PathBuf),
+    /// Several, in this order.
+    Several(Vec<PathBuf>),
+}
+
+/// Files as they were named; a folder that is no run's stands for its files, in the order of their names.
+pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
+    if let [only] = named
+        && (!only.is_dir() || run_in(only).is_some())
+    {
+        return Ok(Files::One(only.clone()));
+    }
+    let mut all = Vec::new();
+    for path in named {
+        match (path.is_dir(), run_in(path)) {
+            (false, _) => all.push(path.clone()),
+            (true, Some(signals)) => all.push(signals),
+            (true, None) => all.extend(inside(path)?),
+        }
+    }
+    Ok(Files::Several(all))
+}
+
+/// The files of signals right in a folder.
+fn inside(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |error| Failure::Read(folder.to_owned(), error);
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let hidden = (path.file_name()).is_some_and(|n| n.to_string_lossy().starts_with('.'));
+        let is_signal = (path.extension())
+            .is_some_and(|e| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+        if is_signal && !hidden && path.is_file() {
+            found.push(path);
+        }
+    }
+    if found.is_empty() {
+        return Err(Failure::Usage(format!(
+            "{} is a folder without files of signals ({}), and not that of a run (signals.parquet, .npz, .mat, .csv, .uff or .wav); name a file, \
+             a folder of files, or the folder of a run",
+            folder.display(),
+            ENDINGS.join(", ")
+        )));
+    }
+    found.sort_by(|a, b| by_name(&a.to_string_lossy(), &b.to_string_lossy()));
+    Ok(found)
+}
+
+/// Order of names as people have it: numbers within them by their values, so that 2 comes before 10; capitals and small letters side by side.
+fn by_name(a: &str, b: &str) -> Ordering {
+    let (mut left, mut right) = (a, b);
+    while let (Some(l), Some(r)) = (left.chars().next(), right.chars().next()) {
+        let order = if l.is_ascii_digit() && r.is_ascii_digit() {
+            let (x, y) = (digits(&mut left), digits(&mut right));
+            // Of numbers without zeros in front, the longer is the larger.
+            x.len().cmp(&y.len()).then(x.cmp(y))
+        } else {
+            (left, right) = (&left[l.len_utf8()..], &right[r.len_utf8()..]);
+            l.to_lowercase().cmp(r.to_lowercase())
+        };
+        if order != Ordering::Equal {
+            return order;
+        }
+    }
+    (left.len().cmp(&right.len())).then_with(|| a.cmp(b))
+}
+
+/// Takes the digits in front, and gives them without the zeros in front.
+fn digits<'a>(text: &mut &'a str) -> &'a str {
+    let end = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
+    let (number, rest) = text.split_at(end);
+    *text = rest;
+    number.trim_start_matches('0')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_names_are_in_the_order_of_their_numbers() {
+        let ordered = [
+            "a", "a1.csv", "a2.csv", "A10.csv", "a10b2", "a10b011", "a100.csv", "b", "b 3", "b12",
+            "é2",
+        ];
+        for (i, a) in ordered.iter().enumerate() {
+            for (j, b) in ordered.iter().enumerate() {
+                assert_eq!(by_name(a, b), i.cmp(&j), "{a} {b}");
+            }
+        }
+        assert_eq!(by_name("a01", "a1").reverse(), by_name("a1", "a01"));
+        assert_ne!(by_name("a01", "a1"), Ordering::Equal);
+    }
+}

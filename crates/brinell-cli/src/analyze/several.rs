@@ -1,0 +1,409 @@
+//! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
+
+use super::args::AnalyzeArgs;
+use super::level::scaled;
+use super::words::called;
+use super::{Result_, as_json, earlier, ends, load, put_pages, results};
+use crate::failure::Failure;
+use crate::results::Earlier;
+use crate::say::{complain, one_line, say, short};
+use brinell::analysis::{MachineClass, Unit};
+use brinell::signal::{Estimate, Indicator};
+use brinell_report::{
+    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, trend_html, trend_pictures,
+};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What is kept of a file.
+struct Row {
+    name: String,
+    found: Result<Found, String>,
+}
+
+struct Found {
+    seconds: f64,
+    verdict: String,
+    damage: bool,
+    unit: Unit,
+    rms: Option<Estimate>,
+    peak: Option<Estimate>,
+    kurtosis: Option<Estimate>,
+    /// mm/s.
+    velocity: Option<Estimate>,
+    zone: Option<&'static str>,
+    /// Scores of the families, by name.
+    scores: Vec<(String, f64)>,
+    /// Where speed and bearings come from.
+    said: String,
+    class: Option<MachineClass>,
+    json: Value,
+}
+
+/// Columns after the name, with their widths on the terminal.
+const COLUMNS: [(&str, usize); 7] = [
+    ("s", 8),
+    ("damage", 28),
+    ("RMS", 16),
+    ("peak", 16),
+    ("kurtosis", 9),
+    ("mm/s", 9),
+    ("zone", 5),
+];
+/// Longest name that the terminal's table makes room for.
+const WIDEST: usize = 48;
+
+pub(super) fn analyze(args: &AnalyzeArgs, files: &[PathBuf]) -> Result<ExitCode, Failure> {
+    if args.against.is_some() {
+        return Err(Failure::Usage(
+            "--against: expected one file to lay another over, and there are several".into(),
+        ));
+    }
+    let paths: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    let of_same = |told: &Value| {
+        let records = told["records"].as_array();
+        records.is_some_and(|all| {
+            let of = all.iter().map(|r| r["file"]["path"].as_str());
+            of.eq(paths.iter().map(|p| Some(p.as_str())))
+        })
+    };
+    let earlier = earlier(args, files, of_same)?;
+    let quiet = args.quiet || args.json.as_deref() == Some(Path::new("-"));
+    let names = names(files);
+    let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
+    let width = width.clamp(4, WIDEST);
+    let mut columns = COLUMNS;
+    columns[1].1 *= args.bearing.len().max(1);
+    if !quiet {
+        let heads = columns.map(|(head, width)| format!("{head:>width$}"));
+        say!("{:<width$} {}", "file", heads.join(" "));
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    for (path, name) in files.iter().zip(names) {
+        let found = one(args, path).map_err(|error| {
+            let words = error.words().replace('\n', " ");
+            // The row has its name.
+            let named = format!("{}: ", path.display());
+            words
+                .strip_prefix(&named)
+                .map_or(words.clone(), str::to_owned)
+        });
+        let row = Row { name, found };
+        if !quiet {
+            match &row.found {
+                Ok(found) => {
+                    let cells = found.cells();
+                    let cells = (cells.iter().zip(columns))
+                        .map(|(cell, (_, width))| format!("{cell:>width$}"));
+                    let cells: Vec<String> = cells.collect();
+                    say!("{:<width$} {}", one_line(&row.name), cells.join(" "));
+                }
+                Err(why) => say!("{:<width$} no result: {why}", one_line(&row.name)),
+            }
+        }
+        rows.push(row);
+    }
+    let failed = rows.iter().filter(|r| r.found.is_err()).count();
+    if let [
+        Row {
+            name,
+            found: Err(why),
+        },
+        ..,
+    ] = &rows[..]
+        && failed == rows.len()
+    {
+        // Most often an option that is missing.
+        return Err(Failure::Usage(format!(
+            "none of the {failed} files could be analysed; the first, {name}: {why}"
+        )));
+    }
+    let written = write(args, &rows, &paths, &earlier)?;
+    if failed > 0 {
+        complain!(
+            "error: {failed} of {} files could not be analysed",
+            rows.len()
+        );
+    }
+    if !quiet {
+        for path in written {
+            say!("  wrote {}", path.display());
+        }
+    }
+    Ok(ExitCode::from(u8::from(failed > 0)))
+}
+
+fn one(args: &AnalyzeArgs, path: &Path) -> Result<Found, Failure> {
+    let results = results(args, path, load(args, path)?)?;
+    if !args.quiet {
+        for warning in results.iter().take(1).flat_map(|r| &r.measured.warnings) {
+            complain!("warning: {}: {warning}", path.display());
+        }
+    }
+    Ok(Found::of(&results))
+}
+
+/// File names, or whole paths where two are called alike.
+fn names(files: &[PathBuf]) -> Vec<String> {
+    let short = |path: &PathBuf| (path.file_name()).map(|n| n.to_string_lossy().into_owned());
+    let mut all: Vec<Option<String>> = files.iter().map(short).collect();
+    let own = all.clone();
+    all.sort();
+    let alike = all.windows(2).any(|pair| pair[0] == pair[1]);
+    (files.iter().zip(own))
+        .map(|(path, name)| match name {
+            Some(name) if !alike => name,
+            _ => path.display().to_string(),
+        })
+        .collect()
+}
+
+impl Found {
+    /// Levels are those of the bearing that leads: its band is the one shown.
+    fn of(results: &[Result_]) -> Self {
+        let lead = ends::lead(results);
+        let result = &results[lead.unwrap_or(0)];
+        let (m, a) = (&result.measured, &result.analysis);
+        let indicator = |wanted| {
+            (a.indicators.iter())
+                .find(|(i, _)| *i == wanted)
+                .map(|i| i.1)
+        };
+        let prefix = |r: &Result_| match results.len() {
+            1 => String::new(),
+            _ => format!("{} ", r.name),
+        };
+        let verdicts = results.iter().enumerate().map(|(k, r)| {
+            let calls = r.analysis.causes().next().is_some();
+            let doubt = if calls && lead != Some(k) { "?" } else { "" };
+            format!("{}{}{doubt}", prefix(r), called(&r.analysis))
+        });
+        let scores = results.iter().flat_map(|r| {
+            let families = r.analysis.families.iter();
+            families.map(move |f| (format!("{}{}", prefix(r), f.name), f.score))
+        });
+        let json = ends::to_json(results, |result| {
+            let mut json = as_json(result);
+            if let Some(all) = json.as_object_mut() {
+                // The bulk of it, of little use for a trend.
+                for key in ["families", "brinell"] {
+                    all.remove(key);
+                }
+            }
+            json
+        });
+        Found {
+            seconds: a.duration(),
+            verdict: verdicts.collect::<Vec<_>>().join("; "),
+            damage: lead.is_some(),
+            unit: m.unit.clone(),
+            rms: indicator(Indicator::Rms),
+            peak: indicator(Indicator::Peak),
+            kurtosis: indicator(Indicator::Kurtosis),
+            velocity: result.level.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
+            zone: result.level.letter(),
+            said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
+            class: result.level.class,
+            scores: scores.collect(),
+            json,
+        }
+    }
+
+    /// In the order of [`COLUMNS`].
+    fn cells(&self) -> [String; 7] {
+        let number = |e: &Option<Estimate>, unit: &str| match e {
+            Some(e) if unit.is_empty() => short(e.value, 4),
+            Some(e) => format!("{} {unit}", short(e.value, 4)),
+            None => "-".into(),
+        };
+        [
+            format!("{:.3}", self.seconds),
+            self.verdict.clone(),
+            number(&self.rms, &self.unit.name),
+            number(&self.peak, &self.unit.name),
+            number(&self.kurtosis, ""),
+            number(&self.velocity, ""),
+            self.zone.unwrap_or("-").into(),
+        ]
+    }
+}
+
+/// Where each bearing's frequencies come from.
+fn said_of_bearings(results: &[Result_]) -> String {
+    let all: Vec<&str> = results.iter().map(|r| r.bearing.as_str()).collect();
+    all.join("; ")
+}
+
+fn write(
+    args: &AnalyzeArgs,
+    rows: &[Row],
+    paths: &[String],
+    earlier: &Earlier,
+) -> Result<Vec<PathBuf>, Failure> {
+    let records: Vec<Value> = (rows.iter().zip(paths))
+        .map(|(row, path)| match &row.found {
+            Ok(found) => found.json.clone(),
+            Err(why) => json!({ "file": { "path": path }, "error": why }),
+        })
+        .collect();
+    let json = json!({ "brinell": brinell::VERSION, "records": records });
+    let mut written = Vec::new();
+    if let Some(folder) = &args.output {
+        let report = report(rows);
+        written = put_pages(
+            folder,
+            &args.plots,
+            &json,
+            &trend_html(&report),
+            &trend_pictures(&report),
+            earlier,
+        )?;
+    }
+    super::put_json(args, &json, &mut written)?;
+    Ok(written)
+}
+
+fn report(rows: &[Row]) -> TrendReport {
+    let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
+    let failures = rows
+        .iter()
+        .filter_map(|r| Some((r.name.clone(), r.found.as_ref().err()?.clone())));
+    let failures: Vec<(String, String)> = failures.collect();
+    let damaged = found().filter(|f| f.damage).count();
+    let table = Table {
+        title: "Files".into(),
+        columns: [
+            "#No.",
+            "File",
+            "#Length, s",
+            "Damage",
+            "#RMS",
+            "#Peak",
+            "#Kurtosis",
+            "#RMS velocity, mm/s",
+            "Zone",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        rows: (rows.iter().enumerate())
+            .map(|(i, row)| {
+                let mut cells = vec![(i + 1).to_string(), row.name.clone()];
+                match &row.found {
+                    Ok(found) => cells.extend(found.cells()),
+                    Err(_) => {
+                        cells.extend(["–", "no result", "–", "–", "–", "–", "–"].map(str::to_owned))
+                    }
+                }
+                cells
+            })
+            .collect(),
+        note: note(rows),
+    };
+    TrendReport {
+        title: "Several signals".into(),
+        subtitle: format!(
+            "{} files, damage called in {damaged}, no result from {}",
+            rows.len(),
+            failures.len()
+        ),
+        version: brinell::VERSION.into(),
+        table,
+        plots: plots(rows),
+        failures,
+    }
+}
+
+/// What holds for all rows.
+fn note(rows: &[Row]) -> String {
+    let mut note = "RMS velocity: 10 to 1000 Hz.".to_owned();
+    if let Some(first) = rows.iter().find_map(|r| r.found.as_ref().ok()) {
+        note += &format!(" Of the first: {}.", first.said);
+        if let Some(class) = first.class {
+            note += &format!(" Class {} of {}.", class.name(), super::level::ZONES);
+        }
+    }
+    note
+}
+
+/// Whether the files' names have room on the axis of a trend; else they are numbered.
+fn named(rows: &[Row]) -> bool {
+    const MOST: usize = 8;
+    rows.len() <= MOST
+}
+
+/// A point for each file, named or numbered from 1.
+fn line(rows: &[Row], label: &str, of: impl Fn(&Found) -> Option<Estimate>) -> IndicatorLine {
+    let point = |(i, row): (usize, &Row)| {
+        let e = row.found.as_ref().ok().and_then(&of);
+        IndicatorPoint {
+            x: if named(rows) { i } else { i + 1 } as f64,
+            value: e.map_or(f64::NAN, |e| e.value),
+            interval: e.and_then(|e| e.interval).map(|i| (i.low, i.high)),
+        }
+    };
+    IndicatorLine {
+        label: label.into(),
+        points: rows.iter().enumerate().map(point).collect(),
+    }
+}
+
+fn plots(rows: &[Row]) -> Vec<IndicatorPlot> {
+    let found = || rows.iter().filter_map(|r| r.found.as_ref().ok());
+    let plot = |name: &str, label: &str, unit: &str, lines: Vec<IndicatorLine>| IndicatorPlot {
+        name: format!("trend-{name}"),
+        label: label.into(),
+        unit: unit.into(),
+        x_label: "File".into(),
+        x_names: match named(rows) {
+            true => rows.iter().map(|row| row.name.clone()).collect(),
+            false => Vec::new(),
+        },
+        ordered: true,
+        lines,
+        ..IndicatorPlot::default()
+    };
+    let mut plots = Vec::new();
+    if let Some(first) = found().next() {
+        // In the first one's unit, where that can be.
+        let unit = &first.unit;
+        let rms = line(rows, "RMS", |f| {
+            let factor = f.unit.to_si / unit.to_si;
+            let same = f.unit.name == unit.name || f.unit.quantity == unit.quantity;
+            f.rms.filter(|_| same).map(|e| scaled(&e, factor))
+        });
+        plots.push(plot("rms", "RMS", &unit.name, vec![rms]));
+    }
+    plots.push(plot(
+        "kurtosis",
+        "Kurtosis",
+        "",
+        vec![line(rows, "Kurtosis", |f| f.kurtosis)],
+    ));
+    if found().any(|f| f.velocity.is_some()) {
+        let lines = vec![line(rows, "RMS velocity", |f| f.velocity)];
+        plots.push(plot(
+            "velocity",
+            "RMS velocity, 10 to 1000 Hz",
+            "mm/s",
+            lines,
+        ));
+    }
+    let mut families: Vec<&str> = Vec::new();
+    for (name, _) in found().flat_map(|f| &f.scores) {
+        if !families.contains(&name.as_str()) {
+            families.push(name);
+        }
+    }
+    let lines = families.into_iter().map(|name| {
+        line(rows, name, |f| {
+            let score = f.scores.iter().find(|(n, _)| n == name)?.1;
+            Some(Estimate {
+                value: score,
+                interval: None,
+            })
+        })
+    });
+    plots.push(plot("score", "Score of a family", "", lines.collect()));
+    plots
+}

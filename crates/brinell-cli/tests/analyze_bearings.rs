@@ -1,0 +1,125 @@
+//! `brinell analyze` of several bearings of one machine.
+
+mod common;
+
+use ::brinell::random::Random;
+use common::{brinell, json};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use tempfile::{TempDir, tempdir};
+
+const FS: f64 = 12_000.0;
+
+/// Impacts on the outer race of a 6205 at 1800 r/min, in noise, as `x.csv`.
+fn outer() -> TempDir {
+    let folder = tempdir().unwrap();
+    let mut noise = Random::new(7);
+    let mut text = String::new();
+    for i in 0..24_000 {
+        let since = (f64::from(i) / FS) % (1.0 / (3.5848 * 30.0));
+        let strike = 6.0 * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
+        let normal: f64 = (0..12).map(|_| noise.part()).sum::<f64>() - 6.0;
+        let _ = writeln!(text, "{:.4}", strike + normal);
+    }
+    fs::write(folder.path().join("x.csv"), text).unwrap();
+    folder
+}
+
+const SIGNAL: [&str; 8] = [
+    "analyze", "x.csv", "--rate", "12000", "--unit", "g", "--speed", "1800",
+];
+
+#[test]
+fn regress_each_bearing_is_judged_by_itself() {
+    let folder = outer();
+    // The sound one is named first.
+    let both = [
+        "--bearing",
+        "6203-2RS",
+        "--bearing",
+        "6205-2RS",
+        "-o",
+        "look",
+    ];
+    brinell(folder.path(), &[&SIGNAL[..], &both].concat())
+        .exits(0)
+        .says(&[
+            "Bearing 1 of 2, 6203-2RS: Nothing stands out",
+            "Bearing 2 of 2, 6205-2RS: Outer race damage: BPFO stands at 107.",
+        ]);
+    let found = json(&folder.path().join("look/analysis.json"));
+    assert_eq!(found["leads"], "6205-2RS");
+    assert_eq!(found["bearings"][0]["bearing"], "6203-2RS");
+    assert_eq!(found["bearings"][0]["verdict"]["nothing_stands_out"], true);
+    assert_eq!(found["bearings"][1]["verdict"]["damage"][0], "outer_race");
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    for part in [
+        "<h2>Bearings</h2>",
+        "6205-2RS: Outer race damage",
+        "6203-2RS",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    // One of them alone has the same verdict.
+    let one = ["--bearing", "6205-2RS", "--json", "one.json"];
+    brinell(folder.path(), &[&SIGNAL[..], &one].concat()).exits(0);
+    let one = json(&folder.path().join("one.json"));
+    assert_eq!(one["verdict"], found["bearings"][1]["verdict"]);
+}
+
+/// Two names of bearings whose frequencies are the same to 1 %: the lines are either's, and the first one's cannot be told from the other's.
+#[test]
+fn prop_lines_that_both_explain_are_eithers() {
+    let folder = outer();
+    let both = [
+        "--bearing",
+        "6205-2RS",
+        "--bearing",
+        "6205",
+        "--json",
+        "r.json",
+    ];
+    brinell(folder.path(), &[&SIGNAL[..], &both].concat())
+        .exits(0)
+        .says(&["The lines of BPFO are either bearing's: BPFO of 6205"]);
+    let found = json(&folder.path().join("r.json"));
+    let lead = found["leads"].as_str().unwrap();
+    for bearing in found["bearings"].as_array().unwrap() {
+        let beside = bearing["beside"].as_str().unwrap();
+        assert!(beside.contains("either bearing's"), "{beside}");
+        let second = bearing["bearing"] != lead;
+        let named = format!("It may be {lead}'s, which leads");
+        assert_eq!(beside.contains(&named), second, "{beside}");
+    }
+}
+
+#[test]
+fn regress_several_bearings_of_several_files_and_what_goes_with_one_only() {
+    let folder = outer();
+    fs::copy(folder.path().join("x.csv"), folder.path().join("y.csv")).unwrap();
+    let both = ["y.csv", "--bearing", "6203-2RS", "--bearing", "6205-2RS"];
+    let told = brinell(
+        folder.path(),
+        &[&SIGNAL[..], &both, &["-o", "look"]].concat(),
+    )
+    .exits(0);
+    assert_eq!(
+        told.out.matches("6205-2RS outer race").count(),
+        2,
+        "{}",
+        told.out
+    );
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    assert!(page.contains("6203-2RS BPFI") && page.contains("6205-2RS BPFO"));
+    for more in [&["--bpfo", "3.5x"][..], &["--against", "y.csv"]] {
+        let two = [&SIGNAL[..], &both[1..], more].concat();
+        brinell(folder.path(), &two)
+            .exits(2)
+            .complains(&["--bearing: expected one bearing with --bpfo"]);
+    }
+    let unknown = ["--bearing", "6205-2RS", "--bearing", "9999"];
+    brinell(folder.path(), &[&SIGNAL[..], &unknown].concat())
+        .exits(2)
+        .complains(&["--bearing 9999: no such bearing"]);
+}

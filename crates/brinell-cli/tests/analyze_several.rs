@@ -1,0 +1,135 @@
+//! `brinell analyze` of several files, or of a folder of them.
+
+mod common;
+
+use ::brinell::random::Random;
+use common::{GIVEN, brinell, files, json};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use tempfile::{TempDir, tempdir};
+
+const FS: f64 = 12_000.0;
+
+/// Impacts at 3.5848 a turn of a shaft at 30 Hz, of a height over unit noise.
+fn signal(path: &Path, height: f64) {
+    let mut noise = Random::new(7);
+    let mut text = String::new();
+    for i in 0..24_000 {
+        let t = f64::from(i) / FS;
+        let since = t % (1.0 / (3.5848 * 30.0));
+        let strike = height * (-since / 8e-4).exp() * (TAU * 3000.0 * since).sin();
+        let normal: f64 = (0..12).map(|_| noise.part()).sum::<f64>() - 6.0;
+        let _ = writeln!(text, "{:.4}", strike + normal);
+    }
+    fs::write(path, text).unwrap();
+}
+
+/// `records/` with r1 (noise), r2 (empty), r10 (damage), and what is no signal.
+fn records() -> TempDir {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join("records").join(name);
+    fs::create_dir(folder.path().join("records")).unwrap();
+    signal(&at("r1.csv"), 0.0);
+    fs::write(at("r2.csv"), "").unwrap();
+    signal(&at("r10.csv"), 6.0);
+    fs::write(at("notes.txt"), "not a signal").unwrap();
+    fs::write(at(".r3.csv"), "").unwrap();
+    folder
+}
+
+fn call<'a>(what: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+    [&["analyze"], what, &GIVEN, more].concat()
+}
+
+#[test]
+fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
+    let folder = records();
+    let more = [
+        "-o",
+        "look",
+        "--json",
+        "all.json",
+        "--machine-class",
+        "2-rigid",
+    ];
+    let done = brinell(folder.path(), &call(&["records"], &more))
+        .exits(1)
+        .complains(&["error: 1 of 3 files could not be analysed"])
+        .says(&["wrote look/report.html", "wrote all.json"]);
+    let rows: Vec<&str> = done.out.lines().filter(|l| l.starts_with('r')).collect();
+    assert_eq!(rows.len(), 3, "{}", done.out);
+    assert!(rows[0].starts_with("r1.csv") && rows[0].contains("nothing"));
+    assert!(rows[1].starts_with("r2.csv ") && rows[1].contains("no result: the file is empty"));
+    assert!(rows[2].starts_with("r10.csv") && rows[2].contains("outer race"));
+    // White noise of 1 g RMS up to 6 kHz has 6.3 mm/s from 10 Hz up.
+    assert!(rows[0].trim_end().ends_with('D'));
+
+    let all = json(&folder.path().join("all.json"));
+    let records = all["records"].as_array().unwrap();
+    assert_eq!(records.len(), 3);
+    assert_eq!(records[0]["verdict"]["nothing_stands_out"], true);
+    assert_eq!(records[1]["file"]["path"], "records/r2.csv");
+    assert!(records[1]["error"].as_str().unwrap().contains("empty"));
+    assert_eq!(records[2]["verdict"]["damage"][0], "outer_race");
+    assert!(records[2]["severity"]["velocity_rms_10_1000_hz"]["value"].is_number());
+
+    let listed = json(&folder.path().join("look/analysis.json"));
+    let mut names: Vec<&str> = (listed["files"].as_array().unwrap().iter())
+        .map(|name| name.as_str().unwrap())
+        .collect();
+    names.sort_unstable();
+    assert_eq!(names, files(&folder.path().join("look")));
+    assert!(names.contains(&"plots/trend-rms.svg") && names.contains(&"plots/trend-score.svg"));
+    let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
+    for part in ["r10.csv", "Files without a result", "Score of a family"] {
+        assert!(page.contains(part), "{part}");
+    }
+    // Again into the same folder: these are of the same files.
+    brinell(folder.path(), &call(&["records"], &["-o", "look"])).exits(1);
+    brinell(folder.path(), &call(&["records/r1.csv"], &["-o", "look"]))
+        .exits(2)
+        .complains(&["holds results of another signal"]);
+}
+
+#[test]
+fn regress_several_files_keep_their_order() {
+    let folder = records();
+    let named = ["records/r10.csv", "records/r1.csv"];
+    let done = brinell(folder.path(), &call(&named, &["--json", "-"])).exits(0);
+    let all: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+    for (record, path) in all["records"].as_array().unwrap().iter().zip(named) {
+        assert_eq!(record["file"]["path"], path);
+    }
+    // One alone is what it always was.
+    let one = brinell(folder.path(), &call(&named[..1], &["--json", "-"])).exits(0);
+    let one: serde_json::Value = serde_json::from_str(&one.out).unwrap();
+    assert_eq!(one["verdict"], all["records"][0]["verdict"]);
+}
+
+#[test]
+fn regress_what_no_file_can_do_without_is_asked_for_once() {
+    let folder = records();
+    brinell(folder.path(), &["analyze", "records"])
+        .exits(2)
+        .complains(&[
+            "none of the 3 files could be analysed; the first, r1.csv: 4 things have to be given",
+        ]);
+    brinell(
+        folder.path(),
+        &call(&["records"], &["--against", "records/r1.csv"]),
+    )
+    .exits(2)
+    .complains(&["--against: expected one file to lay another over"]);
+    fs::create_dir(folder.path().join("none")).unwrap();
+    brinell(folder.path(), &call(&["none"], &[]))
+        .exits(2)
+        .complains(&["none is a folder without files of signals (csv, "]);
+    brinell(
+        folder.path(),
+        &call(&["records"], &["--json", "records/r10.csv"]),
+    )
+    .exits(2)
+    .complains(&["is an input of this command"]);
+}

@@ -1,0 +1,96 @@
+//! The page of several signals: a row for each, and their numbers in order.
+
+use std::fmt::Write as _;
+
+use crate::frame::{close, figure, none, open, section};
+use crate::picture::{Picture, escape};
+use crate::plots::Layout;
+use crate::sweep::{IndicatorPlot, indicator_plot};
+use crate::tables::{Table, failures, table};
+
+/// Everything that the page of several signals shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrendReport {
+    /// Heading of the page.
+    pub title: String,
+    /// One line under it.
+    pub subtitle: String,
+    /// The version of the program.
+    pub version: String,
+    /// A row for each signal.
+    pub table: Table,
+    /// Numbers over the signals in their order.
+    pub plots: Vec<IndicatorPlot>,
+    /// Signal and reason of those without a result.
+    pub failures: Vec<(String, String)>,
+}
+
+/// The page's pictures, drawn wide.
+pub fn trend_pictures(report: &TrendReport) -> Vec<Picture> {
+    let wide = |plot| indicator_plot(plot, Layout::Wide);
+    report.plots.iter().map(wide).collect()
+}
+
+/// The self-contained page.
+pub fn trend_html(report: &TrendReport) -> String {
+    let mut page = open(
+        &report.title,
+        &report.subtitle,
+        ("Analysed", &report.version),
+        [],
+    );
+    page.push_str("<main>\n");
+    table(&mut page, &report.table);
+    failures(
+        &mut page,
+        "Files without a result",
+        "File",
+        &report.failures,
+    );
+    section(&mut page, "trend", "Trend", |page| {
+        none(
+            page,
+            "In the order of the table; numbers on the axis are those of its first column. Bars: 95 % intervals; rings: values without one; crosses on the axis: no value.",
+        );
+        for (index, plot) in report.plots.iter().enumerate() {
+            let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
+            let draw = |layout| indicator_plot(plot, layout);
+            figure(page, &format!("trend{index}"), draw, "");
+        }
+    });
+    close(page, "", &[])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_rows_plots_and_failures_are_on_the_page_and_nothing_is_markup() {
+        let report = TrendReport {
+            table: Table {
+                title: "Files".into(),
+                columns: vec!["File".into()],
+                rows: vec![vec!["a<b.csv".into()]],
+                ..Table::default()
+            },
+            plots: vec![IndicatorPlot {
+                name: "trend-rms".into(),
+                label: "RMS & more".into(),
+                ..IndicatorPlot::default()
+            }],
+            failures: vec![("c.csv".into(), "empty <".into())],
+            ..TrendReport::default()
+        };
+        let page = trend_html(&report);
+        for part in [
+            "a&lt;b.csv",
+            "RMS &amp; more",
+            "empty &lt;",
+            "Files without a result",
+        ] {
+            assert!(page.contains(part), "{part}");
+        }
+        assert_eq!(trend_pictures(&report)[0].name, "trend-rms");
+    }
+}

@@ -1,0 +1,290 @@
+//! How severe a vibration is, whatever causes it: RMS velocity from 10 to 1000 Hz and its zone by ISO 20816-3; levels of the band demodulated.
+
+use super::{Quantity, Unit};
+use crate::signal::integrate::Motion;
+use crate::signal::{
+    Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms,
+};
+use std::borrow::Cow;
+
+/// The band of ISO 20816-3 for shafts of 600 r/min and more, Hz.
+pub const SEVERITY_BAND: Band = Band {
+    low: 10.0,
+    high: 1000.0,
+};
+/// Periods of the band's lower edge that a record has to hold.
+const PERIODS: f64 = 10.0;
+/// Speeds that the zones are for, r/min. Below 600 the standard measures from 2 Hz.
+const SPEEDS: (f64, f64, f64) = (120.0, 600.0, 30_000.0);
+
+/// Why no velocity is told.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoVelocity {
+    /// It does not follow from the signal.
+    #[error("not known, as a signal in {0} is neither an acceleration nor a velocity")]
+    Unit(String),
+    /// The signal ends below the band's upper edge.
+    #[error(
+        "not known, as sampled at {0} Hz the signal ends at {half} Hz: it takes more than 2000 Hz", half = 0.5 * .0
+    )]
+    Rate(f64),
+    /// Too short for the lower edge.
+    #[error("not known, as {0:.3} s are too short for 10 Hz: it takes 1 s or more")]
+    Length(f64),
+    /// The samples are no signal.
+    #[error("not known: {0}")]
+    Signal(#[from] SignalError),
+}
+
+/// RMS velocity in [`SEVERITY_BAND`], m/s, of a signal in `unit` sampled at `fs` Hz; intervals are of whole revolutions of `shaft` Hz.
+///
+/// # Errors
+/// [`NoVelocity`] says why there is none.
+pub fn severity(x: &[f64], unit: &Unit, fs: f64, shaft: f64) -> Result<Estimate, NoVelocity> {
+    let from = match unit.quantity {
+        Quantity::Acceleration => Motion::Acceleration,
+        Quantity::Velocity => Motion::Velocity,
+        _ => return Err(NoVelocity::Unit(unit.name.clone())),
+    };
+    if fs <= 2.0 * SEVERITY_BAND.high {
+        return Err(NoVelocity::Rate(fs));
+    }
+    let seconds = x.len() as f64 / fs;
+    if seconds < PERIODS / SEVERITY_BAND.low {
+        return Err(NoVelocity::Length(seconds));
+    }
+    let x: Cow<[f64]> = match unit.to_si {
+        1.0 => x.into(),
+        to_si => x.iter().map(|v| v * to_si).collect(),
+    };
+    Ok(velocity_rms(&x, fs, from, SEVERITY_BAND, 1.0 / shaft)?)
+}
+
+/// A class of machines of ISO 20816-3.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MachineClass {
+    /// Above 300 kW to 50 MW, or a shaft height of 315 mm and more; rigid support.
+    LargeRigid,
+    /// The same on a flexible support.
+    LargeFlexible,
+    /// Above 15 to 300 kW, or a shaft height of 160 to below 315 mm; rigid support.
+    MediumRigid,
+    /// The same on a flexible support.
+    MediumFlexible,
+}
+
+/// What a vibration means for a machine of a class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Zone {
+    /// As of newly commissioned machines.
+    A,
+    /// Acceptable for unrestricted long-term operation.
+    B,
+    /// Unsatisfactory for long-term operation.
+    C,
+    /// Severe enough to damage the machine.
+    D,
+}
+
+/// Why no zone is told.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoZone {
+    /// The standard's band begins lower.
+    #[error(
+        "not known, as for shafts below 600 r/min the standard measures from 2 Hz, and this one turns at {0:.0} r/min"
+    )]
+    Slow(f64),
+    /// No zone is for it.
+    #[error(
+        "not known, as the standard is for 120 to 30000 r/min, and this shaft turns at {0:.0} r/min"
+    )]
+    Speed(f64),
+}
+
+impl MachineClass {
+    /// All, in the order of the standard's tables.
+    pub const ALL: [Self; 4] = [
+        Self::LargeRigid,
+        Self::LargeFlexible,
+        Self::MediumRigid,
+        Self::MediumFlexible,
+    ];
+
+    /// As it is given: `1-rigid`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LargeRigid => "1-rigid",
+            Self::LargeFlexible => "1-flexible",
+            Self::MediumRigid => "2-rigid",
+            Self::MediumFlexible => "2-flexible",
+        }
+    }
+
+    /// For a sentence.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::LargeRigid => "group 1, rigid support",
+            Self::LargeFlexible => "group 1, flexible support",
+            Self::MediumRigid => "group 2, rigid support",
+            Self::MediumFlexible => "group 2, flexible support",
+        }
+    }
+
+    /// Boundaries A/B, B/C and C/D, mm/s RMS, of ISO 20816-3.
+    pub fn boundaries(self) -> [f64; 3] {
+        match self {
+            Self::LargeRigid | Self::MediumFlexible => [2.3, 4.5, 7.1],
+            Self::LargeFlexible => [3.5, 7.1, 11.0],
+            Self::MediumRigid => [1.4, 2.8, 4.5],
+        }
+    }
+
+    /// The zone of an RMS velocity (m/s) of a machine whose shaft turns at `rpm`.
+    ///
+    /// # Errors
+    /// [`NoZone`] where the standard is not for that speed.
+    pub fn zone(self, velocity: f64, rpm: f64) -> Result<Zone, NoZone> {
+        let (least, from_ten, most) = SPEEDS;
+        match rpm {
+            _ if !(least..=most).contains(&rpm) => return Err(NoZone::Speed(rpm)),
+            _ if rpm < from_ten => return Err(NoZone::Slow(rpm)),
+            _ => {}
+        }
+        let beyond = self
+            .boundaries()
+            .iter()
+            .filter(|b| 1e3 * velocity > **b)
+            .count();
+        Ok(Zone::ALL[beyond.min(3)])
+    }
+}
+
+impl Zone {
+    const ALL: [Self; 4] = [Self::A, Self::B, Self::C, Self::D];
+
+    /// A to D.
+    pub fn name(self) -> &'static str {
+        ["A", "B", "C", "D"][self as usize]
+    }
+
+    /// What the standard says of it, in short.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::A => "as of newly commissioned machines",
+            Self::B => "acceptable for unrestricted long-term operation",
+            Self::C => "unsatisfactory for long-term operation",
+            Self::D => "severe enough to damage the machine",
+        }
+    }
+}
+
+/// Levels of one band, in the signal's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandLevel {
+    /// The band, Hz.
+    pub band: Band,
+    /// Kurtosis of what lies within it: 3 for noise.
+    pub kurtosis: Estimate,
+    /// RMS of the envelope.
+    pub envelope_rms: Estimate,
+    /// Peak of the envelope, that of a revolution.
+    pub envelope_peak: Estimate,
+}
+
+/// Of a signal sampled at `fs` Hz; averages are over whole revolutions of `shaft` Hz. The envelope is the modulus of the analytic signal: an amplitude
+/// A has an envelope A. `None` where nothing lies within the band.
+pub fn band_level(x: &[f64], fs: f64, band: Band, shaft: f64) -> Option<BandLevel> {
+    let revolution = fs / shaft;
+    let inside = Blocks::of(&band_pass(x, fs, band).ok()?, revolution);
+    let envelope = Blocks::of(&envelope(x, fs, band)?, revolution);
+    Some(BandLevel {
+        band,
+        kurtosis: inside.estimate(Indicator::Kurtosis)?,
+        envelope_rms: envelope.estimate(Indicator::Rms)?,
+        envelope_peak: envelope.estimate(Indicator::Peak)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn sine(n: usize, fs: f64, f: f64, amplitude: f64) -> Vec<f64> {
+        let at = |i: usize| amplitude * (TAU * f * i as f64 / fs).sin();
+        (0..n).map(at).collect()
+    }
+
+    /// 1 g RMS at 159.155 Hz, a calibrator's, is 9.80665 mm/s.
+    #[test]
+    fn analytic_a_calibrator_has_its_velocity_in_every_unit() {
+        let (fs, f, n) = (12_000.0, 500.0 / std::f64::consts::PI, 24_000);
+        for (unit, amplitude) in [
+            ("g", 2f64.sqrt()),
+            ("m/s^2", 9.80665 * 2f64.sqrt()),
+            ("mm/s", 9.80665 * 2f64.sqrt()),
+            ("in/s", 9.80665 * 2f64.sqrt() / 25.4),
+        ] {
+            let x = sine(n, fs, f, amplitude);
+            let found = severity(&x, &Unit::of(unit), fs, 25.0).unwrap().value;
+            assert!(
+                (1e3 * found / 9.80665 - 1.0).abs() < 2e-3,
+                "{unit}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn prop_what_tells_no_velocity_says_why() {
+        let x = sine(24_000, 12_000.0, 160.0, 1.0);
+        let of = |x: &[f64], unit, fs| {
+            let none = severity(x, &Unit::of(unit), fs, 25.0).unwrap_err();
+            none.to_string()
+        };
+        assert!(of(&x, "V", 12_000.0).contains("a signal in V is neither"));
+        assert!(of(&x, "um", 12_000.0).contains("a signal in µm is neither"));
+        assert!(of(&x, "g", 2000.0).contains("sampled at 2000 Hz the signal ends at 1000 Hz"));
+        assert!(of(&x[..11_000], "g", 12_000.0).contains("0.917 s are too short for 10 Hz"));
+    }
+
+    #[test]
+    fn lit_zones_of_iso_20816_3() {
+        use MachineClass::{LargeFlexible, LargeRigid, MediumFlexible, MediumRigid};
+        for (class, mm_s, zone) in [
+            (LargeRigid, 2.3, Zone::A),
+            (LargeRigid, 2.4, Zone::B),
+            (LargeRigid, 7.2, Zone::D),
+            (LargeFlexible, 7.2, Zone::C),
+            (LargeFlexible, 11.1, Zone::D),
+            (MediumRigid, 1.4, Zone::A),
+            (MediumRigid, 2.9, Zone::C),
+            (MediumRigid, 4.6, Zone::D),
+            (MediumFlexible, 4.4, Zone::B),
+        ] {
+            assert_eq!(
+                class.zone(1e-3 * mm_s, 1500.0),
+                Ok(zone),
+                "{class:?} {mm_s}"
+            );
+        }
+        assert_eq!(LargeRigid.zone(1e-3, 500.0), Err(NoZone::Slow(500.0)));
+        assert_eq!(LargeRigid.zone(1e-3, 100.0), Err(NoZone::Speed(100.0)));
+        assert_eq!(
+            LargeRigid.zone(1e-3, 31_000.0),
+            Err(NoZone::Speed(31_000.0))
+        );
+    }
+
+    /// A sine's kurtosis is 1.5, and its envelope its amplitude.
+    #[test]
+    fn analytic_levels_of_a_sine_in_its_band() {
+        let fs = 12_000.0;
+        let mut x = sine(24_000, fs, 2900.0, 2.0);
+        let other = sine(24_000, fs, 500.0, 30.0);
+        x.iter_mut().zip(other).for_each(|(x, o)| *x += o);
+        let found = band_level(&x, fs, Band::between(2000.0, 4000.0), 25.0).unwrap();
+        assert!((found.kurtosis.value - 1.5).abs() < 1e-3);
+        assert!((found.envelope_rms.value - 2.0).abs() < 1e-2);
+        assert!((found.envelope_peak.value - 2.0).abs() < 1e-1);
+    }
+}
