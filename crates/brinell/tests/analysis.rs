@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use brinell::analysis::{
-    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Verdict, analyze, compare,
+    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Signal, Standing, Verdict,
+    analyze, compare,
 };
 use brinell::random::Random;
 
@@ -293,6 +294,53 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         );
         assert!(told.verdict().contains("Are speed and bearing right?"));
     }
+}
+
+/// A record of the healthy machine: lines too faint for damage are told where they have grown, and damage that was there before is none.
+#[test]
+fn prop_a_healthy_record_tells_what_has_grown() {
+    // Another sample rate: families are compared in the range that both hold.
+    let (fs, before_fs) = (12_000.0, 25_600.0);
+    let at = |snr_db| Damage {
+        order: 3.5848,
+        modulation: 0.0,
+        jitter: 0.01,
+        snr_db,
+    };
+    let beside = |x: &[f64], before: &[f64]| {
+        let mut analysis = look(x, fs);
+        let options = analysis.options.clone();
+        let signal = |x, fs| Signal {
+            x,
+            fs,
+            options: &options,
+        };
+        (analysis.beside_healthy(signal(x, fs), signal(before, before_fs))).unwrap();
+        let outer = analysis.families.iter().find(|f| f.name == "BPFO").cloned();
+        (analysis.conclusion(), outer.unwrap())
+    };
+    let (sound, weak, plain) = (
+        healthy(before_fs, 4.0, 1),
+        damaged(fs, 4.0, 2, &at(-11.0)),
+        damaged(fs, 4.0, 3, &at(-3.0)),
+    );
+    assert_eq!(look(&weak, fs).conclusion(), Verdict::NothingFound);
+    let (verdict, outer) = beside(&weak, &sound);
+    assert_eq!(
+        (verdict, outer.standing),
+        (Verdict::CannotTell, Standing::Grown)
+    );
+    assert!(outer.growth.unwrap() > 2.0);
+    let (verdict, outer) = beside(&plain, &sound);
+    assert_eq!(
+        (verdict, outer.standing),
+        (Verdict::Damage, Standing::Damage)
+    );
+    let (verdict, outer) = beside(&plain, &damaged(before_fs, 4.0, 4, &at(0.0)));
+    assert_eq!(outer.standing, Standing::AsBefore);
+    assert_ne!(verdict, Verdict::Damage);
+    let (verdict, _) = beside(&healthy(fs, 4.0, 5), &sound);
+    assert_eq!(verdict, Verdict::NothingFound);
 }
 
 #[test]

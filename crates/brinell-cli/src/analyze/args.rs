@@ -110,7 +110,7 @@ pub(crate) struct AnalyzeArgs {
         allow_negative_numbers = true
     )]
     pub(crate) tolerance: f64,
-    /// Band to demodulate [default: several are tried]
+    /// Range to demodulate [default: everything above three times the highest defect frequency]
     #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
     pub(crate) band: Option<Vec<f64>>,
     /// Skip so much of the signal's beginning
@@ -122,6 +122,9 @@ pub(crate) struct AnalyzeArgs {
     /// Lay it over this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) against: Option<PathBuf>,
+    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is told
+    #[arg(long, requires = "against")]
+    pub(crate) healthy: bool,
     /// Channel of the other [default: measured_ay or measured_ax of a run, whichever the load points along]
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,

@@ -19,8 +19,8 @@ use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_
 use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
-    velocity,
+    Analysis, Comparison, Options, Quantity, Side, Signal, analyze as analysis_of, compare,
+    to_json, velocity,
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
@@ -191,7 +191,7 @@ fn examine(
     }
     // The rest of a long signal is read beside the analysis of its beginning.
     let reading = measured.beyond.take().map(Beyond::start);
-    let analysis = look(&measured, &options)?;
+    let mut analysis = look(&measured, &options)?;
     let velocity = velocities(&measured, shaft);
     let level = Level::of(&measured, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
@@ -206,7 +206,7 @@ fn examine(
         None => None,
     };
     let against = match &args.against {
-        Some(path) => Some(lay_over(path, args, &measured, &analysis)?),
+        Some(path) => Some(lay_over(path, args, &measured, &mut analysis)?),
         None => None,
     };
     Ok(Result_ {
@@ -342,7 +342,7 @@ fn lay_over(
     path: &Path,
     args: &AnalyzeArgs,
     measured: &Measured,
-    analysis: &Analysis,
+    analysis: &mut Analysis,
 ) -> Result<Against, Failure> {
     let wanted = Wanted {
         channel: args.against_channel.as_deref(),
@@ -378,6 +378,17 @@ fn lay_over(
         options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);
     }
     let found = look(&other, &options)?;
+    let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));
+    if args.healthy {
+        let own = analysis.options.clone();
+        let signal = |x, fs, options| Signal { x, fs, options };
+        analysis
+            .beside_healthy(
+                signal(&measured.x[..], measured.rate, &own),
+                signal(&other.x[..], other.rate, &options),
+            )
+            .map_err(refused)?;
+    }
     let comparison = compare(
         Side {
             x: &measured.x,
@@ -388,7 +399,7 @@ fn lay_over(
             analysis: &found,
         },
     )
-    .map_err(|error| Failure::Usage(format!("--against {}: {error}", path.display())))?;
+    .map_err(refused)?;
     Ok(Against {
         measured: other,
         analysis: found,

@@ -342,15 +342,15 @@ fn differences(result: &Result_) -> Vec<Table> {
                 "#This",
                 "#Other",
                 "Unit",
-                "#Other over this",
+                "#This over the other",
                 "",
             ]
             .map(str::to_owned)
             .to_vec(),
             rows: indicators,
             note: format!(
-                "Third octaves from 10 Hz up: the other lies {:+.1} dB from this one on average, {:.1} dB RMS. Verdict on the other: {}",
-                c.level_db.0,
+                "Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
+                0.0 - c.level_db.0,
                 c.level_db.1,
                 other.analysis.verdict()
             ),

@@ -9,9 +9,13 @@ use std::path::PathBuf;
 /// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
 const SHAFT_DOUBT: f64 = 0.005;
 
-/// The other over this, where that says anything: skewness lies about zero.
+/// This over the other, where that says anything: skewness lies about zero.
 pub(super) fn ratio(d: &Difference) -> Option<String> {
-    (d.indicator != Indicator::Skewness).then(|| short(d.second / d.first, 3))
+    let ratio = d.first / d.second;
+    (d.indicator != Indicator::Skewness).then(|| match d.indicator.has_unit() {
+        true => format!("{} ({:+.1} dB)", short(ratio, 3), 20.0 * ratio.log10()),
+        false => short(ratio, 3),
+    })
 }
 
 /// What the signal's own lines say of the shaft's speed.
@@ -20,7 +24,7 @@ pub(super) fn shaft_lines(a: &Analysis) -> String {
         return "followed as stated".into();
     }
     if a.shaft_lines.is_empty() {
-        return "no lines at its harmonics show it".into();
+        return "no two lines at its harmonics agree on it".into();
     }
     let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
     let off = a.shaft / a.options.shaft - 1.0;
@@ -128,10 +132,11 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         );
         let (mean, rms) = other.comparison.level_db;
         say!(
-            "  the other's third octaves lie {mean:+.1} dB from this one's on average, {rms:.1} dB RMS"
+            "  third octaves: this one lies {:+.1} dB from the other on average, {rms:.1} dB RMS",
+            0.0 - mean
         );
         say!(
-            "    {:<16} {:>12} {:>12}  the other over this",
+            "    {:<16} {:>12} {:>12}  this over the other",
             "",
             "this",
             "the other"

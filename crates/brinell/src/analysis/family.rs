@@ -59,6 +59,10 @@ pub enum Standing {
     Open,
     /// Its lines stand, faintly, as they do in sound machines.
     Faint,
+    /// The same, or open, and at least twice as deep as in a record of the healthy machine.
+    Grown,
+    /// Damage by itself, and half as deep or more in a record of the healthy machine.
+    AsBefore,
     /// Nothing.
     Silent,
 }
@@ -92,6 +96,8 @@ pub struct Family {
     pub spacing: f64,
     /// Whether it lies at the end of what was searched and its lines stand higher beyond: they are somebody else's.
     pub is_skirt: bool,
+    /// Modulation over that of a record of the healthy machine, where there is one.
+    pub growth: Option<f64>,
     /// What is said of it.
     pub standing: Standing,
 }
@@ -124,18 +130,20 @@ impl Family {
     pub fn is_damage(&self) -> bool {
         let high = self.score >= self.limit && self.modulation >= self.faint;
         let deep = self.score >= self.noise && self.modulation >= self.deep();
+        (high || deep) && self.is_whole()
+    }
+
+    /// Whether enough of its lines stand, and where they belong.
+    pub(super) fn is_whole(&self) -> bool {
         let standing = self.standing_harmonics();
-        let hidden = self.harmonics.iter().filter(|h| h.snr_db.is_none()).count();
+        let hidden = (self.harmonics.iter())
+            .filter(|h| h.snr_db.is_none())
+            .count();
         // An element passes through the load once for each turn of the cage: lines at its rate without sidebands are somebody else's, of slip
         // in BPFO most often.
-        let element = self.component == Component::Element;
         let sides = self.sidebands.map_or(0, |s| s.0);
-        let turns = !element || sides >= standing;
-        !self.is_skirt
-            && turns
-            && (high || deep)
-            && standing + hidden + sides / 2 >= FEWEST.0
-            && standing >= FEWEST.1
+        let turns = self.component != Component::Element || sides >= standing;
+        !self.is_skirt && turns && standing + hidden + sides / 2 >= FEWEST.0 && standing >= FEWEST.1
     }
 
     /// Whether its evidence is both high and deep.
@@ -215,6 +223,7 @@ pub(super) fn read(
                 sidebands: spacing.map(|_| (0, 0)),
                 spacing: spacing.unwrap_or(0.0),
                 is_skirt: false,
+                growth: None,
                 standing: Standing::Silent,
             };
             family.describe(together);

@@ -85,6 +85,8 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         Standing::Shared(_) => "shared",
         Standing::Open => "cannot_tell",
         Standing::Faint => "faint",
+        Standing::Grown => "grown",
+        Standing::AsBefore => "as_before",
         Standing::Silent => "nothing",
     };
     json!({
@@ -101,6 +103,7 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "limit": f.limit,
         "noise": f.noise,
         "modulation": f.modulation,
+        "over_healthy": f.growth,
         "harmonics": f.harmonics.iter().map(|h| json!({
             "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "stands": h.stands,
         })).collect::<Vec<_>>(),
@@ -115,7 +118,7 @@ fn comparison_json(c: &Comparison) -> Value {
         "band_hz": [c.band.0, c.band.1],
         "level_difference_db": { "mean": c.level_db.0, "rms": c.level_db.1 },
         "indicators": c.indicators.iter().map(|d| (d.indicator.name().to_owned(), json!({
-            "measured": d.first, "other": d.second, "ratio": d.second / d.first, "intervals_apart": d.apart,
+            "measured": d.first, "other": d.second, "ratio": d.first / d.second, "intervals_apart": d.apart,
         }))).collect::<Map<_, _>>(),
         "lines": c.lines.iter().map(|l| json!({
             "name": l.name, "order": l.order, "frequency_hz": l.frequency, "modulation": l.modulation, "snr_db": l.snr_db,

@@ -60,8 +60,14 @@ pub(super) fn shaft(
         let off = |mains: f64| (f - (f / mains).round() * mains).abs();
         Mains::ALL.iter().any(|m| off(m.frequency()) < 2.0 * step)
     };
+    // On the skirt of a line farther off the spectrum rises to the end of what was searched, and beyond.
+    let is_top = |f: f64| {
+        let bin = (f / step).round() as usize;
+        let around = spectrum.amplitude.get(bin.saturating_sub(2)..bin + 3);
+        around.is_some_and(|a| a[1..4].iter().any(|v| *v >= a[0].max(a[4])))
+    };
     let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
-        .filter(|l| !near_mains(l.frequency))
+        .filter(|l| !near_mains(l.frequency) && is_top(l.frequency))
         .map(|l| (f64::from(l.order), l.frequency))
         .collect();
     // The speed that most lines agree on, then least squares of those.

@@ -25,6 +25,7 @@
 //! ```
 
 mod bands;
+mod baseline;
 mod compare;
 mod error;
 mod family;
@@ -39,6 +40,7 @@ mod verdict;
 mod words;
 
 pub use bands::BandChoice;
+pub use baseline::Signal;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Harmonic, Standing};
@@ -187,7 +189,8 @@ impl Analysis {
 
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
-        let open = self.families.iter().any(|f| f.standing == Standing::Open);
+        let open =
+            (self.families.iter()).any(|f| matches!(f.standing, Standing::Open | Standing::Grown));
         if self.causes().next().is_some() {
             Verdict::Damage
         } else if open || self.beyond.is_some() {

@@ -48,6 +48,15 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
             }
         }
         Verdict::CannotTell => {
+            let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
+            for family in grown {
+                text.push(format!(
+                    "Cannot tell which part: the lines of {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
+                    family.component.words(),
+                    family.growth.unwrap_or(1.0),
+                    told(family),
+                ));
+            }
             if let Some(beyond) = &analysis.beyond {
                 text.push(format!(
                     "Cannot tell: {}, beyond the tolerance of {} %. Are speed and bearing right? At {:.0} r/min these lines would be the {}'s.",
@@ -77,6 +86,16 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         .filter(|f| f.standing == Standing::Faint)
         .map(|f| f.name)
         .collect();
+    let before: Vec<&str> = (analysis.families.iter())
+        .filter(|f| f.standing == Standing::AsBefore)
+        .map(|f| f.name)
+        .collect();
+    if !before.is_empty() {
+        text.push(format!(
+            "Lines of {} modulate as when the machine was healthy.",
+            before.join(" and ")
+        ));
+    }
     if analysis.causes().next().is_none() && !faint.is_empty() {
         text.push(format!(
             "Lines of {} stand as faintly as in sound machines.",
@@ -122,6 +141,8 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
             Standing::Shared(with) => format!("shares the lines of {with}"),
             Standing::Open => "cannot tell".into(),
             Standing::Faint => "faint, as in sound machines".into(),
+            Standing::Grown => "grown since healthy".into(),
+            Standing::AsBefore => "as when healthy".into(),
             Standing::Silent => "nothing".into(),
         };
         [
