@@ -275,6 +275,7 @@ pub(crate) fn analyze<'py>(
     let mut options = Options::new(shaft, orders(bearing, geometry, orders_given)?);
     options.tolerance = tolerance;
     let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
+    options.exact = simulated;
     options.silent = simulated && !scenario.is_some_and(noisy);
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let unit = Unit::of(unit);

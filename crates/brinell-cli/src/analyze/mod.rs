@@ -185,6 +185,7 @@ fn examine(
     let mut options = Options::new(shaft, orders);
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
+    options.exact = measured.scenario.is_some() && args.speed.is_none() && !args.names_a_bearing();
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
     if args.speed.is_none() {
         options.rotation = rotation(&measured)?;
@@ -373,6 +374,7 @@ fn lay_over(
     }
     options.rotation = rotation(&other)?;
     options.silent = other.silent();
+    options.exact = other.scenario.is_some();
     if let Some(run) = &other.scenario {
         let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
         options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);

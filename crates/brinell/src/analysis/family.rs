@@ -32,6 +32,8 @@ const VERY_CLEAR: f64 = 6.0;
 const SIDEBANDS: i32 = 2;
 /// An element's rate lies above pure rolling by less than this, relative: an element slips, and does not run ahead.
 const AHEAD: f64 = 0.01;
+/// So many times the tolerance a cage may slip where speed and bearing are exact.
+const SLIPS: f64 = 3.0;
 /// FTF over the shaft's frequency where nobody said.
 const USUAL_FTF: f64 = 0.4;
 
@@ -188,13 +190,10 @@ pub(super) fn read(
     strikes
         .map(|(component, name, order)| {
             let expected = order * shaft;
-            let ahead = match component {
-                Component::Element => AHEAD.min(tolerance),
-                _ => tolerance,
-            };
+            let (behind, ahead) = reach(component, tolerance, options.exact);
             let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
-            let steps = ((ahead + tolerance) / step) as usize;
-            let places = (0..=steps).map(|k| expected * (1.0 - tolerance + k as f64 * step));
+            let steps = ((ahead + behind) / step) as usize;
+            let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));
             let scored = places.map(|f| (f, score(together, f)));
             let (frequency, score) = scored
                 .max_by(|a, b| a.1.total_cmp(&b.1))
@@ -214,8 +213,8 @@ pub(super) fn read(
                 noise,
                 faint: match component {
                     Component::Cage => f64::INFINITY,
-                    // Rollers that enter the load strike the race of a healthy bearing too, and nothing drowns them.
-                    Component::OuterRace if options.silent => DEEP,
+                    // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a simulation.
+                    Component::OuterRace if options.silent || options.exact => DEEP,
                     _ => FAINT,
                 },
                 modulation: 0.0,
@@ -230,12 +229,23 @@ pub(super) fn read(
             // On the skirt of what stands farther off.
             let outwards = 4.0 * step * expected * (frequency - expected).signum();
             let next = frequency + outwards;
-            let outside = next < expected * (1.0 - tolerance) || next > expected * (1.0 + ahead);
+            let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
             family.is_skirt = outside && self::score(together, next) > score;
             family.standing = family.alone();
             family
         })
         .collect()
+}
+
+/// How far below and above pure rolling a rate may lie, relative. Where speed and bearing are exact, what goes farther is slip: a cage that lags
+/// takes BPFO with it, and raises BPFI.
+fn reach(component: Component, tolerance: f64, exact: bool) -> (f64, f64) {
+    let slips = if exact { SLIPS * tolerance } else { tolerance };
+    match component {
+        Component::OuterRace | Component::Cage => (slips, tolerance),
+        Component::InnerRace => (tolerance, slips),
+        Component::Element => (tolerance, AHEAD.min(tolerance)),
+    }
 }
 
 /// Of the comb of a frequency.

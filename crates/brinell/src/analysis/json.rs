@@ -18,7 +18,6 @@ pub fn to_json(
             "says": analysis.conclusion().key(),
             "damage": analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
             "clarity": analysis.causes().next().map(|f| analysis.clarity(f)),
-            "too_short_to_tell_from": analysis.untold,
         },
         "families": analysis.families.iter().map(|f| family(analysis, f)).collect::<Vec<_>>(),
         "beyond_tolerance": analysis.beyond.as_ref().map(|b| {

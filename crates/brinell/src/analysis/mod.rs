@@ -80,6 +80,8 @@ pub struct Options {
     pub rotation: Option<Rotation>,
     /// Whether the signal is a simulation's without a sensor's noise: healthy rollers that enter the load are then heard too.
     pub silent: bool,
+    /// Whether speed and bearing are those of a simulation: nothing but the bearing turns, and a shift beyond the tolerance is slip of the cage.
+    pub exact: bool,
 }
 
 impl Options {
@@ -92,6 +94,7 @@ impl Options {
             band: None,
             rotation: None,
             silent: false,
+            exact: false,
         }
     }
 }
@@ -177,8 +180,6 @@ pub struct Analysis {
     pub families: Vec<Family>,
     /// Where no damage is called: lines farther from a defect frequency than the tolerance, if any stand.
     pub beyond: Option<Beyond>,
-    /// Families that would be damage alone, and that so short a record does not tell from the one that leads.
-    pub untold: Vec<&'static str>,
 }
 
 impl Analysis {
@@ -202,8 +203,7 @@ impl Analysis {
 
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        let leads = self.causes().next() == Some(family);
-        if self.may_be_passing(family) || leads && !self.untold.is_empty() {
+        if self.may_be_passing(family) {
             return "weak";
         }
         match family.is_very_clear() {
@@ -271,7 +271,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     // Half a bin of the finest spectrum.
     let known = together::Shaft {
         hz: shaft,
-        tolerance: match shaft_lines.is_empty() {
+        tolerance: match shaft_lines.is_empty() || options.exact {
             true => 0.0,
             false => (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft),
         },
@@ -287,10 +287,6 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let beyond = match lead {
         Some(_) => None,
         None => record.beyond(),
-    };
-    let untold = match lead {
-        Some(lead) if record.is_short() => untold(lead, &families),
-        _ => Vec::new(),
     };
     let range = bands::range(fs, options)?;
     let (band, choice) = match (options.band, lead) {
@@ -320,18 +316,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         bands: record.together.bands(),
         families,
         beyond,
-        untold,
     })
-}
-
-/// What would be damage alone, where one of the two is a rolling element, whose sidebands fill a short record's spectrum.
-fn untold(lead: &Family, families: &[Family]) -> Vec<&'static str> {
-    let element = |f: &Family| f.component == Component::Element;
-    (families.iter())
-        .filter(|f| matches!(f.standing, Standing::Shared(_)) && f.component != Component::Cage)
-        .filter(|f| element(f) != element(lead))
-        .map(|f| f.name)
-        .collect()
 }
 
 /// Of a signal less its mean, averaged over revolutions of `revolution` samples.

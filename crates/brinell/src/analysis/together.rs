@@ -112,12 +112,12 @@ impl Together {
             }
             together.each.push((band, power));
         }
-        together.hide_known(shaft);
+        together.hide_known(shaft, options);
         Ok(together)
     }
 
     /// Lines of the shaft, which stand in every machine, and of the mains where they stand.
-    fn hide_known(&mut self, shaft: Shaft) {
+    fn hide_known(&mut self, shaft: Shaft, options: &Options) {
         let mains = Mains::ALL.map(|m| m.frequency());
         let this = &*self;
         let lines =
@@ -131,7 +131,7 @@ impl Together {
         let highest = places.max_by(|a, b| height(*a).total_cmp(&height(*b)));
         let combs: Vec<f64> = (mains.into_iter().filter(stand))
             .chain(highest.filter(|_| shaft.tolerance > 0.0))
-            .chain([shaft.hz])
+            .chain((!options.exact).then_some(shaft.hz))
             .collect();
         for comb in combs {
             let mut k = 1.0;

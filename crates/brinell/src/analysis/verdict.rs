@@ -11,8 +11,8 @@ const LEAD: f64 = 2.0;
 const SIDES: i32 = 3;
 /// So many times the tolerance is looked through where nothing stands within it.
 const FARTHER: f64 = 3.0;
-/// Turns of the cage from which sidebands at its frequency are told from other lines.
-const TELLING: f64 = 10.0;
+/// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the spectrum.
+const TELLING: f64 = 20.0;
 
 /// A family near a defect frequency, but farther from it than the tolerance: no verdict, a reason to doubt the speed or the bearing.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +46,12 @@ impl Record<'_> {
     /// All families: those that are damage first, the one that leads before the others; what else stands after it.
     pub(super) fn families(&mut self) -> Vec<Family> {
         let mut all = self.read(self.options.tolerance);
+        if self.is_short() {
+            let elements = all.iter_mut().filter(|f| f.component == Component::Element);
+            for element in elements.filter(|f| f.standing == Standing::Damage) {
+                element.standing = Standing::Open;
+            }
+        }
         let Some(lead) = leading(&all) else {
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return all;
@@ -58,9 +64,10 @@ impl Record<'_> {
             |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
-            let own = own.is_some_and(|f| f.is_damage()) && apart(family);
+            let own = own.is_some_and(Family::is_damage) && apart(family);
             let cage = family.component == Component::Cage;
-            if family.standing == Standing::Damage && (cage || !own) {
+            let claims = matches!(family.standing, Standing::Damage | Standing::Open);
+            if claims && (cage || !own) {
                 family.standing = Standing::Shared(lead.name);
             }
         }
@@ -92,8 +99,8 @@ impl Record<'_> {
         })
     }
 
-    /// Whether the record holds so few turns of the cage that a rolling element's sidebands fill the spectrum.
-    pub(super) fn is_short(&self) -> bool {
+    /// Whether the record holds so few turns of the cage that a rolling element's sidebands are not told from other lines.
+    fn is_short(&self) -> bool {
         self.revolutions * cage(self.shaft, self.options) < TELLING * self.shaft
     }
 
@@ -119,7 +126,8 @@ impl Record<'_> {
 /// The family that leads: the highest score; an element's or the cage's only with a lead over the races'.
 fn leading(all: &[Family]) -> Option<usize> {
     let highest = |of: &dyn Fn(Component) -> bool| {
-        let these = (all.iter().enumerate()).filter(|(_, f)| f.is_damage() && of(f.component));
+        let these = (all.iter().enumerate())
+            .filter(|(_, f)| f.standing == Standing::Damage && of(f.component));
         these.max_by(|a, b| a.1.score.total_cmp(&b.1.score))
     };
     let race = highest(&|c| matches!(c, Component::OuterRace | Component::InnerRace));

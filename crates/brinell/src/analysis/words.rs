@@ -40,12 +40,6 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                     text.push(PASSING.into());
                 }
             }
-            if !analysis.untold.is_empty() {
-                text.push(format!(
-                    "The record holds fewer than ten turns of the cage, which do not tell it from {}: a longer one would.",
-                    analysis.untold.join(" and ")
-                ));
-            }
         }
         Verdict::CannotTell => {
             let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
@@ -72,7 +66,9 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                     "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would tell.",
                     family.component.words(),
                     told(family),
-                    if family.score < family.noise {
+                    if family.is_damage() {
+                        "sidebands that a record of fewer than twenty turns of the cage does not tell from other lines"
+                    } else if family.score < family.noise {
                         "lines hardly above what noise shows in a record of this length"
                     } else {
                         "fewer harmonics than damage has"
