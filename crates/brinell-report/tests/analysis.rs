@@ -1,7 +1,7 @@
 //! The page of an analysis: what must be on it, and that nothing odd breaks it.
 
 use brinell_report::{
-    AnalysisReport, Fact, Kurtogram, KurtogramLevel, Marker, Series, Spectrum, Table,
+    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Marker, Series, Spectrum, Table,
     analysis_html, analysis_pictures,
 };
 use proptest::prelude::*;
