@@ -60,7 +60,7 @@ fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
         .says(&["wrote look/report.html", "wrote all.json"]);
     let rows: Vec<&str> = done.out.lines().filter(|l| l.starts_with('r')).collect();
     assert_eq!(rows.len(), 3, "{}", done.out);
-    assert!(rows[0].starts_with("r1.csv") && rows[0].contains("nothing"));
+    assert!(rows[0].starts_with("r1.csv") && rows[0].contains("no damage found"));
     assert!(rows[1].starts_with("r2.csv ") && rows[1].contains("no result: the file is empty"));
     assert!(rows[2].starts_with("r10.csv") && rows[2].contains("outer race"));
     // White noise of 1 g RMS up to 6 kHz has 6.3 mm/s from 10 Hz up.
@@ -69,7 +69,7 @@ fn regress_a_folder_is_a_row_a_file_and_a_bad_one_stops_nothing() {
     let all = json(&folder.path().join("all.json"));
     let records = all["records"].as_array().unwrap();
     assert_eq!(records.len(), 3);
-    assert_eq!(records[0]["verdict"]["nothing_stands_out"], true);
+    assert_eq!(records[0]["verdict"]["says"], "nothing_found");
     assert_eq!(records[1]["file"]["path"], "records/r2.csv");
     assert!(records[1]["error"].as_str().unwrap().contains("empty"));
     assert_eq!(records[2]["verdict"]["damage"][0], "outer_race");

@@ -64,10 +64,13 @@ impl Record<'_> {
             |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
         for family in &mut all {
             let own = left.iter().find(|f| f.name == family.name);
-            let own = own.is_some_and(Family::is_damage) && apart(family);
-            let cage = family.component == Component::Cage;
-            let claims = matches!(family.standing, Standing::Damage | Standing::Open);
-            if claims && (cage || !own) {
+            let stays = own.is_some_and(Family::is_damage) && apart(family);
+            let gone = own.is_none_or(|f| f.standing_harmonics() == 0);
+            let shared = match family.standing {
+                Standing::Damage | Standing::Open => family.component == Component::Cage || !stays,
+                _ => gone && family.standing_harmonics() > 0,
+            };
+            if shared {
                 family.standing = Standing::Shared(lead.name);
             }
         }
