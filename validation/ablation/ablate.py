@@ -7,6 +7,7 @@ runs SCORE.PY on it. Prints a row of a Markdown table a variant. Standard librar
 """
 
 import argparse
+import hashlib
 import os
 import re
 import shutil
@@ -131,7 +132,7 @@ def main():
     parser.add_argument("score", type=Path, help="score.py beside its records")
     parser.add_argument("--target", type=Path, help="folder for what is built, kept [default: a temporary one]")
     parser.add_argument("words", nargs="*", help="only the variants that have one of these in their name")
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     chosen = [v for v in VARIANTS if not args.words or any(word in v[0] for word in args.words)]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary) / "brinell"
@@ -139,12 +140,18 @@ def main():
         # All of them, before anything is built.
         for _, changes in VARIANTS:
             restore(apply(changes, folder))
+        built = set()
         target = (args.target or Path(temporary) / "target").resolve()
         print("| | right / second / wrong / missed | healthy called | other end called | speed off | its healthy called |")
         print("| --- | --- | --- | --- | --- | --- |", flush=True)
         for words, changes in chosen:
             before = apply(changes, folder)
-            row = cells(score(args.score, build(folder, target)))
+            binary = build(folder, target)
+            digest = hashlib.sha256(binary.read_bytes()).digest()
+            if digest in built:
+                raise SystemExit(f"{words}: the same program as an earlier variant")
+            built.add(digest)
+            row = cells(score(args.score, binary))
             print("| " + " | ".join([words, *row]) + " |", flush=True)
             restore(before)
 
