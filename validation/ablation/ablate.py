@@ -34,6 +34,12 @@ def constant(words, file, name, was, values):
         variant(f"{words} {value}", (file, f"const {name}: f64 = {was};", f"const {name}: f64 = {value};"))
 
 
+def together(words, *names):
+    """Registers a variant of all changes of those named."""
+    changes = dict(VARIANTS)
+    variant(words, *(change for name in names for change in changes[name]))
+
+
 variant("plain sum over harmonics", ("family.rs", "sum += least;", "sum += ratio.max(f64::MIN_POSITIVE).ln();"))
 variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 = 0.14;", "const FAINT: f64 = 0.0;"))
 variant("no score limit: 14 % suffices beyond noise", ("family.rs", "(SCORE + HARMONICS as f64 * shorter.ln()).max(noise)", "noise"))
@@ -67,6 +73,18 @@ for turns in (60, 30):
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
 constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
 constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
+together(
+    "all that change nothing by themselves, at once",
+    "no modulation asked of a high score",
+    "limit not lowered for short records",
+    "sidebands not counted in modulation",
+    "only three bins hidden, skirts not followed",
+    "an element needs no sidebands",
+    "an element needs no lead",
+    "an element may run ahead",
+    "no least number of lines",
+    "skirts of what lies beyond the tolerance not refused",
+)
 
 
 def apply(changes, folder):
