@@ -73,18 +73,18 @@ for turns in (60, 30):
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
 constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
 constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
-together(
-    "all that change nothing by themselves, at once",
+WITHOUT_EFFECT = [
     "no modulation asked of a high score",
     "limit not lowered for short records",
     "sidebands not counted in modulation",
     "only three bins hidden, skirts not followed",
     "an element needs no sidebands",
-    "an element needs no lead",
     "an element may run ahead",
     "no least number of lines",
     "skirts of what lies beyond the tolerance not refused",
-)
+]
+together("eight that change nothing by themselves, at once", *WITHOUT_EFFECT)
+together("the eight, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
 
 
 def apply(changes, folder):
