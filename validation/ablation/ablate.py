@@ -1,0 +1,177 @@
+"""What each part of the verdict of `brinell analyze` adds, counted on measured records.
+
+    python3 validation/ablation/ablate.py SCORE.PY [--target FOLDER] [WORDS OF A VARIANT ...]
+
+Copies the tracked files to a temporary folder, takes one part out of crates/brinell/src/analysis/ for each variant, builds the command there and
+runs SCORE.PY on it. Prints a row of a Markdown table a variant. Standard library only; see README.md.
+"""
+
+import argparse
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ANALYSIS = "crates/brinell/src/analysis/"
+
+# In words, and the changes: file, text that stands there once, text in its place.
+VARIANTS = [("as it is", [])]
+
+
+def variant(words, *changes):
+    """Registers a variant."""
+    VARIANTS.append((words, changes))
+
+
+def constant(words, file, name, was, values):
+    """Registers a variant for each other value of a constant."""
+    for value in values:
+        variant(f"{words} {value}", (file, f"const {name}: f64 = {was};", f"const {name}: f64 = {value};"))
+
+
+def together(words, *names):
+    """Registers a variant of all changes of those named."""
+    changes = dict(VARIANTS)
+    variant(words, *(change for name in names for change in changes[name]))
+
+
+variant("plain sum over harmonics", ("family.rs", "sum += least;", "sum += ratio.max(f64::MIN_POSITIVE).ln();"))
+variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 = 0.14;", "const FAINT: f64 = 0.0;"))
+variant("no score limit: 14 % suffices beyond noise", ("family.rs", "(SCORE + HARMONICS as f64 * shorter.ln()).max(noise)", "noise"))
+variant("a high score is no way to damage", ("family.rs", "&& (high || deep)", "&& deep"))
+variant("deep modulation is no way to damage", ("family.rs", "&& (high || deep)", "&& high"))
+variant("limit not lowered for short records", ("family.rs", "(revolutions / REVOLUTIONS).min(1.0)", "1.0_f64"))
+variant("sidebands not counted in modulation", ("family.rs", "depth += at.depth.min(carrier.depth);", ""))
+variant("sidebands not capped by their carrier", ("family.rs", "depth += at.depth.min(carrier.depth);", "depth += at.depth;"))
+variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).min(whole);", "let width = whole;"))
+variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft);", ""))
+variant(
+    "only three bins hidden, skirts not followed",
+    ("together.rs", "|to: f64, from: f64| to >= standing && to < from;", "|_: f64, _: f64| false;"),
+)
+variant("shaft's comb not placed anew", ("together.rs", ".chain(highest.filter(|_| shaft.tolerance > 0.0))", ".chain(highest.filter(|_| false))"))
+variant("speed as given", ("known_lines.rs", "best.filter(|f| own(*f))", "best.filter(|_| false)"))
+variant("an element needs no sidebands", ("family.rs", "!element || sides >= standing", "true"))
+variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
+variant("an element may run ahead", ("family.rs", "AHEAD.min(tolerance)", "tolerance"))
+variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
+variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "family.is_skirt = outside &&", "family.is_skirt = false && outside &&"))
+for turns in (60, 30):
+    segments = ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;")
+    # The limit is that of a record of 120 revolutions in one segment.
+    variant(f"segments of {turns} revolutions", segments)
+    variant(
+        f"segments of {turns} revolutions, limit as of a record so short",
+        segments,
+        ("family.rs", "(revolutions / REVOLUTIONS).min(1.0)", "(revolutions.min(REVOLUTIONS) / 120.0).min(1.0)"),
+    )
+constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
+constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
+constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
+WITHOUT_EFFECT = [
+    "no modulation asked of a high score",
+    "limit not lowered for short records",
+    "sidebands not counted in modulation",
+    "only three bins hidden, skirts not followed",
+    "an element needs no sidebands",
+    "an element may run ahead",
+    "no least number of lines",
+    "skirts of what lies beyond the tolerance not refused",
+]
+together("eight that change nothing by themselves, at once", *WITHOUT_EFFECT)
+together("the eight, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
+
+
+def apply(changes, folder):
+    """Makes the changes in the copy and gives the texts they replaced, by path."""
+    before = {}
+    for file, old, new in changes:
+        path = folder / ANALYSIS / file
+        text = path.read_text()
+        if text.count(old) != 1:
+            raise SystemExit(f"{file} has {text.count(old)} times, expected once: {old}")
+        before.setdefault(path, text)
+        path.write_text(text.replace(old, new))
+    return before
+
+
+def restore(before):
+    for path, text in before.items():
+        path.write_text(text)
+
+
+def copy(folder):
+    """The tracked files, as they are in the working tree."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    for name in filter(None, names.split("\0")):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+
+
+def build(folder, target):
+    """The command. Results do not depend on how it is cut for the compiler; small pieces are built anew faster."""
+    env = os.environ | {"CARGO_TARGET_DIR": str(target), "CARGO_INCREMENTAL": "1"}
+    pieces = "profile.release.package.brinell.codegen-units=256"
+    command = ["cargo", "build", "--release", "--locked", "--quiet", "-p", "brinell-cli", "--config", pieces]
+    done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True)
+    # Otherwise it warns of what a variant leaves unused.
+    if done.returncode != 0:
+        raise SystemExit(done.stderr)
+    return target / "release" / "brinell"
+
+
+def score(script, binary):
+    """Counts by group, as the script's last line has them."""
+    done = subprocess.run([sys.executable, script, binary], check=True, capture_output=True, text=True)
+    groups = {}
+    for part in done.stdout.strip().splitlines()[-1].split("; "):
+        group, counts = part.split(": ", 1)
+        groups[group] = {how: int(n) for how, n in re.findall(r"([a-z ]+?) (\d+)(?:, |$)", counts)}
+    left = sum(counts.get("not analysed", 0) for counts in groups.values())
+    if left:
+        raise SystemExit(f"{left} records were not analysed:\n{done.stdout}")
+    return groups
+
+
+def cells(groups):
+    """Of damaged bearings right, second, wrong and missed; of sound ones how many were called damaged."""
+    found = lambda group: " / ".join(str(groups[group].get(how, 0)) for how in ("right", "second", "wrong", "missed"))
+    alarms = lambda group: str(groups[group].get("called damaged", 0))
+    return [found("fault"), alarms("healthy"), alarms("other-end"), found("uestc"), alarms("uestc-healthy")]
+
+
+def main():
+    parser = argparse.ArgumentParser(description="What each part of the verdict adds, counted on measured records.")
+    parser.add_argument("score", type=Path, help="score.py beside its records")
+    parser.add_argument("--target", type=Path, help="folder for what is built, kept [default: a temporary one]")
+    parser.add_argument("words", nargs="*", help="only the variants that have one of these in their name")
+    args = parser.parse_intermixed_args()
+    chosen = [v for v in VARIANTS if not args.words or any(word in v[0] for word in args.words)]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary) / "brinell"
+        copy(folder)
+        # All of them, before anything is built.
+        for _, changes in VARIANTS:
+            restore(apply(changes, folder))
+        built = set()
+        target = (args.target or Path(temporary) / "target").resolve()
+        print("| | right / second / wrong / missed | healthy called | other end called | speed off | its healthy called |")
+        print("| --- | --- | --- | --- | --- | --- |", flush=True)
+        for words, changes in chosen:
+            before = apply(changes, folder)
+            binary = build(folder, target)
+            digest = hashlib.sha256(binary.read_bytes()).digest()
+            if digest in built:
+                raise SystemExit(f"{words}: the same program as an earlier variant")
+            built.add(digest)
+            row = cells(score(args.score, binary))
+            print("| " + " | ".join([words, *row]) + " |", flush=True)
+            restore(before)
+
+
+main()
