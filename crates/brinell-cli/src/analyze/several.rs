@@ -186,10 +186,8 @@ impl Found {
         let json = ends::to_json(results, |result| {
             let mut json = as_json(result);
             if let Some(all) = json.as_object_mut() {
-                // The bulk of it, of little use for a trend.
-                for key in ["families", "brinell"] {
-                    all.remove(key);
-                }
+                // It stands above all records.
+                all.remove("brinell");
             }
             json
         });

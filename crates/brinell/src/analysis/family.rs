@@ -8,7 +8,7 @@
 //!
 //! In measured records of sound bearings families stand too, some of them high, and none of them modulates; of those that do, none stands high. So
 //! damage takes both ([`Family::is_damage`]). The limits were set on 72 public records of three rigs (docs/src/results/analyze.md): of 31 of sound
-//! bearings none scores more than 10.9 or, at a score beyond noise, modulates by more than 19 %.
+//! bearings none scores more than 10.7 or, at a score beyond noise, modulates by more than 20 % (25 % at the cage's frequency).
 
 use super::Options;
 use super::frequencies::Component;
@@ -141,11 +141,18 @@ impl Family {
         let hidden = (self.harmonics.iter())
             .filter(|h| h.snr_db.is_none())
             .count();
-        // An element passes through the load once for each turn of the cage: lines at its rate without sidebands are somebody else's, of slip
-        // in BPFO most often.
         let sides = self.sidebands.map_or(0, |s| s.0);
-        let turns = self.component != Component::Element || sides >= standing;
-        !self.is_skirt && turns && standing + hidden + sides / 2 >= FEWEST.0 && standing >= FEWEST.1
+        !self.is_skirt
+            && !self.lacks_sidebands()
+            && standing + hidden + sides / 2 >= FEWEST.0
+            && standing >= FEWEST.1
+    }
+
+    /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are somebody else's, of slip in BPFO
+    /// most often.
+    pub(super) fn lacks_sidebands(&self) -> bool {
+        let sides = self.sidebands.map_or(0, |s| s.0);
+        self.component == Component::Element && sides < self.standing_harmonics()
     }
 
     /// Whether its evidence is both high and deep.

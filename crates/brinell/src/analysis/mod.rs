@@ -1,7 +1,7 @@
 //! Analysis of one vibration signal: samples in, a verdict with its evidence out.
 //!
 //! The chain is that of R. B. Randall and J. Antoni, "Rolling element bearing diagnostics - a tutorial", Mech. Syst. Signal
-//! Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is demodulated in some two dozen bands,
+//! Process. 25 (2011) 485-520: the mean is removed, the range above three times the highest defect frequency is demodulated in one to two dozen bands,
 //! and their envelope spectra are averaged over their noise floors. In the average each defect frequency is sought with its harmonics and sidebands,
 //! all of one slip: a [`Family`]. Line present, source identified and damage likely are three statements; [`Standing`] says which holds. Lines of the
 //! shaft's harmonics and of 50 and 60 Hz mains are set aside.

@@ -70,6 +70,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                         "sidebands that a record of fewer than twenty turns of the cage does not tell from other lines"
                     } else if family.score < family.noise {
                         "lines hardly above what noise shows in a record of this length"
+                    } else if family.lacks_sidebands() {
+                        "fewer sidebands than damage that turns has"
                     } else {
                         "fewer harmonics than damage has"
                     }
@@ -89,13 +91,13 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
     if !before.is_empty() {
         text.push(format!(
             "Lines of {} modulate as when the machine was healthy.",
-            before.join(" and ")
+            listed(&before)
         ));
     }
     if analysis.causes().next().is_none() && !faint.is_empty() {
         text.push(format!(
             "Lines of {} stand as faintly as in sound machines.",
-            faint.join(" and ")
+            listed(&faint)
         ));
     }
     text.join(" ")
@@ -153,6 +155,14 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
         ]
     };
     analysis.families.iter().map(row).collect()
+}
+
+/// `A, B and C`.
+fn listed(names: &[&str]) -> String {
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 fn capital(text: &str) -> String {
