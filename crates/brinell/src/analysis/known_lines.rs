@@ -56,12 +56,8 @@ pub(super) fn shaft(
     let reach = options.tolerance * options.shaft;
     let lines = harmonics(&spectrum, options.shaft, reach, HARMONICS)?;
     // What the mains could have made says nothing of the shaft.
-    let near_mains = |f: f64| {
-        let off = |mains: f64| (f - (f / mains).round() * mains).abs();
-        Mains::ALL.iter().any(|m| off(m.frequency()) < 2.0 * step)
-    };
     let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
-        .filter(|l| !near_mains(l.frequency))
+        .filter(|l| !near_mains(l.frequency, 2.0 * step))
         .map(|l| (f64::from(l.order), l.frequency))
         .collect();
     // The speed that most lines agree on, then least squares of those.
@@ -86,6 +82,12 @@ pub(super) fn shaft(
         speed: above / below,
         orders: agree(best).map(|(h, _)| *h as usize).collect(),
     }))
+}
+
+/// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.
+pub(super) fn near_mains(f: f64, width: f64) -> bool {
+    let off = |mains: f64| (f - (f / mains).round() * mains).abs();
+    Mains::ALL.iter().any(|m| off(m.frequency()) < width)
 }
 
 fn divisor(a: i32, b: i32) -> i32 {
