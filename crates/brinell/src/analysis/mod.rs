@@ -32,6 +32,7 @@ mod family;
 mod frequencies;
 mod json;
 mod known_lines;
+mod levels;
 mod sensitivity;
 mod severity;
 mod together;
@@ -47,6 +48,7 @@ pub use family::{Family, Harmonic, Standing};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
+pub use levels::Levels;
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{
     BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
