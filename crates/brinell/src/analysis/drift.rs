@@ -41,6 +41,8 @@ const GAIN: f64 = 1.5;
 const OWN_GAIN: f64 = 0.4;
 /// Harmonics that have to say so.
 const AGREEING: usize = 2;
+/// Change of a defect frequency, relative, that slip explains: no speed's.
+const SLIP: f64 = 0.005;
 /// Merit from which a stretch tells a speed.
 const TELLS: f64 = 10.0;
 /// Power over floor, where there is no floor.
@@ -155,11 +157,14 @@ pub(super) fn by_families(
         stretches.drift(&orders, name, false)
     });
     let highest = drifts.max_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(highest.map(|(_, mut drift)| {
-        let factor = options.shaft / drift.mean();
-        drift.course.iter_mut().for_each(|p| p.1 *= factor);
-        drift
-    }))
+    let beyond_slip = |d: &Drift| d.highest().1 - d.lowest().1 > SLIP * d.mean();
+    Ok(highest
+        .filter(|(_, d)| beyond_slip(d))
+        .map(|(_, mut drift)| {
+            let factor = options.shaft / drift.mean();
+            drift.course.iter_mut().for_each(|p| p.1 *= factor);
+            drift
+        }))
 }
 
 /// Spectra of successive stretches.
