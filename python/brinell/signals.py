@@ -443,7 +443,7 @@ def analyze(
     >>> found.says, found.damage
     ('damage', ['outer_race'])
     >>> round(found.severity["velocity_rms_10_1000_hz"]["value"], 1)
-    2.6
+    0.3
     """
     name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
     samples = np.asarray(x, dtype=float)
