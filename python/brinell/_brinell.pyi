@@ -169,4 +169,6 @@ def analyze(
     tolerance: float,
     band_hz: _Band,
     simulated: bool,
+    machine_class: str | None,
+    sensitivity: str | None,
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...

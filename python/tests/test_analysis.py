@@ -56,6 +56,61 @@ def test_prop_what_cannot_be_analysed_is_an_error(call):
         call(np.sin(np.arange(1000.0)))
 
 
+def outer_race(seconds: float = 2.0) -> np.ndarray:
+    """Impacts on the outer race of a 6205-2RS at 1800 r/min, at 12 kHz, in a little noise."""
+    since = np.arange(int(12000 * seconds)) / 12000.0 % (1.0 / (3.585 * 30.0))
+    noise = np.random.default_rng(1).normal(size=len(since))
+    return np.exp(-since / 4e-4) * np.sin(6.283 * 3000.0 * since) + 0.05 * noise
+
+
+KNOWN = {"rate_hz": 12000.0, "speed_rpm": 1800.0, "bearing": "6205-2RS"}
+
+
+def test_analytic_a_sensitivity_turns_volts_into_vibration():
+    x = outer_race()
+    plain = brinell.analyze(x, unit="g", **KNOWN)
+    volts = brinell.analyze(0.1 * x, unit="V", sensitivity="100mV/g", **KNOWN)
+    assert volts.says == plain.says == "damage" and volts.damage == plain.damage == ["outer_race"]
+    assert volts.envelope.unit == "g" and repr(volts) == "<brinell.Analysis: outer_race>"
+    velocity = [found.severity["velocity_rms_10_1000_hz"] for found in (plain, volts)]
+    assert velocity[0]["unit"] == "mm/s"
+    np.testing.assert_allclose(velocity[0]["value"], velocity[1]["value"], rtol=1e-9)
+    low, high = velocity[0]["interval_95"]
+    assert low <= velocity[0]["value"] <= high
+    unscaled = brinell.analyze(x, unit="V", **KNOWN).severity["velocity_rms_10_1000_hz"]
+    assert unscaled["value"] is None and "neither an acceleration nor a velocity" in unscaled["why"]
+
+
+def test_analytic_a_zone_where_a_class_is_given():
+    # 10 m/s^2 at 159.155 Hz are 10 mm/s, 7.07 RMS.
+    x = 10.0 * np.sin(2 * np.pi * 159.155 * np.arange(48000) / 12000.0) + 0.01 * np.random.default_rng(2).normal(size=48000)
+    found = brinell.analyze(x, unit="m/s^2", machine_class="2-rigid", **KNOWN)
+    np.testing.assert_allclose(found.severity["velocity_rms_10_1000_hz"]["value"], 50.0**0.5, rtol=5e-3)
+    assert found.severity["iso_20816_3"]["zone"] == "D"
+    assert brinell.analyze(x, unit="m/s^2", **KNOWN).severity["iso_20816_3"] is None
+
+
+def test_prop_a_verdict_says_which_kind_it_is():
+    noise = np.random.default_rng(5).normal(size=24000)
+    found = brinell.analyze(noise, unit="g", **KNOWN)
+    assert (found.says, found.damage, found.drift) == ("nothing_found", [], None)
+    assert repr(found) == "<brinell.Analysis: no damage found>"
+    assert [family["name"] for family in found.families]
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"unit": "g", "machine_class": "3-rigid"}, "machine_class = \"3-rigid\".*2-flexible"),
+        ({"unit": "V", "sensitivity": "100"}, "100mV/g"),
+        ({"unit": "g", "sensitivity": "100mV/g"}, "expected a signal that is a voltage"),
+    ],
+)
+def test_prop_options_that_do_not_fit_are_refused(settings, words):
+    with pytest.raises(ValueError, match=f"(?s){words}"):
+        brinell.analyze(outer_race(), **KNOWN, **settings)
+
+
 def test_prop_unknown_bearings_are_told_with_those_known():
     with pytest.raises(ValueError, match="NN3007"):
         brinell.analyze(np.arange(9.0), rate_hz=1e4, unit="g", speed_rpm=1800.0, bearing="X")

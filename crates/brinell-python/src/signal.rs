@@ -2,7 +2,9 @@
 
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::{SignalError, bad_value};
-use brinell::analysis::{DefectOrders, Options, Quantity, Unit, to_json, velocity};
+use brinell::analysis::{
+    DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json, velocity,
+};
 use brinell::bearing::kinematics::Geometry;
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
 use numpy::PyArrayMethods;
@@ -244,6 +246,31 @@ fn orders(
     Ok(orders)
 }
 
+/// A class of machines by its name.
+fn class(name: &str) -> PyResult<MachineClass> {
+    let known = MachineClass::ALL.into_iter().find(|c| c.name() == name);
+    known.ok_or_else(|| {
+        let names = MachineClass::ALL.map(MachineClass::name).join(", ");
+        bad_value(format!(
+            "machine_class = \"{name}\": no such class\n  allowed: {names}"
+        ))
+    })
+}
+
+/// What a signal in `unit` is multiplied by, and what it is in then.
+fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit)> {
+    let sensitivity =
+        Sensitivity::given(text).map_err(|error| bad_value(format!("sensitivity = {error}")))?;
+    let Some(factor) = sensitivity.factor(unit) else {
+        return Err(bad_value(format!(
+            "sensitivity = \"{text}\": expected a signal that is a {}, and unit = \"{}\"",
+            sensitivity.output.quantity.words().to_lowercase(),
+            unit.name
+        )));
+    };
+    Ok((factor, sensitivity.of))
+}
+
 /// Which component's defect frequencies stand out: the JSON of `brinell analyze`, and the envelope spectrum that shows most.
 #[pyfunction]
 #[expect(
@@ -262,9 +289,18 @@ pub(crate) fn analyze<'py>(
     tolerance: f64,
     band_hz: Option<(f64, f64)>,
     simulated: bool,
+    machine_class: Option<&str>,
+    sensitivity: Option<&str>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
     let mut copy = Vec::new();
-    let x = slice(&x, &mut copy);
+    let (mut x, mut unit) = (slice(&x, &mut copy), Unit::of(unit));
+    let class = machine_class.map(class).transpose()?;
+    let scaled: Vec<f64>;
+    if let Some(text) = sensitivity {
+        let (factor, of) = sensor(text, &unit)?;
+        scaled = x.iter().map(|v| factor * v).collect();
+        (x, unit) = (&scaled, of);
+    }
     if !(speed_rpm.is_finite() && speed_rpm != 0.0) {
         return Err(failed(format!(
             "speed_rpm = {speed_rpm}: expected a speed other than 0, in r/min"
@@ -278,17 +314,20 @@ pub(crate) fn analyze<'py>(
     options.exact = simulated;
     options.silent = simulated && !scenario.is_some_and(noisy);
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
-    let unit = Unit::of(unit);
     let (analysis, bands) = py.detach(|| {
-        let analysis = brinell::analysis::analyze(x, rate_hz, &options);
+        let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|analysis| {
+            let levels = Levels::of(x, &unit, &analysis, class);
+            (analysis, levels)
+        });
         let bands = (unit.quantity == Quantity::Acceleration).then(|| {
             let si: Vec<f64> = x.iter().map(|v| v * unit.to_si).collect();
             velocity(&si, rate_hz, shaft).ok()
         });
         (analysis, bands.flatten())
     });
-    let analysis = analysis.map_err(failed)?;
-    let json = to_json(&analysis, &unit, bands.as_ref(), None);
+    let (analysis, levels) = analysis.map_err(failed)?;
+    let mut json = to_json(&analysis, &unit, bands.as_ref(), None);
+    json["severity"] = levels.to_json(&unit);
     let view = &analysis.view;
     let envelope = spectrum_dict(py, view.spectrum.clone())?;
     envelope.set_item("mean", view.mean)?;

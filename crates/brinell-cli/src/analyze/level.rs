@@ -1,55 +1,31 @@
-//! Levels of a signal, whatever the verdict: RMS velocity with its zone, kurtosis and envelope of the band shown. In words, as JSON and for the page.
+//! Levels of a signal, whatever the verdict, in words and for the page.
 
 use super::measured::Measured;
 use crate::say::short;
-use brinell::analysis::{
-    Analysis, BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level,
-    severity,
-};
+use brinell::analysis::{Analysis, Levels, MachineClass, SEVERITY_BAND, Zone};
 use brinell::signal::{Band, Estimate};
 use brinell_report::Fact;
-use serde_json::{Value, json};
 
 /// What the zones are for, and of what.
 pub(super) const ZONES: &str = "ISO 20816-3: zones are for measurements on the bearing housings of machines above 15 kW at 120 to 30000 r/min, \
      the largest over all places and directions";
 
 /// Levels of one signal.
-pub(super) struct Level {
-    /// RMS velocity, m/s.
-    pub(super) velocity: Result<Estimate, NoVelocity>,
-    /// The class that was given.
-    pub(super) class: Option<MachineClass>,
-    /// Where class and velocity are known.
-    pub(super) zone: Option<Result<Zone, NoZone>>,
-    band: Option<BandLevel>,
-}
+pub(super) struct Level(pub(super) Levels);
 
 impl Level {
     pub(super) fn of(m: &Measured, a: &Analysis, class: Option<MachineClass>) -> Self {
-        let velocity = severity(&m.x, &m.unit, m.rate, a.shaft);
-        let zone = |v: &Estimate, class: MachineClass| class.zone(v.value, 60.0 * a.shaft);
-        Level {
-            zone: velocity.as_ref().ok().zip(class).map(|(v, c)| zone(v, c)),
-            velocity,
-            class,
-            band: band_level(&m.x, m.rate, a.view.band, a.shaft),
-        }
-    }
-
-    /// The zone's letter, where it is known.
-    pub(super) fn letter(&self) -> Option<&'static str> {
-        self.zone?.ok().map(Zone::name)
+        Level(Levels::of(&m.x, &m.unit, a, class))
     }
 
     /// What is printed.
     pub(super) fn lines(&self, unit: &str) -> Vec<String> {
-        let mut lines = vec![match &self.velocity {
+        let mut lines = vec![match &self.0.velocity {
             Ok(v) => format!("{} {} mm/s", self.named(), short(1e3 * v.value, 4)),
             Err(why) => format!("{} {why}", self.named()),
         }];
         lines.extend(self.zone_words());
-        lines.extend(self.band.map(|b| {
+        lines.extend(self.0.band.map(|b| {
             format!(
                 "band of {:.0} to {:.0} Hz: kurtosis {}, envelope RMS {} {unit}, envelope peak {} {unit}",
                 b.band.low,
@@ -69,8 +45,8 @@ impl Level {
 
     /// The zone with its limits and what it is for.
     fn zone_words(&self) -> Option<String> {
-        let class = self.class?;
-        let zone = match self.zone {
+        let class = self.0.class?;
+        let zone = match self.0.zone {
             Some(Ok(zone)) => {
                 let all = class.boundaries();
                 let limits = match zone {
@@ -87,37 +63,10 @@ impl Level {
         Some(format!("zone {zone} ({}; {ZONES})", class.words()))
     }
 
-    pub(super) fn json(&self, unit: &str) -> Value {
-        let of = |e: &Estimate, unit: &str| {
-            let interval = e.interval.map(|i| [i.low, i.high]);
-            json!({ "value": e.value, "unit": unit, "interval_95": interval })
-        };
-        let velocity = match &self.velocity {
-            Ok(v) => of(&scaled(v, 1e3), "mm/s"),
-            Err(why) => json!({ "value": null, "why": why.to_string() }),
-        };
-        json!({
-            "velocity_rms_10_1000_hz": velocity,
-            "iso_20816_3": self.class.map(|class| json!({
-                "machine_class": class.name(),
-                "boundaries_mm_per_s": class.boundaries(),
-                "zone": self.letter(),
-                "why": self.zone.and_then(Result::err).map(|why| why.to_string()),
-            })),
-            "band_shown": self.band.map(|b| json!({
-                "low_hz": b.band.low,
-                "high_hz": b.band.high,
-                "kurtosis": of(&b.kurtosis, ""),
-                "envelope_rms": of(&b.envelope_rms, unit),
-                "envelope_peak": of(&b.envelope_peak, unit),
-            })),
-        })
-    }
-
     /// The velocity among the page's headline numbers.
     pub(super) fn fact(&self) -> Option<Fact> {
-        let v = self.velocity.as_ref().ok()?;
-        let note = match (self.letter(), self.class) {
+        let v = self.0.velocity.as_ref().ok()?;
+        let note = match (self.0.letter(), self.0.class) {
             (Some(zone), Some(class)) => {
                 format!("10 to 1000 Hz; zone {zone}, {}", class.words())
             }
@@ -129,14 +78,14 @@ impl Level {
     /// Rows of the page's table of indicators: name, value, unit.
     pub(super) fn rows<'a>(&self, unit: &'a str) -> Vec<(String, Estimate, &'a str)> {
         let mut rows = Vec::new();
-        if let Ok(v) = &self.velocity {
+        if let Ok(v) = &self.0.velocity {
             rows.push((
                 "RMS velocity, 10 to 1000 Hz".to_owned(),
                 scaled(v, 1e3),
                 "mm/s",
             ));
         }
-        if let Some(b) = &self.band {
+        if let Some(b) = &self.0.band {
             let of = |what: &str| format!("{what}, {:.0} to {:.0} Hz", b.band.low, b.band.high);
             rows.push((of("Kurtosis"), b.kurtosis, ""));
             rows.push((of("RMS of the envelope"), b.envelope_rms, unit));
@@ -147,7 +96,7 @@ impl Level {
 
     /// What the page says under them.
     pub(super) fn notes(&self) -> Vec<String> {
-        let why = self.velocity.as_ref().err();
+        let why = self.0.velocity.as_ref().err();
         let mut notes: Vec<String> = why
             .map(|w| format!("{} {w}", self.named()))
             .into_iter()

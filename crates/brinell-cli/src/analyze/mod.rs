@@ -419,7 +419,7 @@ fn as_json(result: &Result_) -> Value {
         comparison,
     );
     value["brinell"] = brinell::VERSION.into();
-    value["severity"] = result.level.json(&m.unit.name);
+    value["severity"] = result.level.0.to_json(&m.unit);
     value["file"] = json!({
         "path": m.path.display().to_string(),
         "channel": m.channel,

@@ -199,10 +199,16 @@ impl Found {
             rms: indicator(Indicator::Rms),
             peak: indicator(Indicator::Peak),
             kurtosis: indicator(Indicator::Kurtosis),
-            velocity: result.level.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
-            zone: result.level.letter(),
+            velocity: result
+                .level
+                .0
+                .velocity
+                .as_ref()
+                .ok()
+                .map(|v| scaled(v, 1e3)),
+            zone: result.level.0.letter(),
             said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
-            class: result.level.class,
+            class: result.level.0.class,
             scores: scores.collect(),
             json,
         }

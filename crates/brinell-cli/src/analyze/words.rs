@@ -20,6 +20,14 @@ pub(super) fn ratio(d: &Difference) -> Option<String> {
 
 /// What the signal's own lines say of the shaft's speed.
 pub(super) fn shaft_lines(a: &Analysis) -> String {
+    match &a.drift {
+        Some(drift) if drift.followed => drift.words(),
+        Some(drift) => format!("{}; {}: give --speed-channel", own_lines(a), drift.words()),
+        None => own_lines(a),
+    }
+}
+
+fn own_lines(a: &Analysis) -> String {
     if a.options.rotation.is_some() {
         return "followed as stated".into();
     }

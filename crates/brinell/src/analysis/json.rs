@@ -40,6 +40,17 @@ pub fn to_json(
             "found_in_signal": !analysis.shaft_lines.is_empty(),
             "harmonics_found": analysis.shaft_lines,
         },
+        "drift": analysis.drift.as_ref().map(|d| {
+            let point = |(t, hz): (f64, f64)| json!({ "at_s": t, "rpm": 60.0 * hz });
+            json!({
+                "by": d.by,
+                "lowest": point(d.lowest()),
+                "highest": point(d.highest()),
+                "order_10_smears_bins": d.smear,
+                "followed": d.followed,
+                "course": d.course.iter().map(|p| point(*p)).collect::<Vec<_>>(),
+            })
+        }),
         "bands": analysis.bands,
         "envelope": {
             "low_hz": view.band.low,

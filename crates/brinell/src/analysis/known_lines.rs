@@ -56,10 +56,6 @@ pub(super) fn shaft(
     let reach = options.tolerance * options.shaft;
     let lines = harmonics(&spectrum, options.shaft, reach, HARMONICS)?;
     // What the mains could have made says nothing of the shaft.
-    let near_mains = |f: f64| {
-        let off = |mains: f64| (f - (f / mains).round() * mains).abs();
-        Mains::ALL.iter().any(|m| off(m.frequency()) < 2.0 * step)
-    };
     // On the skirt of a line farther off the spectrum rises to the end of what was searched, and beyond.
     let is_top = |f: f64| {
         let bin = (f / step).round() as usize;
@@ -67,7 +63,7 @@ pub(super) fn shaft(
         around.is_some_and(|a| a[1..4].iter().any(|v| *v >= a[0].max(a[4])))
     };
     let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
-        .filter(|l| !near_mains(l.frequency) && is_top(l.frequency))
+        .filter(|l| !near_mains(l.frequency, 2.0 * step) && is_top(l.frequency))
         .map(|l| (f64::from(l.order), l.frequency))
         .collect();
     // The speed that most lines agree on, then least squares of those.
@@ -92,6 +88,12 @@ pub(super) fn shaft(
         speed: above / below,
         orders: agree(best).map(|(h, _)| *h as usize).collect(),
     }))
+}
+
+/// Whether a harmonic of the mains lies within `width` (Hz) of a frequency.
+pub(super) fn near_mains(f: f64, width: f64) -> bool {
+    let off = |mains: f64| (f - (f / mains).round() * mains).abs();
+    Mains::ALL.iter().any(|m| off(m.frequency()) < width)
 }
 
 fn divisor(a: i32, b: i32) -> i32 {

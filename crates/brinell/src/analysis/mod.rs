@@ -27,11 +27,13 @@
 mod bands;
 mod baseline;
 mod compare;
+mod drift;
 mod error;
 mod family;
 mod frequencies;
 mod json;
 mod known_lines;
+mod levels;
 mod sensitivity;
 mod severity;
 mod together;
@@ -42,11 +44,13 @@ mod words;
 pub use bands::BandChoice;
 pub use baseline::Signal;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
+pub use drift::Drift;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
 pub use family::{Family, Harmonic, Standing};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
+pub use levels::Levels;
 pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{
     BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
@@ -61,7 +65,7 @@ use crate::signal::{
     Transformed, VelocityBands, kurtogram, psd,
 };
 use std::thread::{self, ScopedJoinHandle};
-use together::Together;
+use together::Shaft;
 use verdict::Record;
 
 /// What is known beside the samples, and how sure to be.
@@ -164,6 +168,8 @@ pub struct Analysis {
     pub shaft: f64,
     /// Whether it is known: from lines of the signal, or as it was followed.
     pub shaft_found: bool,
+    /// How the speed changes during the record, where lines tell it and nobody said so.
+    pub drift: Option<Drift>,
     /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
     pub shaft_lines: Vec<usize>,
     /// Indicators of the signal less its mean over whole revolutions, with intervals; peaks are those of a revolution.
@@ -244,7 +250,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     // What asks for nothing but the samples goes side by side.
-    let (indicators, map, shaft, transformed) = thread::scope(|scope| {
+    let (indicators, map, shaft, drift, transformed) = thread::scope(|scope| {
         let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
         let map = scope.spawn(|| match options.band {
             Some(_) => Ok(None),
@@ -255,34 +261,63 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             Some(_) => Ok(None),
             None => known_lines::shaft(&x, fs, options),
         });
+        let drift = scope.spawn(|| match options.rotation.is_some() || options.exact {
+            true => Ok(None),
+            false => drift::by_shaft(&x, fs, options),
+        });
         // As much as is transformed fast, with a trace of noise.
         let transformed = Transformed::of(&x[..fast_up_to(x.len())], fs);
-        (done(indicators), done(map), done(shaft), transformed)
+        (
+            done(indicators),
+            done(map),
+            done(shaft),
+            done(drift),
+            transformed,
+        )
     });
     let map = map?;
     let (shaft, shaft_lines) = match shaft? {
         Some(found) => (found.speed, found.orders),
         None => (options.shaft, Vec::new()),
     };
-    let shaft_found = options.rotation.is_some() || !shaft_lines.is_empty();
     let transformed = transformed?.dithered(DITHER);
     let samples = x.len();
     drop(x);
-    // Half a bin of the finest spectrum.
-    let known = together::Shaft {
+    let mut drift = drift?;
+    let known = options.rotation.is_some() || options.exact;
+    if drift.is_none() && shaft_lines.is_empty() && !known {
+        drift = drift::by_families(&transformed, shaft, options)?;
+    }
+    let tolerance = match shaft_lines.is_empty() || options.exact {
+        true => 0.0,
+        // Half a bin of the finest spectrum.
+        false => (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft),
+    };
+    let known = Shaft {
         hz: shaft,
-        tolerance: match shaft_lines.is_empty() || options.exact {
-            true => 0.0,
-            false => (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft),
-        },
+        tolerance,
     };
-    let mut record = Record {
-        together: Together::of(&transformed, known, options)?,
-        revolutions: samples as f64 / fs * shaft,
-        shaft,
-        options,
-    };
-    let families = record.families();
+    let own;
+    let mut record = Record::of(&transformed, known, options)?;
+    let mut families = record.families();
+    if let Some(drift) = &mut drift {
+        drift.smear = record.together.smear(&drift.course);
+        own = Options {
+            rotation: Some(drift.rotation()?),
+            ..options.clone()
+        };
+        let known = Shaft {
+            hz: drift.mean(),
+            tolerance: SHAFT_KNOWN * drift.mean(),
+        };
+        let mut at_angles = Record::of(&transformed, known, &own)?;
+        let found = at_angles.families();
+        if evidence(&found) > evidence(&families) {
+            drift.followed = true;
+            (record, families) = (at_angles, found);
+        }
+    }
+    let Record { shaft, options, .. } = record;
     let lead = (families.iter()).find(|f| f.standing == Standing::Damage);
     let beyond = match lead {
         Some(_) => None,
@@ -302,8 +337,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         samples,
         mean,
         shaft,
-        shaft_found,
+        shaft_found: options.rotation.is_some() || !shaft_lines.is_empty(),
         shaft_lines,
+        drift,
         indicators,
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
         map,
@@ -317,6 +353,18 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         families,
         beyond,
     })
+}
+
+/// Score of the family that leads or, where none is damage, of the highest: the first is more.
+fn evidence(families: &[Family]) -> (bool, f64) {
+    let highest = |damage: bool| {
+        let these = (families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
+        these.map(|f| f.score).reduce(f64::max)
+    };
+    match highest(true) {
+        Some(score) => (true, score),
+        None => (false, highest(false).unwrap_or(0.0)),
+    }
 }
 
 /// Of a signal less its mean, averaged over revolutions of `revolution` samples.

@@ -192,6 +192,12 @@ impl Together {
         }
     }
 
+    /// Bins over which a line of order 10 smears where the speed (Hz) takes these values.
+    pub(super) fn smear(&self, course: &[(f64, f64)]) -> f64 {
+        let speeds = || course.iter().map(|p| p.1);
+        10.0 * (speeds().fold(0.0, f64::max) - speeds().fold(f64::INFINITY, f64::min)) / self.step
+    }
+
     /// How many bands.
     pub(super) fn bands(&self) -> usize {
         self.each.len()
@@ -250,12 +256,7 @@ pub(super) fn envelope_spectrum(
     options: &Options,
 ) -> Result<(f64, Spectrum), AnalysisError> {
     let top = top(shaft, options);
-    let samples = transformed.samples();
-    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
-    // brought down by 34 dB.
-    let factor = ((transformed.sample_rate() / (ENVELOPE_RATE * top)).floor() as usize).max(1);
-    let count = fast_up_to((samples / factor).max(64.min(samples)));
-    let envelope = transformed.envelope(band, count);
+    let envelope = thinned(transformed, band, top);
     let mean = envelope.mean;
     let (values, rate) = at_angles(envelope, transformed, shaft, options)?;
     let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
@@ -264,6 +265,32 @@ pub(super) fn envelope_spectrum(
     spectrum.amplitude.truncate(bins);
     spectrum.density.truncate(bins);
     Ok((mean, spectrum))
+}
+
+/// The envelopes of all bands, and the rate they are sampled at, Hz.
+pub(super) fn envelopes(
+    transformed: &Transformed,
+    shaft: f64,
+    options: &Options,
+) -> Result<(Vec<Vec<f64>>, f64), AnalysisError> {
+    let range = bands::range(transformed.sample_rate(), options)?;
+    let top = top(shaft, options);
+    let values = side_by_side(&tiles(range, top), |band| {
+        Ok(thinned(transformed, *band, top).values)
+    })?;
+    let count = values.first().map_or(0, Vec::len);
+    let rate = transformed.sample_rate() * count as f64 / transformed.samples() as f64;
+    Ok((values, rate))
+}
+
+/// A band's envelope, thinned out as far as lines up to `top` Hz allow.
+fn thinned(transformed: &Transformed, band: Band, top: f64) -> Thinned {
+    let samples = transformed.samples();
+    // Triangles over two stretches are filter enough: of the envelope as it is taken, what folds back onto the highest line sought has been
+    // brought down by 34 dB.
+    let factor = ((transformed.sample_rate() / (ENVELOPE_RATE * top)).floor() as usize).max(1);
+    let count = fast_up_to((samples / factor).max(64.min(samples)));
+    transformed.envelope(band, count)
 }
 
 /// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled at, Hz.
@@ -300,7 +327,7 @@ fn side_by_side<T: Sync, R: Send>(
 }
 
 /// Medians over `width` neighbours, taken at every eighth of that and joined by lines.
-fn running_median(values: &[f64], width: usize) -> Vec<f64> {
+pub(super) fn running_median(values: &[f64], width: usize) -> Vec<f64> {
     let n = values.len();
     let every = (width / 8).max(1);
     let median = |center: usize| {

@@ -1,9 +1,10 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::Options;
 use super::family::{Family, Standing, cage, read};
 use super::frequencies::Component;
-use super::together::Together;
+use super::together::{Shaft, Together};
+use super::{AnalysisError, Options};
+use crate::signal::Transformed;
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
@@ -32,7 +33,21 @@ pub(super) struct Record<'a> {
     pub(super) options: &'a Options,
 }
 
-impl Record<'_> {
+impl<'a> Record<'a> {
+    pub(super) fn of(
+        transformed: &Transformed,
+        known: Shaft,
+        options: &'a Options,
+    ) -> Result<Self, AnalysisError> {
+        let seconds = transformed.samples() as f64 / transformed.sample_rate();
+        Ok(Record {
+            together: Together::of(transformed, known, options)?,
+            revolutions: seconds * known.hz,
+            shaft: known.hz,
+            options,
+        })
+    }
+
     fn read(&self, tolerance: f64) -> Vec<Family> {
         let Record {
             together,
