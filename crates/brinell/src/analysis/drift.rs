@@ -10,10 +10,10 @@
 //! the one speed that suits it best: a course that passes from one steady line to another has no harmonic that moves along.
 
 use super::known_lines::near_mains;
-use super::together::{HARMONICS, envelopes, running_median};
+use super::together::{Envelopes, HARMONICS, running_median};
 use super::{AnalysisError, Options};
 use crate::signal::lengths::fast_from;
-use crate::signal::{Detrend, Rotation, Segments, SignalError, Transformed, Window, psd};
+use crate::signal::{Detrend, Rotation, Segments, SignalError, Window, psd};
 
 /// Revolutions of a stretch.
 const TURNS: f64 = 16.0;
@@ -143,13 +143,11 @@ pub(super) fn by_shaft(
 
 /// The same by the lines of a defect frequency in the envelopes of all bands: of the one that gains most.
 pub(super) fn by_families(
-    transformed: &Transformed,
-    shaft: f64,
+    envelopes: &Envelopes,
     options: &Options,
 ) -> Result<Option<Drift>, AnalysisError> {
-    let (values, rate) = envelopes(transformed, shaft, options)?;
-    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let Some(stretches) = Stretches::of(&values, rate, options)? else {
+    let values: Vec<&[f64]> = envelopes.each.iter().map(|e| &e.1.values[..]).collect();
+    let Some(stretches) = Stretches::of(&values, envelopes.rate, options)? else {
         return Ok(None);
     };
     let drifts = (options.orders.strikes()).filter_map(|(_, name, order)| {

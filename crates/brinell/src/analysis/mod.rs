@@ -65,7 +65,7 @@ use crate::signal::{
     Transformed, VelocityBands, kurtogram, psd,
 };
 use std::thread::{self, ScopedJoinHandle};
-use together::Shaft;
+use together::{Envelopes, Shaft};
 use verdict::Record;
 
 /// What is known beside the samples, and how sure to be.
@@ -284,9 +284,10 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let samples = x.len();
     drop(x);
     let mut drift = drift?;
+    let envelopes = Envelopes::of(&transformed, shaft, options)?;
     let known = options.rotation.is_some() || options.exact;
     if drift.is_none() && shaft_lines.is_empty() && !known {
-        drift = drift::by_families(&transformed, shaft, options)?;
+        drift = drift::by_families(&envelopes, options)?;
     }
     let tolerance = match shaft_lines.is_empty() || options.exact {
         true => 0.0,
@@ -298,7 +299,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         tolerance,
     };
     let own;
-    let mut record = Record::of(&transformed, known, options)?;
+    let mut record = Record::of(&envelopes, known, options)?;
     let mut families = record.families();
     if let Some(drift) = &mut drift {
         drift.smear = record.together.smear(&drift.course);
@@ -310,7 +311,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             hz: drift.mean(),
             tolerance: SHAFT_KNOWN * drift.mean(),
         };
-        let mut at_angles = Record::of(&transformed, known, &own)?;
+        let mut at_angles = Record::of(&envelopes, known, &own)?;
         let found = at_angles.families();
         if evidence(&found) > evidence(&families) {
             drift.followed = true;

@@ -66,16 +66,14 @@ pub(super) struct Place {
 }
 
 impl Together {
-    /// Of a signal.
+    /// Of a signal's envelopes.
     pub(super) fn of(
-        transformed: &Transformed,
+        envelopes: &Envelopes,
         shaft: Shaft,
         options: &Options,
     ) -> Result<Self, AnalysisError> {
-        let range = bands::range(transformed.sample_rate(), options)?;
-        let tiles = tiles(range, top(shaft.hz, options));
-        let spectra = side_by_side(&tiles, |band| {
-            envelope_spectrum(transformed, *band, shaft.hz, options)
+        let spectra = side_by_side(&envelopes.each, |(_, envelope)| {
+            spectrum_of(envelope, envelopes.rate, shaft.hz, options)
         })?;
         let bins = spectra
             .iter()
@@ -99,7 +97,7 @@ impl Together {
         // The median of a power with few degrees of freedom lies below its mean.
         let unbiased = 1.0 / (1.0 - 2.0 / (9.0 * freedom)).powi(3);
         let share = 1.0 / spectra.len() as f64;
-        for (band, (mean, spectrum)) in tiles.into_iter().zip(&spectra) {
+        for ((band, _), (mean, spectrum)) in envelopes.each.iter().zip(&spectra) {
             let mut power: Vec<f64> = (spectrum.amplitude[..bins].iter())
                 .map(|a| 0.5 * a * a / (mean * mean).max(f64::MIN_POSITIVE))
                 .collect();
@@ -110,7 +108,7 @@ impl Together {
                 *power /= floor;
                 together.ratio[k] += share * *power;
             }
-            together.each.push((band, power));
+            together.each.push((*band, power));
         }
         together.hide_known(shaft, options);
         Ok(together)
@@ -255,32 +253,51 @@ pub(super) fn envelope_spectrum(
     shaft: f64,
     options: &Options,
 ) -> Result<(f64, Spectrum), AnalysisError> {
-    let top = top(shaft, options);
-    let envelope = thinned(transformed, band, top);
-    let mean = envelope.mean;
-    let (values, rate) = at_angles(envelope, transformed, shaft, options)?;
-    let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
-    let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
-    let bins = (1.03 * top / spectrum.frequency_step) as usize;
-    spectrum.amplitude.truncate(bins);
-    spectrum.density.truncate(bins);
-    Ok((mean, spectrum))
+    let envelope = thinned(transformed, band, top(shaft, options));
+    let rate = rate_of(&envelope, transformed);
+    spectrum_of(&envelope, rate, shaft, options)
 }
 
-/// The envelopes of all bands, and the rate they are sampled at, Hz.
-pub(super) fn envelopes(
-    transformed: &Transformed,
+fn spectrum_of(
+    envelope: &Thinned,
+    rate: f64,
     shaft: f64,
     options: &Options,
-) -> Result<(Vec<Vec<f64>>, f64), AnalysisError> {
-    let range = bands::range(transformed.sample_rate(), options)?;
-    let top = top(shaft, options);
-    let values = side_by_side(&tiles(range, top), |band| {
-        Ok(thinned(transformed, *band, top).values)
-    })?;
-    let count = values.first().map_or(0, Vec::len);
-    let rate = transformed.sample_rate() * count as f64 / transformed.samples() as f64;
-    Ok((values, rate))
+) -> Result<(f64, Spectrum), AnalysisError> {
+    let (values, rate) = at_angles(envelope, rate, shaft, options)?;
+    let length = ((REVOLUTIONS * rate / shaft) as usize).min(values.len());
+    let mut spectrum = psd(&values, rate, &Segments::of(fast_up_to(length)))?;
+    let bins = (1.03 * top(shaft, options) / spectrum.frequency_step) as usize;
+    spectrum.amplitude.truncate(bins);
+    spectrum.density.truncate(bins);
+    Ok((envelope.mean, spectrum))
+}
+
+/// The envelopes of all bands.
+pub(super) struct Envelopes {
+    pub(super) each: Vec<(Band, Thinned)>,
+    /// How often they are sampled, Hz.
+    pub(super) rate: f64,
+}
+
+impl Envelopes {
+    pub(super) fn of(
+        transformed: &Transformed,
+        shaft: f64,
+        options: &Options,
+    ) -> Result<Self, AnalysisError> {
+        let range = bands::range(transformed.sample_rate(), options)?;
+        let top = top(shaft, options);
+        let each = side_by_side(&tiles(range, top), |band| {
+            Ok((*band, thinned(transformed, *band, top)))
+        })?;
+        let rate = each.first().map_or(1.0, |(_, e)| rate_of(e, transformed));
+        Ok(Envelopes { each, rate })
+    }
+}
+
+fn rate_of(envelope: &Thinned, transformed: &Transformed) -> f64 {
+    transformed.sample_rate() * envelope.values.len() as f64 / transformed.samples() as f64
 }
 
 /// A band's envelope, thinned out as far as lines up to `top` Hz allow.
@@ -295,14 +312,14 @@ fn thinned(transformed: &Transformed, band: Band, top: f64) -> Thinned {
 
 /// An envelope less its mean, at equal angles of the shaft where its speed varies; and the rate that it is then sampled at, Hz.
 fn at_angles(
-    envelope: Thinned,
-    transformed: &Transformed,
+    envelope: &Thinned,
+    rate: f64,
     shaft: f64,
     options: &Options,
 ) -> Result<(Vec<f64>, f64), AnalysisError> {
-    let mut values = envelope.values;
-    values.iter_mut().for_each(|v| *v -= envelope.mean);
-    let rate = transformed.sample_rate() * values.len() as f64 / transformed.samples() as f64;
+    let values: Vec<f64> = (envelope.values.iter())
+        .map(|v| v - envelope.mean)
+        .collect();
     let Some(rotation) = &options.rotation else {
         return Ok((values, rate));
     };

@@ -2,9 +2,8 @@
 
 use super::family::{Family, Standing, cage, read};
 use super::frequencies::Component;
-use super::together::{Shaft, Together};
+use super::together::{Envelopes, Shaft, Together};
 use super::{AnalysisError, Options};
-use crate::signal::Transformed;
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
@@ -35,13 +34,14 @@ pub(super) struct Record<'a> {
 
 impl<'a> Record<'a> {
     pub(super) fn of(
-        transformed: &Transformed,
+        envelopes: &Envelopes,
         known: Shaft,
         options: &'a Options,
     ) -> Result<Self, AnalysisError> {
-        let seconds = transformed.samples() as f64 / transformed.sample_rate();
+        let samples = envelopes.each.first().map_or(0, |(_, e)| e.values.len());
+        let seconds = samples as f64 / envelopes.rate;
         Ok(Record {
-            together: Together::of(transformed, known, options)?,
+            together: Together::of(envelopes, known, options)?,
             revolutions: seconds * known.hz,
             shaft: known.hz,
             options,
