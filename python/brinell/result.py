@@ -161,8 +161,7 @@ class Result:
         Examples
         --------
         >>> import brinell
-        >>> film = {"simulation.duration_s": 0.5, "cage.guidance_film": "quasi-static"}
-        >>> scenario = brinell.Scenario.from_toml(brinell.template(), film)
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 1.0})
         >>> brinell.simulate(scenario).analyze().damage[0]
         'outer_race'
         """
