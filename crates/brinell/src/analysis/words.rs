@@ -45,7 +45,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
             let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
             for family in grown {
                 text.push(format!(
-                    "Cannot tell which part: the lines of {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
+                    "Cannot tell which part: the lines of the {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
                     family.component.words(),
                     family.growth.unwrap_or(1.0),
                     told(family),
