@@ -176,6 +176,15 @@ fn analytic_a_second_signal_has_its_own_curve_and_name() {
     assert!(analysis_html(&r).contains("\"drawn\":[1, 0]"));
 }
 
+/// A drawing without the pixels of its images: base64 has every word of three letters now and then.
+fn numbers(svg: &str) -> String {
+    let mut parts = svg.split("base64,");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        text + part.split_once('"').expect("an image ends").1
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
     #[test]
@@ -186,7 +195,7 @@ proptest! {
         let page = analysis_html(&r);
         prop_assert!(page.ends_with("</html>\n"));
         for picture in analysis_pictures(&r) {
-            let svg = picture.svg();
+            let svg = numbers(&picture.svg());
             prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", picture.name);
         }
     }
