@@ -46,8 +46,8 @@ variant("no score limit: 14 % suffices beyond noise", ("family.rs", "(SCORE + HA
 variant("a high score is no way to damage", ("family.rs", "(high || deep) && self", "deep && self"))
 variant("deep modulation is no way to damage", ("family.rs", "(high || deep) && self", "high && self"))
 variant("limit not lowered for short records", ("family.rs", "(revolutions / REVOLUTIONS).min(1.0)", "1.0_f64"))
-variant("sidebands not counted in modulation", ("family.rs", "depth += at.depth.min(carrier.depth);", ""))
-variant("sidebands not capped by their carrier", ("family.rs", "depth += at.depth.min(carrier.depth);", "depth += at.depth;"))
+variant("sidebands not counted in modulation", ("family.rs", "depth += line.depth.min(carrier.depth);", ""))
+variant("sidebands not capped by their carrier", ("family.rs", "depth += line.depth.min(carrier.depth);", "depth += line.depth;"))
 variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).min(whole);", "let width = whole;"))
 variant("shaft and mains not hidden", ("together.rs", "together.hide_known(shaft, options);", ""))
 variant(
@@ -60,7 +60,7 @@ variant("an element needs no sidebands", ("family.rs", "            && !self.lac
 variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
 variant("an element may run ahead", ("family.rs", "AHEAD.min(tolerance)", "tolerance"))
 variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
-variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "family.is_skirt = outside &&", "family.is_skirt = false && outside &&"))
+variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: outside &&", "is_skirt: false && outside &&"))
 for turns in (60, 30):
     segments = ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;")
     # The limit is that of a record of 120 revolutions in one segment.

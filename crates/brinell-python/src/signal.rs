@@ -319,10 +319,8 @@ pub(crate) fn analyze<'py>(
             let levels = Levels::of(x, &unit, &analysis, class);
             (analysis, levels)
         });
-        let bands = (unit.quantity == Quantity::Acceleration).then(|| {
-            let si: Vec<f64> = x.iter().map(|v| v * unit.to_si).collect();
-            velocity(&si, rate_hz, shaft).ok()
-        });
+        let bands = (unit.quantity == Quantity::Acceleration)
+            .then(|| velocity(&unit.in_si(x), rate_hz, shaft).ok());
         (analysis, bands.flatten())
     });
     let (analysis, levels) = analysis.map_err(failed)?;

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use brinell::analysis::{
-    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Signal, Standing, Verdict,
-    analyze, compare,
+    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze,
+    compare,
 };
 use brinell::random::Random;
 
@@ -308,13 +308,11 @@ fn prop_a_healthy_record_tells_what_has_grown() {
     };
     let beside = |x: &[f64], before: &[f64]| {
         let mut analysis = look(x, fs);
-        let options = analysis.options.clone();
-        let signal = |x, fs| Signal {
-            x,
-            fs,
-            options: &options,
+        let before = Side {
+            x: before,
+            analysis: &look(before, before_fs),
         };
-        (analysis.beside_healthy(signal(x, fs), signal(before, before_fs))).unwrap();
+        analysis.beside_healthy(x, before).unwrap();
         let outer = analysis.families.iter().find(|f| f.name == "BPFO").cloned();
         (analysis.conclusion(), outer.unwrap())
     };

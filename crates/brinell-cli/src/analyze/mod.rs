@@ -19,8 +19,8 @@ use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_
 use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Options, Quantity, Side, Signal, analyze as analysis_of, compare,
-    to_json, velocity,
+    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
+    velocity,
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
@@ -29,7 +29,6 @@ use files::{Files, files};
 use level::Level;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -332,10 +331,7 @@ fn velocities(measured: &Measured, shaft: f64) -> Option<VelocityBands> {
     if measured.unit.quantity != Quantity::Acceleration {
         return None;
     }
-    let x: Cow<[f64]> = match measured.unit.to_si {
-        1.0 => (&measured.x).into(),
-        to_si => measured.x.iter().map(|v| v * to_si).collect(),
-    };
+    let x = measured.unit.in_si(&measured.x);
     velocity(&x, measured.rate, shaft).ok()
 }
 
@@ -381,25 +377,19 @@ fn lay_over(
     }
     let found = look(&other, &options)?;
     let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));
+    let other_side = Side {
+        x: &other.x,
+        analysis: &found,
+    };
     if args.healthy {
-        let own = analysis.options.clone();
-        let signal = |x, fs, options| Signal { x, fs, options };
-        analysis
-            .beside_healthy(
-                signal(&measured.x[..], measured.rate, &own),
-                signal(&other.x[..], other.rate, &options),
-            )
-            .map_err(refused)?;
+        (analysis.beside_healthy(&measured.x, other_side)).map_err(refused)?;
     }
     let comparison = compare(
         Side {
             x: &measured.x,
             analysis,
         },
-        Side {
-            x: &other.x,
-            analysis: &found,
-        },
+        other_side,
     )
     .map_err(refused)?;
     Ok(Against {

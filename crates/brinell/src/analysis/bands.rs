@@ -34,7 +34,7 @@ impl BandChoice {
 
 /// The highest defect frequency, Hz.
 pub(super) fn highest(options: &Options) -> f64 {
-    (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2)) * options.shaft
+    options.orders.highest() * options.shaft
 }
 
 /// The range that is looked through: the user's band, or everything above [`BROAD`].

@@ -10,7 +10,7 @@
 //! the one speed that suits it best: a course that passes from one steady line to another has no harmonic that moves along.
 
 use super::known_lines::near_mains;
-use super::together::{Envelopes, HARMONICS, running_median};
+use super::together::{Envelopes, FLOOR, HARMONICS, apart, running_median};
 use super::{AnalysisError, Options};
 use crate::signal::lengths::fast_from;
 use crate::signal::{Detrend, Rotation, Segments, SignalError, Window, psd};
@@ -47,8 +47,6 @@ const SLIP: f64 = 0.005;
 const TELLS: f64 = 10.0;
 /// Power over floor, where there is no floor.
 const HIGHEST: f64 = 1e12;
-/// Width of the running median, in shaft's frequencies and in bins at least.
-const FLOOR: (f64, f64) = (3.0, 41.0);
 
 /// A speed that changes during the record.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,14 +188,13 @@ impl<'a> Stretches<'a> {
         let length = samples / count;
         let padded = fast_from(PADDED * length);
         let step = fs / padded as f64;
-        let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2));
-        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * highest) * (1.0 + FARTHEST) + 1.0;
+        let top = (OF_SHAFT as f64).max(HARMONICS as f64 * options.orders.highest())
+            * (1.0 + FARTHEST)
+            + 1.0;
         let bins = (top * options.shaft / step) as usize;
         let independent = PADDED as f64;
         let width = (FLOOR.0 * options.shaft / step).max(FLOOR.1 * independent) as usize;
-        // Neighbouring bands overlap by half.
-        let apart = 0.5 * (signals.len() as f64 + 1.0);
-        let weight = apart.sqrt() / signals.len() as f64;
+        let weight = apart(signals.len()).sqrt() / signals.len() as f64;
         let window = Window::Hann.periodic(length);
         let whole = Segments {
             length: padded,

@@ -12,7 +12,7 @@
 
 use super::Options;
 use super::frequencies::Component;
-use super::together::{HARMONICS, REVOLUTIONS, Together};
+use super::together::{HARMONICS, Place, REVOLUTIONS, Together};
 
 /// Score from which a family that modulates by [`FAINT`] is damage, in a record of [`REVOLUTIONS`] or more. In a shorter one its lines stand less
 /// high over the noise: as the length, in power.
@@ -50,6 +50,17 @@ pub struct Harmonic {
     pub stands: bool,
 }
 
+/// The sidebands of a family's harmonics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sidebands {
+    /// Distance between them, Hz.
+    pub spacing: f64,
+    /// How many stand.
+    pub standing: usize,
+    /// Of how many that were looked at.
+    pub of: usize,
+}
+
 /// What is said of a family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
@@ -67,6 +78,21 @@ pub enum Standing {
     AsBefore,
     /// Nothing.
     Silent,
+}
+
+impl Standing {
+    /// In files: `damage`, `shared`, `cannot_tell`, `faint`, `grown`, `as_before`, `nothing`.
+    pub fn key(self) -> &'static str {
+        match self {
+            Standing::Damage => "damage",
+            Standing::Shared(_) => "shared",
+            Standing::Open => "cannot_tell",
+            Standing::Faint => "faint",
+            Standing::Grown => "grown",
+            Standing::AsBefore => "as_before",
+            Standing::Silent => "nothing",
+        }
+    }
 }
 
 /// A defect frequency with its harmonics in all bands together.
@@ -92,10 +118,8 @@ pub struct Family {
     pub modulation: f64,
     /// Its harmonics.
     pub harmonics: Vec<Harmonic>,
-    /// Sidebands that stand, of how many; `None` where its source does not turn through the load.
-    pub sidebands: Option<(usize, usize)>,
-    /// Distance of the sidebands, Hz.
-    pub spacing: f64,
+    /// Its sidebands; `None` where its source does not turn through the load.
+    pub sidebands: Option<Sidebands>,
     /// Whether it lies at the end of what was searched and its lines stand higher beyond: they are somebody else's.
     pub is_skirt: bool,
     /// Modulation over that of a record of the healthy machine, where there is one.
@@ -113,6 +137,11 @@ impl Family {
     /// How many harmonics stand.
     pub fn standing_harmonics(&self) -> usize {
         self.harmonics.iter().filter(|h| h.stands).count()
+    }
+
+    /// How many sidebands stand.
+    pub fn standing_sidebands(&self) -> usize {
+        self.sidebands.map_or(0, |s| s.standing)
     }
 
     /// The highest harmonic, dB over the floor.
@@ -141,18 +170,17 @@ impl Family {
         let hidden = (self.harmonics.iter())
             .filter(|h| h.snr_db.is_none())
             .count();
-        let sides = self.sidebands.map_or(0, |s| s.0);
         !self.is_skirt
             && !self.lacks_sidebands()
-            && standing + hidden + sides / 2 >= FEWEST.0
+            && standing + hidden + self.standing_sidebands() / 2 >= FEWEST.0
             && standing >= FEWEST.1
     }
 
     /// An element passes through the load once for each turn of the cage: lines at its rate without sidebands are somebody else's, of slip in BPFO
     /// most often.
     pub(super) fn lacks_sidebands(&self) -> bool {
-        let sides = self.sidebands.map_or(0, |s| s.0);
-        self.component == Component::Element && sides < self.standing_harmonics()
+        self.component == Component::Element
+            && self.standing_sidebands() < self.standing_harmonics()
     }
 
     /// Whether its evidence is both high and deep.
@@ -210,6 +238,11 @@ pub(super) fn read(
                 Component::Element => Some(cage(shaft, options)),
                 Component::OuterRace | Component::Cage => None,
             };
+            let lines = lines(together, frequency, spacing);
+            // On the skirt of what stands farther off.
+            let outwards = 4.0 * step * expected * (frequency - expected).signum();
+            let next = frequency + outwards;
+            let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
             let mut family = Family {
                 component,
                 name,
@@ -224,20 +257,13 @@ pub(super) fn read(
                     Component::OuterRace if options.silent || options.exact => DEEP,
                     _ => FAINT,
                 },
-                modulation: 0.0,
-                harmonics: Vec::new(),
-                sidebands: spacing.map(|_| (0, 0)),
-                spacing: spacing.unwrap_or(0.0),
-                is_skirt: false,
+                modulation: lines.modulation,
+                harmonics: lines.harmonics,
+                sidebands: lines.sidebands,
+                is_skirt: outside && self::score(together, next) > score,
                 growth: None,
                 standing: Standing::Silent,
             };
-            family.describe(together);
-            // On the skirt of what stands farther off.
-            let outwards = 4.0 * step * expected * (frequency - expected).signum();
-            let next = frequency + outwards;
-            let outside = next < expected * (1.0 - behind) || next > expected * (1.0 + ahead);
-            family.is_skirt = outside && self::score(together, next) > score;
             family.standing = family.alone();
             family
         })
@@ -268,31 +294,47 @@ fn score(together: &Together, frequency: f64) -> f64 {
     sum
 }
 
-impl Family {
-    /// Its lines at its frequency, and how deep they modulate.
-    fn describe(&mut self, together: &Together) {
-        let stands = together.standing();
-        let mut depth = 0.0;
-        for order in 1..=HARMONICS {
-            let frequency = order as f64 * self.frequency;
-            let carrier = together.at(frequency);
-            depth += carrier.depth;
-            self.harmonics.push(Harmonic {
-                order,
-                frequency,
-                snr_db: carrier.ratio.map(|r| 10.0 * r.log10()),
-                stands: carrier.ratio.is_some_and(|r| r >= stands),
-            });
-            let Some((standing, of)) = &mut self.sidebands else {
-                continue;
-            };
-            for side in (-SIDEBANDS..=SIDEBANDS).filter(|s| *s != 0) {
-                let at = together.at(frequency + f64::from(side) * self.spacing);
-                *of += 1;
-                *standing += usize::from(at.ratio.is_some_and(|r| r >= stands));
-                depth += at.depth.min(carrier.depth);
-            }
+/// What stands on the comb of a frequency.
+struct Lines {
+    harmonics: Vec<Harmonic>,
+    sidebands: Option<Sidebands>,
+    /// How deep they modulate.
+    modulation: f64,
+}
+
+/// The comb of a frequency, with sidebands at a distance of `spacing` Hz where it has any.
+fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
+    let stands = |place: Place| place.ratio.is_some_and(|r| r >= together.standing());
+    let mut sidebands = spacing.map(|spacing| Sidebands {
+        spacing,
+        standing: 0,
+        of: 0,
+    });
+    let mut depth = 0.0;
+    let mut harmonics = Vec::with_capacity(HARMONICS);
+    for order in 1..=HARMONICS {
+        let at = order as f64 * frequency;
+        let carrier = together.at(at);
+        depth += carrier.depth;
+        harmonics.push(Harmonic {
+            order,
+            frequency: at,
+            snr_db: carrier.ratio.map(|r| 10.0 * r.log10()),
+            stands: stands(carrier),
+        });
+        let Some(sidebands) = &mut sidebands else {
+            continue;
+        };
+        for side in (-SIDEBANDS..=SIDEBANDS).filter(|s| *s != 0) {
+            let line = together.at(at + f64::from(side) * sidebands.spacing);
+            sidebands.of += 1;
+            sidebands.standing += usize::from(stands(line));
+            depth += line.depth.min(carrier.depth);
         }
-        self.modulation = (2.0 * depth).sqrt();
+    }
+    Lines {
+        harmonics,
+        sidebands,
+        modulation: (2.0 * depth).sqrt(),
     }
 }

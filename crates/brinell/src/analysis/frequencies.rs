@@ -111,6 +111,11 @@ impl DefectOrders {
         self.strikes().next().is_none()
     }
 
+    /// The highest of them; 0 where there is none.
+    pub(super) fn highest(&self) -> f64 {
+        self.strikes().fold(0.0, |highest, s| s.2.max(highest))
+    }
+
     /// What to look for: component, name, order of its strikes.
     pub fn strikes(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
         [

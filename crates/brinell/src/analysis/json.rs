@@ -90,19 +90,10 @@ pub fn to_json(
 }
 
 fn family(analysis: &Analysis, f: &Family) -> Value {
-    let standing = match f.standing {
-        Standing::Damage => "damage",
-        Standing::Shared(_) => "shared",
-        Standing::Open => "cannot_tell",
-        Standing::Faint => "faint",
-        Standing::Grown => "grown",
-        Standing::AsBefore => "as_before",
-        Standing::Silent => "nothing",
-    };
     json!({
         "component": f.component.key(),
         "name": f.name,
-        "says": standing,
+        "says": f.standing.key(),
         "shared_with": match f.standing { Standing::Shared(with) => Some(with), _ => None },
         "may_be_passing": analysis.may_be_passing(f),
         "expected_hz": f.expected,
@@ -117,8 +108,8 @@ fn family(analysis: &Analysis, f: &Family) -> Value {
         "harmonics": f.harmonics.iter().map(|h| json!({
             "order": h.order, "frequency_hz": h.frequency, "snr_db": h.snr_db, "stands": h.stands,
         })).collect::<Vec<_>>(),
-        "sidebands": f.sidebands.map(|(standing, of)| json!({
-            "spacing_hz": f.spacing, "standing": standing, "of": of,
+        "sidebands": f.sidebands.map(|s| json!({
+            "spacing_hz": s.spacing, "standing": s.standing, "of": s.of,
         })),
     })
 }

@@ -32,6 +32,7 @@ const SHAFT_LEVEL: f64 = 1e-4;
 /// Bins by which a line that stands may miss a multiple of the speed: its peak is told to a fraction of a bin. With a whole bin, any line
 /// within the tolerance would agree with any other.
 const AGREE: f64 = 0.5;
+
 /// A shaft's speed by lines at its harmonics.
 pub(super) struct ShaftLines {
     /// Hz.
@@ -55,13 +56,13 @@ pub(super) fn shaft(
     let step = spectrum.frequency_step;
     let reach = options.tolerance * options.shaft;
     let lines = harmonics(&spectrum, options.shaft, reach, HARMONICS)?;
-    // What the mains could have made says nothing of the shaft.
     // On the skirt of a line farther off the spectrum rises to the end of what was searched, and beyond.
     let is_top = |f: f64| {
         let bin = (f / step).round() as usize;
         let around = spectrum.amplitude.get(bin.saturating_sub(2)..bin + 3);
         around.is_some_and(|a| a[1..4].iter().any(|v| *v >= a[0].max(a[4])))
     };
+    // What the mains could have made says nothing of the shaft.
     let mine: Vec<(f64, f64)> = (lines.standing(SHAFT_LEVEL))
         .filter(|l| !near_mains(l.frequency, 2.0 * step) && is_top(l.frequency))
         .map(|l| (f64::from(l.order), l.frequency))

@@ -42,11 +42,10 @@ mod verdict;
 mod words;
 
 pub use bands::BandChoice;
-pub use baseline::Signal;
 pub use compare::{Comparison, Difference, LineDifference, Side, compare};
 pub use drift::Drift;
 pub use error::{AnalysisError, FEWEST_REVOLUTIONS};
-pub use family::{Family, Harmonic, Standing};
+pub use family::{Family, Harmonic, Sidebands, Standing};
 pub use frequencies::{Component, DefectOrders, NAMED, NamedBearing};
 pub use json::to_json;
 pub use known_lines::Mains;
@@ -325,13 +324,21 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         None => record.beyond(),
     };
     let range = bands::range(fs, options)?;
-    let (band, choice) = match (options.band, lead) {
-        (Some(_), _) => (range, BandChoice::Given),
-        (None, Some(lead)) => (record.together.clearest(lead), BandChoice::Clearest),
-        (None, None) => (range, BandChoice::Broad),
+    let (band, choice, (mean_of_envelope, spectrum)) = match (options.band, lead) {
+        (None, Some(lead)) => {
+            let (band, envelope) = &envelopes.each[record.together.clearest(lead)];
+            let spectrum = envelopes.spectrum(envelope, shaft, options)?;
+            (*band, BandChoice::Clearest, spectrum)
+        }
+        (given, _) => {
+            let choice = match given {
+                Some(_) => BandChoice::Given,
+                None => BandChoice::Broad,
+            };
+            let spectrum = together::envelope_spectrum(&transformed, range, shaft, options)?;
+            (range, choice, spectrum)
+        }
     };
-    let (mean_of_envelope, spectrum) =
-        together::envelope_spectrum(&transformed, band, shaft, options)?;
     Ok(Analysis {
         options: options.clone(),
         sample_rate: fs,

@@ -5,7 +5,6 @@ use crate::signal::integrate::Motion;
 use crate::signal::{
     Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms,
 };
-use std::borrow::Cow;
 
 /// The band of ISO 20816-3 for shafts of 600 r/min and more, Hz.
 pub const SEVERITY_BAND: Band = Band {
@@ -53,11 +52,13 @@ pub fn severity(x: &[f64], unit: &Unit, fs: f64, shaft: f64) -> Result<Estimate,
     if seconds < PERIODS / SEVERITY_BAND.low {
         return Err(NoVelocity::Length(seconds));
     }
-    let x: Cow<[f64]> = match unit.to_si {
-        1.0 => x.into(),
-        to_si => x.iter().map(|v| v * to_si).collect(),
-    };
-    Ok(velocity_rms(&x, fs, from, SEVERITY_BAND, 1.0 / shaft)?)
+    Ok(velocity_rms(
+        &unit.in_si(x),
+        fs,
+        from,
+        SEVERITY_BAND,
+        1.0 / shaft,
+    )?)
 }
 
 /// A class of machines of ISO 20816-3.

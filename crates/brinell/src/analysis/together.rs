@@ -24,7 +24,7 @@ const ENVELOPE_RATE: f64 = 8.0;
 /// Bins to either side of a line of shaft or mains that count for nobody.
 const ASIDE: f64 = 3.0;
 /// Width of the running median, in shaft's frequencies and in bins at least.
-const FLOOR: (f64, f64) = (3.0, 41.0);
+pub(super) const FLOOR: (f64, f64) = (3.0, 41.0);
 /// Noise shows this much at a place once in 700 (three standard deviations).
 const NOISE: f64 = 1.0 - 1.35e-3;
 /// Power over floor from which a line stands, however many bands are averaged: 3 dB.
@@ -50,8 +50,8 @@ pub(super) struct Together {
     depth: Vec<f64>,
     /// Where lines of shaft or mains lie, or of what was taken out: nothing is seen there.
     hidden: Vec<bool>,
-    /// Each band, and power over floor in it alone.
-    each: Vec<(Band, Vec<f64>)>,
+    /// Power over floor in each band alone.
+    each: Vec<Vec<f64>>,
     /// Power over floor that noise alone hardly shows at a place.
     pub(super) noise: f64,
 }
@@ -73,7 +73,7 @@ impl Together {
         options: &Options,
     ) -> Result<Self, AnalysisError> {
         let spectra = side_by_side(&envelopes.each, |(_, envelope)| {
-            spectrum_of(envelope, envelopes.rate, shaft.hz, options)
+            envelopes.spectrum(envelope, shaft.hz, options)
         })?;
         let bins = spectra
             .iter()
@@ -84,8 +84,7 @@ impl Together {
             (s.frequency_step, s.degrees_of_freedom)
         });
         let width = (FLOOR.0 * shaft.hz / step).max(FLOOR.1) as usize;
-        // Bands that overlap by half say what half as many and one would.
-        let apart = 0.5 * (spectra.len() as f64 + 1.0);
+        let apart = apart(spectra.len());
         let mut together = Together {
             step,
             ratio: vec![0.0; bins],
@@ -97,7 +96,7 @@ impl Together {
         // The median of a power with few degrees of freedom lies below its mean.
         let unbiased = 1.0 / (1.0 - 2.0 / (9.0 * freedom)).powi(3);
         let share = 1.0 / spectra.len() as f64;
-        for ((band, _), (mean, spectrum)) in envelopes.each.iter().zip(&spectra) {
+        for (mean, spectrum) in &spectra {
             let mut power: Vec<f64> = (spectrum.amplitude[..bins].iter())
                 .map(|a| 0.5 * a * a / (mean * mean).max(f64::MIN_POSITIVE))
                 .collect();
@@ -108,7 +107,7 @@ impl Together {
                 *power /= floor;
                 together.ratio[k] += share * *power;
             }
-            together.each.push((*band, power));
+            together.each.push(power);
         }
         together.hide_known(shaft, options);
         Ok(together)
@@ -201,8 +200,8 @@ impl Together {
         self.each.len()
     }
 
-    /// The band in which a family's lines stand highest.
-    pub(super) fn clearest(&self, family: &Family) -> Band {
+    /// The band in which a family's lines stand highest, by index.
+    pub(super) fn clearest(&self, family: &Family) -> usize {
         let seen = |h: &&Harmonic| h.snr_db.is_some();
         let height = |ratio: &[f64]| -> f64 {
             let lines = family.harmonics.iter().filter(seen);
@@ -210,9 +209,9 @@ impl Together {
                 .map(|h| peak(ratio, self.bin(h.frequency)).unwrap_or(1.0).ln())
                 .sum()
         };
-        let heights = self.each.iter().map(|(band, ratio)| (*band, height(ratio)));
+        let heights = self.each.iter().map(|ratio| height(ratio)).enumerate();
         let highest = heights.max_by(|a, b| a.1.total_cmp(&b.1));
-        highest.map_or(Band::above(0.0), |h| h.0)
+        highest.map_or(0, |h| h.0)
     }
 
     fn bin(&self, frequency: f64) -> usize {
@@ -228,8 +227,7 @@ fn peak(of: &[f64], bin: usize) -> Option<f64> {
 
 /// Highest frequency looked at in an envelope spectrum, Hz.
 fn top(shaft: f64, options: &Options) -> f64 {
-    let highest = (options.orders.strikes()).fold(0.0, |m: f64, s| m.max(s.2));
-    highest * shaft * (HARMONICS as f64 + 0.5) * (1.0 + options.tolerance)
+    options.orders.highest() * shaft * (HARMONICS as f64 + 0.5) * (1.0 + options.tolerance)
 }
 
 /// Bands of one width, each half over the next.
@@ -244,6 +242,11 @@ fn tiles(range: Band, top: f64) -> Vec<Band> {
         .map(|k| range.low + 0.5 * k as f64 * width)
         .map(|from| Band::between(from, (from + width).min(range.high)))
         .collect()
+}
+
+/// Bands that lie side by side and say as much as so many, each half over the next.
+pub(super) fn apart(bands: usize) -> f64 {
+    0.5 * (bands as f64 + 1.0)
 }
 
 /// Mean of a band's envelope, in the signal's unit, and its spectrum up to the highest line sought.
@@ -293,6 +296,16 @@ impl Envelopes {
         })?;
         let rate = each.first().map_or(1.0, |(_, e)| rate_of(e, transformed));
         Ok(Envelopes { each, rate })
+    }
+
+    /// Mean of one of them, in the signal's unit, and its spectrum up to the highest line sought.
+    pub(super) fn spectrum(
+        &self,
+        envelope: &Thinned,
+        shaft: f64,
+        options: &Options,
+    ) -> Result<(f64, Spectrum), AnalysisError> {
+        spectrum_of(envelope, self.rate, shaft, options)
     }
 }
 

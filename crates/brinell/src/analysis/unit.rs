@@ -1,6 +1,7 @@
 //! Units of vibration signals.
 
 use super::AnalysisError;
+use std::borrow::Cow;
 
 /// What a signal is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +66,14 @@ impl Unit {
         Unit::known(spelling).ok_or_else(|| AnalysisError::UnknownUnit {
             spelling: spelling.trim().to_owned(),
         })
+    }
+
+    /// A signal in this unit, in SI units.
+    pub fn in_si<'a>(&self, x: &'a [f64]) -> Cow<'a, [f64]> {
+        match self.to_si {
+            1.0 => x.into(),
+            to_si => x.iter().map(|v| v * to_si).collect(),
+        }
     }
 
     fn known(spelling: &str) -> Option<Self> {

@@ -105,8 +105,8 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 
 fn told(family: &Family) -> String {
     let sidebands = match family.sidebands {
-        Some((standing, _)) if standing >= 2 => {
-            format!(", with {standing} sidebands {:.2} Hz apart", family.spacing)
+        Some(s) if s.standing >= 2 => {
+            format!(", with {} sidebands {:.2} Hz apart", s.standing, s.spacing)
         }
         _ => String::new(),
     };

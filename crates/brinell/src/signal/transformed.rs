@@ -105,25 +105,6 @@ impl Transformed {
     /// # Panics
     /// Where the band does not satisfy 0 <= low < high and low < fs / 2, or `count` is 0.
     pub fn envelope(&self, band: Band, count: usize) -> Thinned {
-        // The analytic signal has the band's positive frequencies twice and nothing else.
-        let scale = 2.0 / self.samples() as f64;
-        self.thinned(band, count, scale, |_, bins, shaped| {
-            shaped.copy_from_slice(bins);
-        })
-    }
-
-    fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Of the band's bins as `shape` makes them, `scale` times.
-    fn thinned(
-        &self,
-        band: Band,
-        count: usize,
-        scale: f64,
-        shape: impl FnMut(usize, &[Complex<f64>], &mut [Complex<f64>]),
-    ) -> Thinned {
         let band = bins(self.fs, self.samples(), band);
         let ample = (AMPLE * band.len() as f64 / count as f64).ceil() as usize;
         let every = fast_from(ample.min(self.samples().div_ceil(count)));
@@ -138,6 +119,8 @@ impl Transformed {
         sums.resize(count, [0.0; 2]);
         let rises = 1.0 / every as f64;
         let mut here = Vec::new();
+        let shape =
+            |_, bins: &[Complex<f64>], shaped: &mut [Complex<f64>]| shaped.copy_from_slice(bins);
         plan.backward(&self.bins, band, room, shape, |place, values| {
             here.resize(values.len(), 0.0);
             moduli(values, &mut here);
@@ -153,7 +136,8 @@ impl Transformed {
                 }
             }
         });
-        let each = scale * rises;
+        // The analytic signal has the band's positive frequencies twice and nothing else.
+        let each = 2.0 / self.samples() as f64 * rises;
         let whole: f64 = sums.iter().map(|[all, _]| all).sum();
         let mut values: Vec<f64> = (sums.windows(2))
             .map(|two| match every {
@@ -168,6 +152,10 @@ impl Transformed {
             mean: each * whole / count as f64,
             values,
         }
+    }
+
+    fn kept(&self) -> MutexGuard<'_, (FftPlanner<f64>, Vec<Workshop>)> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
