@@ -2,7 +2,8 @@
 //!
 //! Each case is started anew `STARTS` times (200), the load larger by one part in 10^5 each time: after a few impacts these runs go ways of their
 //! own. Each run is evaluated as if it had ended at 0.5, 1 and 2 s (up to `LONGEST_S`), the way `brinell run` would. The long-run value is the average over
-//! `STARTS / 20` further starts of 20 s each. Half the width is the median over starts, relative to the value.
+//! `STARTS / 20` further starts of 20 s each. A cell holds: how often the interval held the long-run value; half the interval's width (median over
+//! starts); the mean of the values less the long-run value, and their standard deviation; all relative.
 //!
 //! With 200 starts an exact 95 % interval counts 92 to 98 % in 19 of 20 cases.
 
@@ -32,13 +33,11 @@ const CASES: [(&str, &str, &str); 2] = [
 ];
 const DURATIONS: [f64; 3] = [0.5, 1.0, 2.0];
 const LONG: f64 = 20.0;
-const INDICATORS: [Indicator; 6] = [
+const INDICATORS: [Indicator; 4] = [
     Indicator::Rms,
     Indicator::Kurtosis,
     Indicator::CrestFactor,
     Indicator::PeakToPeak,
-    Indicator::Peak,
-    Indicator::ShapeFactor,
 ];
 
 /// One run, evaluated as runs of several durations.
@@ -202,12 +201,21 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                     .map(|(value, i)| 0.5 * (i.high - i.low) / value);
                 let width = median(widths.collect());
                 let told = intervals.len();
+                let values: Vec<f64> = intervals
+                    .iter()
+                    .map(|(value, _)| value / truth - 1.0)
+                    .collect();
+                let bias = values.iter().sum::<f64>() / told as f64;
+                let square = values.iter().map(|v| (v - bias).powi(2)).sum::<f64>();
+                let spread = (square / (told as f64 - 1.0)).sqrt();
                 line += &match told {
                     0 => "no interval | ".to_owned(),
                     _ => format!(
-                        "{:.1} % (±{:.2} %) | ",
+                        "{:.1} % (±{:.2} %; {:+.2} ± {:.2} %) | ",
                         100.0 * held as f64 / told as f64,
-                        100.0 * width
+                        100.0 * width,
+                        100.0 * bias,
+                        100.0 * spread
                     ),
                 };
                 if told > 0 && told < starts {

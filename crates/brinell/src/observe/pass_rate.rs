@@ -30,6 +30,12 @@ struct Rate {
 }
 
 impl Rate {
+    /// Whether the mean rate of the motion is that of the impacts: a roller spins more slowly where nothing presses it, and strikes where something
+    /// does.
+    fn on_raceway(&self) -> bool {
+        !matches!(self.surface, Surface::Roller(_))
+    }
+
     fn phase(&self, f: &Frame) -> f64 {
         let l = &f.model.layout;
         let orbit = || {
@@ -107,9 +113,7 @@ impl PassRates {
         found: LineFrequency,
     ) -> (LineFrequency, Option<Interval>) {
         let interval = self.interval(defect, &found);
-        // A roller spins more slowly where nothing presses it, and strikes where something does.
-        let on_raceway = |r: &Rate| !matches!(r.surface, Surface::Roller(_));
-        let raceway = self.rates.get(defect).is_some_and(on_raceway);
+        let raceway = self.rates.get(defect).is_some_and(Rate::on_raceway);
         let Some(rate) = self.rate(defect).filter(|_| raceway) else {
             return (found, interval);
         };
@@ -128,12 +132,15 @@ impl PassRates {
         (LineFrequency { frequency, ..found }, interval)
     }
 
-    /// The interval of a frequency found in the envelope: of its noise, and of slip's wander about the mean rate.
+    /// The interval of a frequency found in the envelope: of its noise, of slip's wander about the mean rate, and of what sets it apart from the
+    /// motion's own mean.
     ///
-    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T; the motion gives S, and the
-    /// frequency is an average over [`LineFrequency::span`]. Hann's window gives the beginning little weight, so where cages still settle
-    /// there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and Satterthwaite, those of
-    /// the noise counting as many. `None` where the run is too short to tell.
+    /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T, and the motion gives S. A comb of
+    /// many harmonics settles on the stretch in which the rate was steadiest, so on a raceway, where the motion's mean rate over the same time
+    /// is the same quantity, the distance between the two counts as a further error. A roller spins more slowly where it strikes nothing:
+    /// there T is [`LineFrequency::span`], of a weighted average over the record. Hann's window gives the beginning little weight, so where
+    /// cages still settle there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and
+    /// Satterthwaite, those of the noise counting as many. `None` where the run is too short to tell.
     fn interval(&self, defect: usize, found: &LineFrequency) -> Option<Interval> {
         let noise = found.noise * found.noise;
         let (wander, freedom) = match self.rates.get(defect) {
@@ -142,7 +149,14 @@ impl PassRates {
                 let settles = rate.averages.drift().is_some();
                 let skipped = if settles { TAPERED } else { 0.0 };
                 let (density, freedom) = rate.averages.density(skipped)?;
-                (density / found.span, f64::from(freedom))
+                let wander = match rate.averages.estimate().filter(|_| rate.on_raceway()) {
+                    Some(mean) => {
+                        let apart = found.frequency - mean.value.abs();
+                        density / rate.averages.weight() + apart * apart
+                    }
+                    None => density / found.span,
+                };
+                (wander, f64::from(freedom))
             }
         };
         let share = wander / (wander + noise);

@@ -144,6 +144,11 @@ impl Averages {
             .then(|| Estimate::signed(value, scatter(&self.influence(value, all.weight))))
     }
 
+    /// Sum of the weights of the whole revolutions; without one, of what has been seen.
+    pub fn weight(&self) -> f64 {
+        self.all().weight
+    }
+
     /// Deviations of the blocks from `mean`.
     fn influence(&self, mean: f64, weight: f64) -> Vec<f64> {
         let revolutions = self.series.revolutions() as f64;

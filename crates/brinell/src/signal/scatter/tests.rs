@@ -51,8 +51,8 @@ fn analytic_a_cosine_of_the_basis_has_its_amplitude() {
         assert!(cosine(&z, k).abs() < 1e-12, "{k}");
     }
     let found = scatter(&z).unwrap();
-    assert_eq!(found.freedom, 8);
-    close(Some(found.error), (20.0 / 8.0 / 40.0_f64).sqrt(), 1e-12);
+    assert_eq!(found.freedom, 4);
+    close(Some(found.error), (20.0 / 4.0 / 40.0_f64).sqrt(), 1e-12);
 }
 
 #[test]
