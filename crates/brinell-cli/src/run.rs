@@ -16,10 +16,9 @@ use crate::{files, page};
 use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
-use brinell::plausibility;
+use brinell::plausibility::{self, Beforehand};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
-use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
 use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
 use std::path::{Path, PathBuf};
@@ -32,7 +31,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         return many::run(args);
     };
     let mut inputs = Inputs::default();
-    let (loaded, simulation) = ready(args, path, &mut inputs)?;
+    let Ready {
+        loaded,
+        simulation,
+        beforehand,
+    } = ready(args, path, &mut inputs)?;
     if !args.quiet {
         files::warn_idle(simulation.idle_patterns());
     }
@@ -42,7 +45,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
     let task = (&loaded, folder.as_path(), &earlier);
-    let done = execute(args, task, simulation, progress, &stop)?;
+    let done = execute(args, task, (simulation, &beforehand), progress, &stop)?;
     if !args.quiet {
         for line in &done.told {
             say!("{line}");
@@ -55,12 +58,15 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
 }
 
-/// A scenario, read, checked and made a simulation of. What it was read from goes to `inputs`.
-fn ready(
-    args: &RunArgs,
-    path: &Path,
-    inputs: &mut Inputs,
-) -> Result<(Loaded, Simulation), Failure> {
+/// A scenario, read, checked and made a simulation of.
+struct Ready {
+    loaded: Loaded,
+    simulation: Simulation,
+    beforehand: Beforehand,
+}
+
+/// What a scenario was read from goes to `inputs`.
+fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Failure> {
     let source = Source::open(&ScenarioArgs {
         scenario: path.to_owned(),
         set: args.set.clone(),
@@ -68,15 +74,19 @@ fn ready(
     let loaded = source.load(&[], args.quiet)?;
     inputs.add_all(&source.inputs());
     let simulation = Simulation::new(&loaded.scenario).map_err(Failure::Run)?;
+    let beforehand = Beforehand::of(&loaded.scenario, simulation.model());
     if !args.quiet {
-        let model = simulation.model();
-        let warnings = plausibility::before(&loaded.scenario, model, &static_load_zone(model));
+        let warnings = &beforehand.warnings;
         if args.scenarios.len() > 1 && !warnings.is_empty() {
             complain!("{}:", path.display());
         }
-        print_problems("", "", &warnings);
+        print_problems("", "", warnings);
     }
-    Ok((loaded, simulation))
+    Ok(Ready {
+        loaded,
+        simulation,
+        beforehand,
+    })
 }
 
 /// A run that is over, its files written.
@@ -120,7 +130,7 @@ fn earlier(
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
-    simulation: Simulation,
+    (simulation, beforehand): (Simulation, &Beforehand),
     progress: Progress,
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
@@ -142,13 +152,12 @@ fn execute(
         ..
     } = finished;
     let interrupted = stop.load(Ordering::Relaxed) && outcome.end == End::Stopped;
-    let statics = static_load_zone(simulation.model());
     let parts = Parts {
         loaded,
         simulation: &simulation,
         outcome: &outcome,
         findings: &findings,
-        statics: &statics,
+        beforehand,
     };
     let report = (!args.no_report || !args.plots.is_empty()).then(|| page::report(&parts));
     let pictures = match &report {

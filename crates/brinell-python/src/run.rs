@@ -5,8 +5,8 @@ use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
 use brinell::campaign::{self, Finished};
 use brinell::many::go_on;
+use brinell::plausibility::Beforehand;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
-use brinell::statics::static_load_zone;
 use brinell::summary::{self, Parts};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -300,13 +300,15 @@ impl Run {
 
     /// What `summary.json` holds.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let statics = py.detach(|| static_load_zone(self.finished.simulation.model()));
+        let loaded = &self.scenario.get().loaded;
+        let model = self.finished.simulation.model();
+        let beforehand = py.detach(|| Beforehand::of(&loaded.scenario, model));
         let parts = Parts {
-            loaded: &self.scenario.get().loaded,
+            loaded,
             simulation: &self.finished.simulation,
             outcome: &self.finished.outcome,
             findings: &self.finished.findings,
-            statics: &statics,
+            beforehand: &beforehand,
         };
         json_to_python(py, &summary::to_json(&parts))
     }

@@ -141,19 +141,26 @@ impl Guide {
         let Some(film) = self.film else {
             return f;
         };
-        let eps = (e / self.clearance).min(MAX_ECCENTRICITY);
+        let per_clearance = 1.0 / self.clearance;
+        let eps = (e * per_clearance).min(MAX_ECCENTRICITY);
         let gap = 1.0 - eps * eps;
-        let root = gap.sqrt();
+        let per_root = 1.0 / gap.sqrt();
         let shear = self.radius * (cage_speed - ring_speed);
-        f.moment = -2.0 * PI * self.viscosity * shear * self.radius.powi(2) * self.width
-            / (self.clearance * root);
+        f.moment = -2.0
+            * PI
+            * self.viscosity
+            * shear
+            * self.radius.powi(2)
+            * self.width
+            * per_clearance
+            * per_root;
         let (normal, tangential) = match film {
             GuidanceFilm::QuasiStatic => {
                 let entrainment = self.radius * (cage_speed + ring_speed);
-                let scale = self.viscosity * self.width.powi(3) / self.clearance.powi(2);
+                let scale = self.viscosity * self.width.powi(3) * per_clearance * per_clearance;
                 (
                     -scale * entrainment.abs() * eps * eps / (gap * gap),
-                    0.25 * PI * scale * entrainment * eps / (gap * root),
+                    0.25 * PI * scale * entrainment * eps * per_root / gap,
                 )
             }
             GuidanceFilm::Dynamic => {
@@ -165,8 +172,8 @@ impl Guide {
                     return f;
                 }
                 let per_speed = 1.0 / speed;
-                let half = HalfFilm::about(eps, [along * per_speed, across * per_speed]);
-                let scale = self.viscosity * self.radius * (self.width / self.clearance).powi(3);
+                let half = HalfFilm::about(eps, per_root, [along * per_speed, across * per_speed]);
+                let scale = self.viscosity * self.radius * (self.width * per_clearance).powi(3);
                 f.damping = scale * (half.along.max(half.across) + half.mixed.abs());
                 (
                     -scale * (along * half.along + across * half.mixed),

@@ -32,6 +32,26 @@ const GRAVITY: f64 = 9.80665;
 
 const LOAD: &str = "operation.load_n";
 
+/// What is known of a scenario before anything moves; found once, because solving for a static balance takes milliseconds.
+#[derive(Debug)]
+pub struct Beforehand {
+    /// The static load distribution.
+    pub statics: Result<StaticLoadZone, NoBalance>,
+    /// Warnings of the scenario.
+    pub warnings: Vec<Problem>,
+}
+
+impl Beforehand {
+    /// Of a scenario and its model.
+    pub fn of(scenario: &Scenario, model: &Model) -> Self {
+        let statics = static_load_zone(model);
+        Beforehand {
+            warnings: before(scenario, model, &statics),
+            statics,
+        }
+    }
+}
+
 /// Warnings of a scenario that makes a model; `statics` is its static load zone.
 pub fn before(
     scenario: &Scenario,

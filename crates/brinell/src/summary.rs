@@ -6,11 +6,10 @@ use crate::kernel::Kernel;
 use crate::model::Model;
 use crate::observe::load_zone::BINS;
 use crate::observe::{Drift, Findings, passes};
-use crate::plausibility;
+use crate::plausibility::{self, Beforehand};
 use crate::scenario::{Accuracy, ModelKind, Speed};
 use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
 use crate::simulate::{End, Outcome, Simulation};
-use crate::statics::{NoBalance, StaticLoadZone};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
@@ -25,8 +24,8 @@ pub struct Parts<'a> {
     pub outcome: &'a Outcome,
     /// What was gathered.
     pub findings: &'a Findings,
-    /// The static load distribution.
-    pub statics: &'a Result<StaticLoadZone, NoBalance>,
+    /// What was known before: the static load distribution, and warnings.
+    pub beforehand: &'a Beforehand,
 }
 
 /// The summary as JSON; the same run gives the same bytes.
@@ -140,12 +139,11 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
     }
     all.extend(clipped(parts));
     all.extend(unsettled(parts.findings));
-    if let Err(error) = parts.statics {
+    if let Err(error) = &parts.beforehand.statics {
         all.push(error.to_string());
     }
     let scenario = &parts.loaded.scenario;
-    let before = plausibility::before(scenario, parts.simulation.model(), parts.statics);
-    all.extend(before.iter().map(ToString::to_string));
+    all.extend(parts.beforehand.warnings.iter().map(ToString::to_string));
     all.extend(plausibility::after(scenario, &parts.outcome.energy));
     all
 }
@@ -290,7 +288,7 @@ fn load_zone(parts: &Parts) -> Value {
     let centers: Vec<f64> = (0..BINS)
         .map(|k| (k as f64 + 0.5) * 360.0 / BINS as f64)
         .collect();
-    let statics = parts.statics.as_ref().ok().map(|z| {
+    let statics = parts.beforehand.statics.as_ref().ok().map(|z| {
         json!({
             "largest_contact_force_n": z.largest,
             "extent_deg": z.extent.to_degrees(),

@@ -42,7 +42,7 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> brinell_report::Pass {
 }
 
 pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
-    let statics: &[(usize, f64, f64, f64)] = match parts.statics {
+    let statics: &[(usize, f64, f64, f64)] = match &parts.beforehand.statics {
         Ok(StaticLoadZone { points, .. }) => points,
         Err(_) => &[],
     };

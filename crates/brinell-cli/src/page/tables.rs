@@ -76,7 +76,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             note,
         ));
     }
-    if let Ok(zone) = parts.statics {
+    if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(
             "Heaviest contact, static",
             brinell_report::Value::Text(short(zone.largest, 3)),

@@ -1,6 +1,6 @@
 //! `brinell run` of several scenarios: all checked first, then side by side, one to a thread.
 
-use super::{Done, earlier, execute, make_folder, ready, safe_name, stop_flag};
+use super::{Done, Ready, earlier, execute, make_folder, ready, safe_name, stop_flag};
 use crate::args::RunArgs;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::files;
@@ -9,6 +9,7 @@ use crate::progress::Joint;
 use crate::results::Earlier;
 use crate::say::{complain, say};
 use brinell::document::Loaded;
+use brinell::plausibility::Beforehand;
 use brinell::simulate::{End, Simulation};
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -23,6 +24,7 @@ struct Task {
     loaded: Loaded,
     folder: PathBuf,
     earlier: Earlier,
+    beforehand: Beforehand,
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -111,7 +113,13 @@ fn one(
 ) -> Result<Done, Failure> {
     let simulation = Simulation::new(&task.loaded.scenario).map_err(Failure::Run)?;
     let replaced = (&task.loaded, &*task.folder, &task.earlier);
-    execute(args, replaced, simulation, progress, stop)
+    execute(
+        args,
+        replaced,
+        (simulation, &task.beforehand),
+        progress,
+        stop,
+    )
 }
 
 /// The name of a scenario's file without ending, as a folder's: where it is none (`...toml` would leave `..`), made one.
@@ -153,26 +161,31 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
     // No run may write over what any of them reads.
     let mut inputs = Inputs::default();
     let mut read = |path: &PathBuf| {
-        let (loaded, simulation) = ready(args, path, &mut inputs)?;
+        let Ready {
+            loaded,
+            simulation,
+            beforehand,
+        } = ready(args, path, &mut inputs)?;
         if !args.quiet && !simulation.idle_patterns().is_empty() {
             complain!("{}:", path.display());
             files::warn_idle(simulation.idle_patterns());
         }
-        Ok(loaded)
+        Ok((loaded, beforehand))
     };
-    let all: Vec<Result<Loaded, Failure>> = args.scenarios.iter().map(&mut read).collect();
+    let all: Vec<Result<_, Failure>> = args.scenarios.iter().map(&mut read).collect();
     let mut tasks = Vec::new();
     for ((path, folder), loaded) in args.scenarios.iter().zip(folders).zip(all) {
-        let found = loaded.and_then(|loaded| {
+        let found = loaded.and_then(|(loaded, beforehand)| {
             let earlier = earlier(args, &loaded, &folder, &inputs)?;
-            Ok((loaded, earlier))
+            Ok((loaded, earlier, beforehand))
         });
         match found {
-            Ok((loaded, earlier)) => tasks.push(Task {
+            Ok((loaded, earlier, beforehand)) => tasks.push(Task {
                 path: path.clone(),
                 loaded,
                 folder,
                 earlier,
+                beforehand,
             }),
             Err(failure) => failure.print_of(&path.display().to_string()),
         }

@@ -18,24 +18,22 @@ pub struct HalfFilm {
 }
 
 impl HalfFilm {
-    /// Over the half circle about the unit vector `toward`, for the eccentricity ratio `eps` in [0, 1).
+    /// Over the half circle about the unit vector `toward`, for the eccentricity ratio `eps` in [0, 1); `per_w` is 1 / sqrt(1 - eps^2).
     ///
     /// Sommerfeld's angle s, with 1 - eps cos g = w^2 / (1 + eps cos s) and w^2 = 1 - eps^2, turns the integrands into (eps + cos s)^2 / w^5,
     /// (eps + cos s) sin s / w^4 and sin^2 s / w^3, which have no denominators; the half circle spans pi + 2 atan(eps c / w) of it. The relative
     /// error stays below 1e-11 up to eps = 0.95.
     #[inline]
-    pub fn about(eps: f64, toward: [f64; 2]) -> Self {
+    pub fn about(eps: f64, per_w: f64, toward: [f64; 2]) -> Self {
         let [c, s] = toward;
         let w2 = 1.0 - eps * eps;
-        let w = w2.sqrt();
-        let per_w = 1.0 / w;
         let per_w3 = per_w * per_w * per_w;
         let ec = eps * c;
         let s2 = s * s;
         let per_q = 1.0 / (w2 + ec * ec);
         let per_q2 = per_q * per_q;
         let half_span = 0.5 * PI + (ec * per_w).atan();
-        let end = ec * w * per_q2;
+        let end = ec * w2 * per_w * per_q2;
         Self {
             along: ((1.0 + 2.0 * eps * eps) * half_span
                 + end * (3.0 + (2.0 - 5.0 * eps * eps) * s2))
@@ -91,7 +89,11 @@ mod tests {
         ] {
             for k in 0..48 {
                 let direction = f64::from(k) * PI / 24.0;
-                let closed = HalfFilm::about(eps, [direction.cos(), direction.sin()]);
+                let closed = HalfFilm::about(
+                    eps,
+                    1.0 / (1.0 - eps * eps).sqrt(),
+                    [direction.cos(), direction.sin()],
+                );
                 let sum = by_quadrature(eps, direction);
                 // The mixed integral crosses zero: against what it is added to.
                 let errors = [
