@@ -45,13 +45,15 @@ fn regress_each_bearing_is_judged_by_itself() {
     brinell(folder.path(), &[&SIGNAL[..], &both].concat())
         .exits(0)
         .says(&[
-            "Bearing 1 of 2, 6203-2RS: No damage found.",
+            "Bearing 1 of 2, 6203-2RS: Cannot tell: the strongest comb of lines lies at 107.",
+            "These lines are 6205-2RS's, whose BPFO is called damage",
             "Bearing 2 of 2, 6205-2RS: Outer race damage, very clear: BPFO at 107.",
         ]);
     let found = json(&folder.path().join("look/analysis.json"));
     assert_eq!(found["leads"], "6205-2RS");
     assert_eq!(found["bearings"][0]["bearing"], "6203-2RS");
-    assert_eq!(found["bearings"][0]["verdict"]["says"], "nothing_found");
+    assert_eq!(found["bearings"][0]["verdict"]["says"], "cannot_tell");
+    assert_eq!(found["verdict"]["damage"][0], "outer_race");
     assert_eq!(found["bearings"][1]["verdict"]["damage"][0], "outer_race");
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
     for part in [

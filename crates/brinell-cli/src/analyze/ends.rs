@@ -59,14 +59,22 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
         && let Some(first) = call(lead)
     {
         let name = &lead.name;
-        parts.extend(match (call(this), &this.analysis.beyond) {
+        parts.extend(match (call(this), &this.analysis.elsewhere) {
             (Some(own), _) => Some(format!(
                 "It may be {name}'s, which leads: {} there scores {:.1}, and {} here {:.1}. One sensor hears both.",
                 first.name, first.score, own.name, own.score
             )),
-            (None, Some(_)) => Some(format!(
-                "Or these lines are {name}'s, which is called damaged: one sensor hears both."
-            )),
+            (None, Some(lines)) => {
+                let tolerance = this.analysis.options.tolerance;
+                let theirs = (lines.frequency / first.frequency - 1.0).abs() <= tolerance;
+                Some(match theirs {
+                    true => format!(
+                        "These lines are {name}'s, whose {} is called damage: one sensor hears both.",
+                        first.name
+                    ),
+                    false => format!("Or these lines are {name}'s, which is called damaged: one sensor hears both."),
+                })
+            }
             (None, None) => None,
         });
     }
@@ -84,6 +92,12 @@ pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Va
     json!({
         "brinell": brinell::VERSION,
         "file": { "path": path },
+        "verdict": {
+            "text": (results.iter().map(|r| format!("{}: {}", r.name, r.told())).collect::<Vec<_>>()).join("\n"),
+            "says": (lead(results).map(|k| &results[k]).or(results.first())).map(|r| r.analysis.conclusion().key()),
+            "damage": lead(results).map_or(Vec::new(), |k| results[k].analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>()),
+            "clarity": lead(results).and_then(|k| Some(results[k].analysis.clarity(call(&results[k])?))),
+        },
         "leads": lead(results).map(|k| results[k].name.clone()),
         "bearings": results.iter().map(|result| {
             let mut one = of(result);

@@ -60,7 +60,10 @@ impl Level {
             Some(Err(why)) => why.to_string(),
             None => "not known, without a velocity".into(),
         };
-        Some(format!("zone {zone} ({}; {ZONES})", class.words()))
+        Some(format!(
+            "zone {zone}; of vibration as a whole: early damage of a bearing hardly shows in it ({}; {ZONES})",
+            class.words()
+        ))
     }
 
     /// The velocity among the page's headline numbers.

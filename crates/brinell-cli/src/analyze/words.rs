@@ -118,7 +118,12 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
             } else {
                 String::new()
             };
-            format!("{} {}{unit}", i.name().replace('_', " "), short(e.value, 4))
+            // Averages over revolutions; the largest of all samples is on the page.
+            let name = match i {
+                Indicator::Peak => "peak of a revolution".into(),
+                i => i.name().replace('_', " "),
+            };
+            format!("{name} {}{unit}", short(e.value, 4))
         })
         .collect();
     say!("  {}", rows.join(", "));

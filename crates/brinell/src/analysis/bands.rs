@@ -7,6 +7,8 @@ use crate::signal::Band;
 pub(super) const BROAD: f64 = 3.0;
 /// Least width of a band over the highest defect frequency: its sidebands of first and second order fit in.
 pub(super) const NARROWEST: f64 = 3.0;
+/// Impacts ring below this frequency on every machine, Hz: no part of the range that ends lower is looked at by itself.
+const LOWEST_TOP: f64 = 5000.0;
 /// Harmonics of the highest defect frequency that the envelope of a given band has to hold.
 const HARMONICS_IN_BAND: f64 = 2.0;
 
@@ -30,6 +32,14 @@ impl BandChoice {
             BandChoice::Broad => "everything above three times the highest defect frequency",
         }
     }
+}
+
+/// Lower parts of a range, each half as wide as the last: where the sample rate is high, bands with nothing but noise outnumber those in which
+/// impacts ring, and hide them in an average over all.
+pub(super) fn lower(range: Band) -> impl Iterator<Item = Band> {
+    let tops = (1..).map(move |k| range.high * 0.5_f64.powi(k));
+    tops.take_while(move |top| *top >= LOWEST_TOP && *top > 2.0 * range.low)
+        .map(move |top| Band::between(range.low, top))
 }
 
 /// The highest defect frequency, Hz.

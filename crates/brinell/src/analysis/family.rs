@@ -12,15 +12,17 @@
 
 use super::Options;
 use super::frequencies::Component;
-use super::together::{HARMONICS, Place, REVOLUTIONS, Together};
+use super::together::{HARMONICS, Place, Together};
 
-/// Score from which a family that modulates by [`FAINT`] is damage, in a record of [`REVOLUTIONS`] or more. In a shorter one its lines stand less
-/// high over the noise: as the length, in power.
-const SCORE: f64 = 14.5;
+/// Score from which a family that modulates by [`FAINT`] is damage. In a record of fewer than [`REVOLUTIONS`](super::together::REVOLUTIONS) true lines
+/// stand less high over the noise, and chance lines hardly less: the limit does not fall with them.
+pub(super) const SCORE: f64 = 14.5;
+/// Score below which lines are not told from noise, however long the record: bands that one impact excites are not independent.
+const LEAST_SCORE: f64 = 5.0;
 /// Modulation below which lines are no damage, however high they stand: a sound machine's stand too.
-const FAINT: f64 = 0.14;
+pub(super) const FAINT: f64 = 0.14;
 /// Modulation from which a family is damage that merely stands out of the noise.
-const DEEP: f64 = 0.25;
+pub(super) const DEEP: f64 = 0.25;
 /// The same of the cage's frequency: a cage modulates all that rolls.
 const DEEP_OF_CAGE: f64 = 0.32;
 /// Lines that have to stand, and how many of them have to be harmonics. A harmonic that shaft or mains hide is given the benefit of the doubt; a
@@ -139,6 +141,13 @@ impl Family {
         self.harmonics.iter().filter(|h| h.stands).count()
     }
 
+    /// How many harmonics a line of shaft or mains hides.
+    pub fn hidden_harmonics(&self) -> usize {
+        (self.harmonics.iter())
+            .filter(|h| h.snr_db.is_none())
+            .count()
+    }
+
     /// How many sidebands stand.
     pub fn standing_sidebands(&self) -> usize {
         self.sidebands.map_or(0, |s| s.standing)
@@ -167,9 +176,7 @@ impl Family {
     /// Whether enough of its lines stand, and where they belong.
     pub(super) fn is_whole(&self) -> bool {
         let standing = self.standing_harmonics();
-        let hidden = (self.harmonics.iter())
-            .filter(|h| h.snr_db.is_none())
-            .count();
+        let hidden = self.hidden_harmonics();
         !self.is_skirt
             && !self.lacks_sidebands()
             && standing + hidden + self.standing_sidebands() / 2 >= FEWEST.0
@@ -209,19 +216,17 @@ pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
     options.orders.ftf.unwrap_or(USUAL_FTF) * shaft
 }
 
-/// Each family at the slip at which it stands highest, up to `tolerance` from pure rolling, in a record of so many revolutions.
+/// Each family at the slip at which its score is highest, up to `tolerance` from pure rolling.
 pub(super) fn read(
     together: &Together,
-    revolutions: f64,
     shaft: f64,
     tolerance: f64,
     options: &Options,
 ) -> Vec<Family> {
     // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as well.
     let strikes = (options.orders.strikes()).filter(|(_, name, _)| *name != "BSF");
-    let noise = HARMONICS as f64 * together.noise.ln();
-    let shorter = (revolutions / REVOLUTIONS).min(1.0);
-    let limit = (SCORE + HARMONICS as f64 * shorter.ln()).max(noise);
+    let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
+    let limit = SCORE.max(noise);
     strikes
         .map(|(component, name, order)| {
             let expected = order * shaft;
@@ -282,7 +287,7 @@ fn reach(component: Component, tolerance: f64, exact: bool) -> (f64, f64) {
 }
 
 /// Of the comb of a frequency.
-fn score(together: &Together, frequency: f64) -> f64 {
+pub(super) fn score(together: &Together, frequency: f64) -> f64 {
     let (mut least, mut sum) = (f64::INFINITY, 0.0);
     for k in 1..=HARMONICS {
         // What is hidden neither counts nor limits.
@@ -295,15 +300,15 @@ fn score(together: &Together, frequency: f64) -> f64 {
 }
 
 /// What stands on the comb of a frequency.
-struct Lines {
+pub(super) struct Lines {
     harmonics: Vec<Harmonic>,
     sidebands: Option<Sidebands>,
     /// How deep they modulate.
-    modulation: f64,
+    pub(super) modulation: f64,
 }
 
 /// The comb of a frequency, with sidebands at a distance of `spacing` Hz where it has any.
-fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
+pub(super) fn lines(together: &Together, frequency: f64, spacing: Option<f64>) -> Lines {
     let stands = |place: Place| place.ratio.is_some_and(|r| r >= together.standing());
     let mut sidebands = spacing.map(|spacing| Sidebands {
         spacing,

@@ -20,11 +20,10 @@ pub fn to_json(
             "clarity": analysis.causes().next().map(|f| analysis.clarity(f)),
         },
         "families": analysis.families.iter().map(|f| family(analysis, f)).collect::<Vec<_>>(),
-        "beyond_tolerance": analysis.beyond.as_ref().map(|b| {
-            let mut lines = family(analysis, &b.family);
-            lines["shaft_hz_if_its"] = b.shaft.into();
-            lines
-        }),
+        "elsewhere": analysis.elsewhere.map(|e| json!({
+            "frequency_hz": e.frequency, "order": e.frequency / analysis.shaft, "score": e.score, "modulation": e.modulation,
+            "nearest": e.nearest.map(|n| json!({ "component": n.component.key(), "name": n.name, "shift": n.shift, "shaft_hz_if_its": n.shaft })),
+        })),
         "tolerance": analysis.options.tolerance,
         "signal": {
             "unit": unit.name,

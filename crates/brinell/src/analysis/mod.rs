@@ -55,7 +55,7 @@ pub use severity::{
     BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
 };
 pub use unit::{Quantity, Unit};
-pub use verdict::Beyond;
+pub use verdict::Elsewhere;
 pub use words::COLUMNS;
 
 use crate::signal::lengths::fast_up_to;
@@ -183,8 +183,8 @@ pub struct Analysis {
     pub bands: usize,
     /// Each defect frequency with its harmonics, over all bands together: damage first, the part that leads before others.
     pub families: Vec<Family>,
-    /// Where no damage is called: lines farther from a defect frequency than the tolerance, if any stand.
-    pub beyond: Option<Beyond>,
+    /// Where no damage is called: a comb deeper than any of the bearing's, where the bearing has no frequency.
+    pub elsewhere: Option<Elsewhere>,
 }
 
 impl Analysis {
@@ -195,11 +195,15 @@ impl Analysis {
 
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
-        let open =
-            (self.families.iter()).any(|f| matches!(f.standing, Standing::Open | Standing::Grown));
+        let open = (self.families.iter()).any(|f| {
+            matches!(
+                f.standing,
+                Standing::Open | Standing::Grown | Standing::AsBefore
+            )
+        });
         if self.causes().next().is_some() {
             Verdict::Damage
-        } else if open || self.beyond.is_some() {
+        } else if open || self.elsewhere.is_some() {
             Verdict::CannotTell
         } else {
             Verdict::NothingFound
@@ -275,7 +279,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         )
     });
     let map = map?;
-    let (shaft, shaft_lines) = match shaft? {
+    let (shaft, mut shaft_lines) = match shaft? {
         Some(found) => (found.speed, found.orders),
         None => (options.shaft, Vec::new()),
     };
@@ -283,7 +287,8 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let samples = x.len();
     drop(x);
     let mut drift = drift?;
-    let envelopes = Envelopes::of(&transformed, shaft, options)?;
+    let range = bands::range(fs, options)?;
+    let mut envelopes = Envelopes::of(&transformed, range, shaft, options)?;
     let known = options.rotation.is_some() || options.exact;
     if drift.is_none() && shaft_lines.is_empty() && !known {
         drift = drift::by_families(&envelopes, options)?;
@@ -299,7 +304,22 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     };
     let own;
     let mut record = Record::of(&envelopes, known, options)?;
-    let mut families = record.families();
+    let (mut families, mut elsewhere) = record.families();
+    if !shaft_lines.is_empty() && !options.exact && !is_damage(&families) {
+        // Lines that agree by chance, or another shaft's, may have told a wrong speed.
+        let given = Shaft {
+            hz: options.shaft,
+            tolerance: 0.0,
+        };
+        let mut as_given = Record::of(&envelopes, given, options)?;
+        let (found, there) = as_given.families();
+        // At a speed that is off, lines of the shaft are not hidden: only what is very clear counts.
+        let clear = |f: &Family| f.standing == Standing::Damage && f.is_very_clear();
+        if found.iter().any(clear) {
+            shaft_lines.clear();
+            (record, families, elsewhere) = (as_given, found, there);
+        }
+    }
     if let Some(drift) = &mut drift {
         drift.smear = record.together.smear(&drift.course);
         own = Options {
@@ -311,19 +331,30 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             tolerance: SHAFT_KNOWN * drift.mean(),
         };
         let mut at_angles = Record::of(&envelopes, known, &own)?;
-        let found = at_angles.families();
+        let (found, there) = at_angles.families();
         if evidence(&found) > evidence(&families) {
             drift.followed = true;
-            (record, families) = (at_angles, found);
+            (record, families, elsewhere) = (at_angles, found, there);
+        }
+    }
+    if options.band.is_none() && !options.exact && !is_damage(&families) {
+        for part in bands::lower(range) {
+            let there = Envelopes::of(&transformed, part, record.shaft, record.options)?;
+            let known = Shaft {
+                hz: record.shaft,
+                tolerance,
+            };
+            let mut lower = Record::of(&there, known, record.options)?;
+            let (found, _) = lower.families();
+            if is_damage(&found) {
+                (record, families, elsewhere) = (lower, found, None);
+                envelopes = there;
+                break;
+            }
         }
     }
     let Record { shaft, options, .. } = record;
     let lead = (families.iter()).find(|f| f.standing == Standing::Damage);
-    let beyond = match lead {
-        Some(_) => None,
-        None => record.beyond(),
-    };
-    let range = bands::range(fs, options)?;
     let (band, choice, (mean_of_envelope, spectrum)) = match (options.band, lead) {
         (None, Some(lead)) => {
             let (band, envelope) = &envelopes.each[record.together.clearest(lead)];
@@ -359,8 +390,13 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         },
         bands: record.together.bands(),
         families,
-        beyond,
+        elsewhere,
     })
+}
+
+/// Whether a family is damage.
+fn is_damage(families: &[Family]) -> bool {
+    families.iter().any(|f| f.standing == Standing::Damage)
 }
 
 /// Score of the family that leads or, where none is damage, of the highest: the first is more.

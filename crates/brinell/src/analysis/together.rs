@@ -7,7 +7,7 @@
 
 use super::family::{Family, Harmonic};
 use super::known_lines::Mains;
-use super::{AnalysisError, Options, bands};
+use super::{AnalysisError, Options};
 use crate::many;
 use crate::signal::distribution::chi_square_quantile;
 use crate::signal::lengths::fast_up_to;
@@ -173,7 +173,7 @@ impl Together {
         self.depth[low..=high].fill(0.0);
     }
 
-    /// The highest of the three bins at a frequency; nothing beyond the spectrum.
+    /// The highest of the three bins at a frequency; beyond the spectrum nothing is seen.
     pub(super) fn at(&self, frequency: f64) -> Place {
         let bin = self.bin(frequency.max(0.0));
         let hidden = self.hidden.get(bin).is_some_and(|h| *h);
@@ -183,7 +183,7 @@ impl Together {
                 depth,
             },
             _ => Place {
-                ratio: (!hidden).then_some(1.0),
+                ratio: None,
                 depth: 0.0,
             },
         }
@@ -286,10 +286,10 @@ pub(super) struct Envelopes {
 impl Envelopes {
     pub(super) fn of(
         transformed: &Transformed,
+        range: Band,
         shaft: f64,
         options: &Options,
     ) -> Result<Self, AnalysisError> {
-        let range = bands::range(transformed.sample_rate(), options)?;
         let top = top(shaft, options);
         let each = side_by_side(&tiles(range, top), |band| {
             Ok((*band, thinned(transformed, *band, top)))

@@ -1,25 +1,56 @@
 //! From families to a verdict: which of them is damage, and which merely shares another's lines.
 
-use super::family::{Family, Standing, cage, read};
+use super::family::{DEEP, FAINT, Family, SCORE, Standing, cage, lines, read, score};
 use super::frequencies::Component;
-use super::together::{Envelopes, Shaft, Together};
+use super::together::{Envelopes, HARMONICS, Shaft, Together};
 use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
 /// Multiples of shaft and cage about the first's harmonics that are taken out before a second one is sought.
 const SIDES: i32 = 3;
-/// So many times the tolerance is looked through where nothing stands within it.
+/// So many times the tolerance off, a comb may be the bearing's at another speed.
 const FARTHER: f64 = 3.0;
+/// A comb elsewhere may have so much less than the score of the family that leads.
+const HARDLY: f64 = 3.0;
+/// Depth over that of the family that leads from which such a comb counts: the sidebands of a turning source may be as deep as its own lines.
+const DEEPER: f64 = 1.25;
+/// And this score at least: of some ten thousand places the highest shows as much by chance.
+const LEAST_ELSEWHERE: f64 = 8.0;
+/// The lowest fundamental of such a comb, over the shaft's frequency. No raceway is passed more slowly.
+const LOWEST: f64 = 1.5;
+/// Harmonics of such a comb that the spectrum holds.
+const FEWEST_HARMONICS: f64 = 3.0;
+/// Bins within which two combs are one.
+const WIDTH: f64 = 3.0;
+/// The same for the cage's own lines.
+const TELLING_CAGE: f64 = 40.0;
 /// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the spectrum.
 const TELLING: f64 = 20.0;
 
-/// A family near a defect frequency, but farther from it than the tolerance: no verdict, a reason to doubt the speed or the bearing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Beyond {
-    /// Its lines; `expected` is where pure rolling has it at the speed given.
-    pub family: Family,
-    /// The shaft speed at which the lines would be the component's in pure rolling, Hz.
+/// A comb of lines that is deeper than any of the bearing's, where the bearing has no frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elsewhere {
+    /// Its fundamental, Hz.
+    pub frequency: f64,
+    /// Its score.
+    pub score: f64,
+    /// Depth to which its lines modulate the envelopes, in the root mean square over all bands.
+    pub modulation: f64,
+    /// The frequency of the bearing that lies nearest, where that is within three tolerances.
+    pub nearest: Option<Nearest>,
+}
+
+/// A frequency of the bearing near a comb, farther off than the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Whose.
+    pub component: Component,
+    /// `BPFO`, `BPFI` or `2 BSF`.
+    pub name: &'static str,
+    /// By how much the comb lies above it, relative.
+    pub shift: f64,
+    /// The shaft speed at which it would be there, Hz.
     pub shaft: f64,
 }
 
@@ -49,27 +80,27 @@ impl<'a> Record<'a> {
     }
 
     fn read(&self, tolerance: f64) -> Vec<Family> {
-        let Record {
-            together,
-            revolutions,
-            shaft,
-            options,
-        } = self;
-        read(together, *revolutions, *shaft, tolerance, options)
+        read(&self.together, self.shaft, tolerance, self.options)
     }
 
     /// All families: those that are damage first, the one that leads before the others; what else stands after it.
-    pub(super) fn families(&mut self) -> Vec<Family> {
+    pub(super) fn families(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
         let mut all = self.read(self.options.tolerance);
-        if self.is_short() {
-            let elements = all.iter_mut().filter(|f| f.component == Component::Element);
-            for element in elements.filter(|f| f.standing == Standing::Damage) {
-                element.standing = Standing::Open;
+        for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
+            if self.is_short_for(family.component) {
+                family.standing = Standing::Open;
             }
         }
-        let Some(lead) = leading(&all) else {
+        let lead = leading(&all);
+        let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
+        if elsewhere.is_some() {
+            for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
+                family.standing = Standing::Open;
+            }
+        }
+        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
-            return all;
+            return (all, elsewhere);
         };
         let lead = all.remove(lead);
         self.take_out(lead.frequency);
@@ -99,27 +130,95 @@ impl<'a> Record<'a> {
         if all[0].component == Component::Cage && self.options.orders.bsf.is_some() {
             all[0].component = Component::Element;
         }
-        all
+        (all, None)
     }
 
-    /// A family of damage farther off than the tolerance. The cage's is left out: three times its tolerance holds too much else.
-    pub(super) fn beyond(&self) -> Option<Beyond> {
-        let wide = self.read(FARTHER * self.options.tolerance);
-        let far = wide.into_iter().filter(|f| {
-            f.component != Component::Cage
-                && f.is_damage()
-                && f.shift().abs() > self.options.tolerance
-        });
-        let family = far.max_by(|a, b| a.score.total_cmp(&b.score))?;
-        Some(Beyond {
-            shaft: self.shaft * family.frequency / family.expected,
-            family,
+    /// Whether the record holds so few turns of the cage that a rolling element's sidebands, or the cage's lines, are not told from others.
+    fn is_short_for(&self, component: Component) -> bool {
+        let needed = match component {
+            Component::OuterRace | Component::InnerRace => 0.0,
+            Component::Element => TELLING,
+            // In a simulation nothing else turns at a frequency so low.
+            Component::Cage if self.options.exact => 0.0,
+            Component::Cage => TELLING_CAGE,
+        };
+        self.revolutions * cage(self.shaft, self.options) < needed * self.shaft
+    }
+
+    /// The deepest comb that is deeper than the family that leads and hardly lower in score, at no frequency of the bearing: then the bearing or the speed is
+    /// not the one given, or the lines are another machine part's. Without a family that leads, one that would be damage.
+    ///
+    /// A simulation has nothing else that turns.
+    fn elsewhere(&self, lead: Option<&Family>) -> Option<Elsewhere> {
+        if self.options.exact {
+            return None;
+        }
+        let together = &self.together;
+        let least = lead.map_or(SCORE, |l| (l.score - HARDLY).max(LEAST_ELSEWHERE));
+        // A cage modulates whatever rolls, as deep as that goes: its depth says nothing against others.
+        let shallow = match lead {
+            Some(lead) if lead.component != Component::Cage => DEEPER * lead.modulation,
+            Some(_) => DEEP,
+            None => FAINT,
+        };
+        // Measured alike: with sidebands where the leading family has any.
+        let spacing = lead.and_then(|l| l.sidebands).map(|s| s.spacing);
+        let depth = |f: f64| lines(together, f, spacing).modulation;
+        let step = 0.25 * together.step() / HARMONICS as f64;
+        let top = together.top() / (FEWEST_HARMONICS + 0.5);
+        let places = (0..)
+            .map(|k| LOWEST * self.shaft + f64::from(k) * step)
+            .take_while(|f| *f < top);
+        let (frequency, modulation) = places
+            .filter(|f| score(together, *f) >= least && !self.is_explained(*f, lead))
+            .map(|f| (f, depth(f)))
+            .filter(|(_, depth)| *depth > shallow)
+            .max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Elsewhere {
+            frequency,
+            score: score(together, frequency),
+            modulation,
+            nearest: self.nearest(frequency),
         })
     }
 
-    /// Whether the record holds so few turns of the cage that a rolling element's sidebands are not told from other lines.
-    fn is_short(&self) -> bool {
-        self.revolutions * cage(self.shaft, self.options) < TELLING * self.shaft
+    fn nearest(&self, frequency: f64) -> Option<Nearest> {
+        let raceways = (self.options.orders.strikes())
+            .filter(|(component, name, _)| *component != Component::Cage && *name != "BSF");
+        raceways
+            .map(|(component, name, order)| Nearest {
+                component,
+                name,
+                shift: frequency / (order * self.shaft) - 1.0,
+                shaft: frequency / order,
+            })
+            .filter(|n| n.shift.abs() <= FARTHER * self.options.tolerance)
+            .min_by(|a, b| a.shift.abs().total_cmp(&b.shift.abs()))
+    }
+
+    /// Whether a comb lies at a frequency of the bearing, or at lines that the damage of the family that leads has.
+    fn is_explained(&self, frequency: f64, lead: Option<&Family>) -> bool {
+        let width = WIDTH * self.together.step();
+        let near = |at: f64| (frequency - at).abs() <= width;
+        let own = |order: f64| {
+            let at = order * self.shaft;
+            (frequency - at).abs() <= self.options.tolerance * at + self.together.step()
+        };
+        let mut strikes = self.options.orders.strikes();
+        let cage = cage(self.shaft, self.options);
+        strikes.any(|(_, _, order)| own(order))
+            || lead.is_some_and(|lead| {
+                let f = lead.frequency;
+                (2..=HARMONICS).any(|m| {
+                    let m = m as f64;
+                    near(m * f) || near(f / m)
+                }) || near(f)
+                    || lead.component == Component::Element
+                        && (1..=SIDES).any(|k| {
+                            let aside = f64::from(k) * cage;
+                            near(f + aside) || near(f - aside)
+                        })
+            })
     }
 
     /// Harmonics of a frequency and their sidebands are nobody's from now on.

@@ -1,7 +1,7 @@
 //! Families in words.
 
 use super::family::{Family, Standing};
-use super::{Analysis, Verdict};
+use super::{Analysis, Elsewhere, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
 pub const COLUMNS: [&str; 8] = [
@@ -51,23 +51,25 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                     told(family),
                 ));
             }
-            if let Some(beyond) = &analysis.beyond {
-                text.push(format!(
-                    "Cannot tell: {}, beyond the tolerance of {} %. Are speed and bearing right? At {:.0} r/min these lines would be the {}'s.",
-                    told(&beyond.family),
-                    100.0 * analysis.options.tolerance,
-                    60.0 * beyond.shaft,
-                    beyond.family.component.words(),
-                ));
+            if let Some(elsewhere) = &analysis.elsewhere {
+                text.push(other_lines(analysis, elsewhere));
             }
             let open = (analysis.families.iter()).filter(|f| f.standing == Standing::Open);
             for family in open {
+                if analysis.elsewhere.is_some() && family.is_damage() {
+                    text.push(format!(
+                        "Without them it would be {} damage: {}.",
+                        family.component.words(),
+                        told(family)
+                    ));
+                    continue;
+                }
                 text.push(format!(
                     "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would tell.",
                     family.component.words(),
                     told(family),
                     if family.is_damage() {
-                        "sidebands that a record of fewer than twenty turns of the cage does not tell from other lines"
+                        "lines at distances of the cage's frequency, which so short a record does not tell from others"
                     } else if family.score < family.noise {
                         "lines hardly above what noise shows in a record of this length"
                     } else if family.lacks_sidebands() {
@@ -90,17 +92,42 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         .collect();
     if !before.is_empty() {
         text.push(format!(
-            "Lines of {} modulate as when the machine was healthy.",
+            "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would tell.",
             listed(&before)
         ));
     }
     if analysis.causes().next().is_none() && !faint.is_empty() {
         text.push(format!(
-            "Lines of {} stand as faintly as in sound machines.",
+            "Lines of {} are present, below the limits of damage: sound machines have such lines.",
             listed(&faint)
         ));
     }
     text.join(" ")
+}
+
+/// Lines that are nobody's of this bearing.
+fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
+    let nearest = elsewhere.nearest.map_or(String::new(), |n| {
+        format!(
+            " {} lies {:.2} % {}: at {:.0} r/min it would be there.",
+            n.name,
+            100.0 * n.shift.abs(),
+            if n.shift > 0.0 { "lower" } else { "higher" },
+            60.0 * n.shaft
+        )
+    });
+    // The shaft's own lines tell its speed.
+    let doubt = match analysis.shaft_lines.is_empty() {
+        true => "Are speed and bearing right?",
+        false => "Is it this bearing? The shaft's own lines agree with the speed.",
+    };
+    format!(
+        "Cannot tell: the strongest comb of lines lies at {:.2} Hz, {:.3} times the shaft's speed, modulating by {:.0} %, and this bearing has no frequency there.{nearest} {doubt} \
+         The frequencies of the machine's other bearings and gears would tell, and a tachometer.",
+        elsewhere.frequency,
+        elsewhere.frequency / analysis.shaft,
+        100.0 * elsewhere.modulation,
+    )
 }
 
 fn told(family: &Family) -> String {
@@ -138,9 +165,9 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
             Standing::Damage => format!("damage, {}", analysis.clarity(f)),
             Standing::Shared(with) => format!("shares the lines of {with}"),
             Standing::Open => "cannot tell".into(),
-            Standing::Faint => "faint, as in sound machines".into(),
+            Standing::Faint => "present, below the limit".into(),
             Standing::Grown => "grown since healthy".into(),
-            Standing::AsBefore => "as when healthy".into(),
+            Standing::AsBefore => "as in the healthy record".into(),
             Standing::Silent => "nothing".into(),
         };
         [
@@ -148,7 +175,14 @@ pub(super) fn rows(analysis: &Analysis) -> Vec<[String; COLUMNS.len()]> {
             f.name.into(),
             format!("{:.2}", f.frequency),
             format!("{:+.2}", 100.0 * f.shift()),
-            format!("{} of {}", f.standing_harmonics(), f.harmonics.len()),
+            match f.hidden_harmonics() {
+                0 => format!("{} of {}", f.standing_harmonics(), f.harmonics.len()),
+                n => format!(
+                    "{} of {}, {n} hidden",
+                    f.standing_harmonics(),
+                    f.harmonics.len() - n
+                ),
+            },
             format!("{:.0}", f.highest_db()),
             format!("{:.0}", 100.0 * f.modulation),
             says,

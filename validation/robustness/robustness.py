@@ -1,0 +1,137 @@
+"""What `brinell analyze` says of measured records that were made harder.
+
+    python3 validation/robustness/robustness.py RECORDS BRINELL [base,cut,bearing,speed,rate] [-v]
+
+RECORDS is a folder with records.csv (id, file, damaged, set, options) and NPZ files. Prints a row of a Markdown table for each way of making them
+harder: cut short, asked about other bearings, at wrong speeds, resampled with noise. -v lists every wrong call. Needs NumPy and SciPy.
+"""
+
+import collections
+import csv
+import json
+import math
+import shlex
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+from scipy import signal
+
+PARTS = {"IR": "inner_race", "OR": "outer_race", "B": "rolling_element", "N": None}
+# Elements, their diameter and the pitch diameter in mm, contact angle in degrees.
+BEARINGS = [
+    (8, 6.75, 28.5, 0), (8, 7.92, 34.55, 0), (8, 5.969, 31.623, 0), (16, 8.4, 71.5, 15.17), (13, 7.5, 39, 0), (7, 7.94, 29.05, 0),
+    (12, 7.94, 46, 0), (9, 9.525, 46, 0), (10, 6.35, 38, 0), (11, 10.3, 60, 0), (14, 6.5, 45, 0), (15, 8, 65, 12), (9, 12.7, 54, 0),
+    (8, 12, 48, 0), (18, 7, 70, 0), (13, 6.35, 36, 25), (12, 5.5, 34, 15), (17, 9, 80, 10), (9, 7.1, 36.5, 0), (10, 11.1, 65, 40),
+]
+# Of the records' own bearing, a 6205.
+OWN = (9, 7.94, 39.04, 0)
+CUTS = {0.6: 2, 1.0: 3, 2.0: 2, 3.0: 1}
+SPEEDS = [1, -1, 2, -2, 3, -3, 5, -5, 10, -10]
+
+
+def orders(bearing):
+    z, d, pitch, angle = bearing
+    g = d / pitch * math.cos(math.radians(angle))
+    return {"outer_race": z / 2 * (1 - g), "inner_race": z / 2 * (1 + g), "rolling_element": pitch / d * (1 - g * g)}
+
+
+def records(folder):
+    for row in csv.DictReader(open(folder / "records.csv")):
+        options = shlex.split(row["options"])
+        arrays = np.load(folder / row["file"])
+        after = lambda key: options[options.index(key) + 1]
+        channel = after("--channel") if "--channel" in options else list(arrays)[0]
+        start = options.index("--bearing" if "--bearing" in options else "--rollers")
+        yield {
+            "id": row["id"], "truth": PARTS[row["damaged"]], "set": row["set"], "x": arrays[channel].astype(float).ravel(),
+            "rate": float(after("--rate")), "speed": float(after("--speed")), "bearing": options[start:],
+        }
+
+
+def jobs(all_records, ways):
+    """Way, truth, name, and what to analyse."""
+    noise = np.random.default_rng(1)
+    for r in all_records:
+        x, rate, speed, bearing, truth = r["x"], r["rate"], r["speed"], r["bearing"], r["truth"]
+        exact = not r["set"].startswith("uestc")
+        if "base" in ways:
+            yield "as they are" if exact else "speed off", truth, r["id"], (x, rate, speed, bearing)
+        if not exact:
+            continue
+        for seconds, count in CUTS.items() if "cut" in ways else ():
+            n = int(seconds * rate)
+            for k in range(min(count, len(x) // n)):
+                yield f"cut to {seconds} s", truth, f"{r['id']} {k}", (x[k * n : (k + 1) * n], rate, speed, bearing)
+        for percent in SPEEDS if "speed" in ways else ():
+            yield f"speed given {percent:+} %", truth, r["id"], (x, rate, speed * (1 + percent / 100), bearing)
+        if "rate" in ways and rate < 13000:
+            for factor in (2, 4, 8):
+                up = signal.resample_poly(x, factor, 1)
+                up = up + 0.01 * np.std(x) * noise.standard_normal(len(up))
+                yield f"sampled {factor} times as fast, noise -40 dB", truth, r["id"], (up, rate * factor, speed, bearing)
+        if "bearing" in ways and truth is not None:
+            true = orders(OWN)[truth]
+            for other in BEARINGS:
+                near = [o / true / m for o in orders(other).values() for m in (1, 2, 3, 1 / 2, 1 / 3)]
+                if all(abs(ratio - 1) >= 0.035 for ratio in near):
+                    keys = zip(["--rollers", "--diameter", "--pitch", "--contact-angle"], map(str, other))
+                    yield "asked about other bearings", None, f"{r['id']} {other}", (x, rate, speed, [w for pair in keys for w in pair])
+
+
+def analyze(brinell, x, rate, speed, bearing):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "x.npz"
+        np.savez(path, signal=x.astype(np.float32))
+        command = [brinell, "analyze", path, "--rate", repr(rate), "--unit", "g", "--speed", repr(speed), *bearing, "--json", "-"]
+        done = subprocess.run(command, capture_output=True, text=True)
+    return json.loads(done.stdout) if done.returncode == 0 else None
+
+
+def outcome(found, truth):
+    if found is None:
+        return "not analysed"
+    called = found["verdict"]["damage"]
+    if truth is None:
+        return "called" if called else "not called"
+    if not called:
+        return "missed"
+    return "right" if called[0] == truth else "wrong"
+
+
+def main():
+    folder, brinell = Path(sys.argv[1]), sys.argv[2]
+    rest = [a for a in sys.argv[3:] if a != "-v"]
+    ways = rest[0].split(",") if rest else ["base", "cut", "speed", "rate", "bearing"]
+    counts = collections.defaultdict(collections.Counter)
+
+    def one(job):
+        way, truth, name, what = job
+        found = analyze(brinell, *what)
+        how = outcome(found, truth)
+        if "-v" in sys.argv and how in ("wrong", "called"):
+            print(f"{way}: {name}: {found['verdict']['text']}", file=sys.stderr)
+        return way, how
+
+    with ThreadPoolExecutor(2) as pool:
+        waiting = collections.deque()
+        for job in jobs(list(records(folder)), ways):
+            waiting.append(pool.submit(one, job))
+            if len(waiting) > 8:
+                way, how = waiting.popleft().result()
+                counts[way][how] += 1
+        for job in waiting:
+            way, how = job.result()
+            counts[way][how] += 1
+    print("| | damaged: right / wrong / no damage called | sound: called damaged | not analysed |")
+    print("| --- | --- | --- | --- |")
+    for way, c in counts.items():
+        damaged = f"{c['right']} / {c['wrong']} / {c['missed']}" if c["right"] + c["wrong"] + c["missed"] else "-"
+        sound = f"{c['called']} of {c['called'] + c['not called']}" if c["called"] + c["not called"] else "-"
+        print(f"| {way} | {damaged} | {sound} | {c['not analysed']} |")
+
+
+main()
