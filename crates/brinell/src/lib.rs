@@ -1,4 +1,6 @@
 //! Vibration of rolling bearings with real damage, from first principles.
+//!
+//! [`signal`], [`analysis`], [`random`] and [`many`] are those of the crate `brinell-signal`, which knows nothing of the rest.
 
 pub mod accuracy;
 pub mod bearing;
