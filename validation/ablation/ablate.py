@@ -2,7 +2,7 @@
 
     python3 validation/ablation/ablate.py SCORE.PY [--target FOLDER] [WORDS OF A VARIANT ...]
 
-Copies the tracked files to a temporary folder, takes one part out of crates/brinell/src/analysis/ for each variant, builds the command there and
+Copies the tracked files to a temporary folder, takes one part out of crates/brinell-signal/src/analysis/ for each variant, builds the command there and
 runs SCORE.PY on it. Prints a row of a Markdown table a variant. Standard library only; see README.md.
 """
 
@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ANALYSIS = "crates/brinell/src/analysis/"
+ANALYSIS = "crates/brinell-signal/src/analysis/"
 
 # In words, and the changes: file, text that stands there once, text in its place.
 VARIANTS = [("as it is", [])]
@@ -116,7 +116,7 @@ def copy(folder):
 def build(folder, target):
     """The command. Results do not depend on how it is cut for the compiler; small pieces are built anew faster."""
     env = os.environ | {"CARGO_TARGET_DIR": str(target), "CARGO_INCREMENTAL": "1"}
-    pieces = "profile.release.package.brinell.codegen-units=256"
+    pieces = "profile.release.package.brinell-signal.codegen-units=256"
     command = ["cargo", "build", "--release", "--locked", "--quiet", "-p", "brinell-cli", "--config", pieces]
     done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True)
     # Otherwise it warns of what a variant leaves unused.

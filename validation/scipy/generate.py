@@ -13,7 +13,7 @@ import scipy
 from scipy import fft, integrate, interpolate, signal, stats
 
 FS = 2000.0
-OUT = Path(__file__).resolve().parents[2] / "crates/brinell/tests/signal"
+OUT = Path(__file__).resolve().parents[2] / "crates/brinell-signal/tests/signal"
 
 
 def test_signal(n, seed):

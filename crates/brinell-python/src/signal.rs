@@ -6,6 +6,7 @@ use brinell::analysis::{
     DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json, velocity,
 };
 use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::{orders_named, orders_names, orders_of};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -226,8 +227,8 @@ fn orders(
 ) -> PyResult<DefectOrders> {
     let mut orders = match (name, geometry) {
         (Some(name), _) => {
-            let known = DefectOrders::named(name).ok_or_else(|| {
-                let names: Vec<&str> = DefectOrders::names().collect();
+            let known = orders_named(name).ok_or_else(|| {
+                let names: Vec<&str> = orders_names().collect();
                 bad_value(format!(
                     "bearing = \"{name}\": no such bearing; there are {}",
                     names.join(", ")
@@ -235,7 +236,7 @@ fn orders(
             })?;
             known.0
         }
-        (None, Some(geometry)) => DefectOrders::of_bearing(&geometry),
+        (None, Some(geometry)) => orders_of(&geometry),
         (None, None) => DefectOrders::default(),
     };
     let [bpfo, bpfi, bsf, ftf] = given;

@@ -1,7 +1,8 @@
 //! Vibration of rolling bearings with real damage, from first principles.
+//!
+//! [`signal`], [`analysis`], [`random`] and [`many`] are those of the crate `brinell-signal`, which knows nothing of the rest.
 
 pub mod accuracy;
-pub mod analysis;
 pub mod bearing;
 pub mod cage;
 pub mod calibrate;
@@ -16,22 +17,22 @@ pub mod elementary;
 pub mod friction;
 pub mod kernel;
 pub mod lanes;
-pub mod many;
 pub mod model;
 pub mod observe;
 pub mod operation;
 pub mod paper;
 pub mod plausibility;
 pub mod pressure;
-pub mod random;
 pub mod scenario;
 pub mod sensor;
-pub mod signal;
 pub mod simulate;
 pub mod solver;
 pub mod start;
 pub mod statics;
 pub mod summary;
+
+pub use brinell_signal as signal;
+pub use brinell_signal::{analysis, parallel as many, random};
 
 /// Version of this library, as results carry it.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -6,9 +6,10 @@ use brinell::channel::Frame;
 use brinell::observe::Watch;
 use brinell::observe::waveform::KEPT;
 use brinell::scenario::{NoiseColour, Scenario, Sensor};
-use brinell::simulate::{End, Observer, Simulation};
+use brinell::simulate::{Decimator, End, Observer, Simulation};
 use common::cases::rectangle;
 use common::counting::{Counting, allocations, live};
+use std::hint::black_box;
 use std::ops::ControlFlow;
 
 #[global_allocator]
@@ -69,6 +70,21 @@ fn metered(s: &Scenario, between: [f64; 2], watched: bool) -> (isize, usize, u64
         meter.allocations[1] - meter.allocations[0],
         meter.steps,
     )
+}
+
+#[test]
+fn prop_the_anti_alias_filter_allocates_nothing() {
+    let mut decimator = Decimator::new(2);
+    let before = allocations();
+    let mut last = 0.0;
+    for i in 0..40_000_u32 {
+        let x = (f64::from(i % 102) * -0.05).exp() * f64::from(i % 7);
+        if let Some(frame) = decimator.push(&[x, -x]) {
+            last = frame[0];
+        }
+    }
+    black_box(last);
+    assert_eq!(allocations() - before, 0);
 }
 
 #[test]

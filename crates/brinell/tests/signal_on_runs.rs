@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use brinell::analysis::{Component, DefectOrders, Options, analyze};
+use brinell::analysis::{Component, Options, analyze};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::bearing::orders_of;
 use brinell::document;
 use brinell::random::Random;
 use brinell::scenario::{Scenario, Shape, Speed, Surface};
@@ -73,7 +74,7 @@ fn found(on: Surface, component: Component) {
     // As the command treats runs of brinell's: nothing else turns, and a record of two seconds tells the cage's lines.
     let options = Options {
         exact: true,
-        ..Options::new(30.0, DefectOrders::of_bearing(&geometry))
+        ..Options::new(30.0, orders_of(&geometry))
     };
     let analysis = analyze(&with_noise(&x, 0.3), FS, &options).unwrap();
     println!("{on:?}: {}", analysis.verdict());
@@ -138,7 +139,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                 _ => {}
             }
             s.operation.speed_rpm = Speed::Constant(rpm);
-            let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+            let orders = orders_of(&Geometry::of(&s.bearing));
             // As the command does: after the load's ramp and a turn of the shaft.
             let x = recorded(&mut s, rate, 2.12, 0.02 + 60.0 / rpm);
             for seconds in [0.5, 0.9, 1.0, 2.0] {
@@ -207,7 +208,7 @@ fn regress_verdicts_on_the_examples() {
         let Speed::Constant(rpm) = s.operation.speed_rpm else {
             panic!("a speed that varies")
         };
-        let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+        let orders = orders_of(&Geometry::of(&s.bearing));
         let rate = s.simulation.sample_rate_hz;
         let start = s.operation.load_ramp_s + 60.0 / rpm;
         let x = recorded(&mut s, rate, 2.0, start);
@@ -239,7 +240,7 @@ fn regress_the_verdict_on_the_run_up() {
     let path = format!("{}/../../examples/run-up.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     let mut s = document::read(&text, &[]).unwrap().scenario;
-    let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+    let orders = orders_of(&Geometry::of(&s.bearing));
     let (rate, seconds, start) = (s.simulation.sample_rate_hz, s.simulation.duration_s, 0.02);
     let x = recorded(&mut s, rate, seconds, start);
     // 4500 (r/min)/s up to 0.4 s.
@@ -272,7 +273,7 @@ fn regress_bpfo_of_healthy_bearings() {
                 "bearing.preset = \"{preset}\"\noperation = {{ speed_rpm = {rpm:?}, load_n = [{load:?}, 0.0], load_on = \"outer-ring\" }}\n"
             );
             let mut s = document::read(&text, &[]).unwrap().scenario;
-            let orders = DefectOrders::of_bearing(&Geometry::of(&s.bearing));
+            let orders = orders_of(&Geometry::of(&s.bearing));
             let x = recorded(&mut s, 25_600.0, 2.12, 0.02 + 60.0 / rpm);
             let options = Options {
                 silent: true,

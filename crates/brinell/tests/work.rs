@@ -186,7 +186,7 @@ fn regress_counted_work_of_samples() {
         assert_eq!(outcome.end, End::Complete);
         let tail = outcome.work.sample_evaluations - simulation.samples();
         println!("{name}: {} samples and {tail} more", simulation.samples());
-        let half_length = brinell::signal::Decimator::new(2).half_length();
+        let half_length = brinell::simulate::Decimator::new(2).half_length();
         let expected = half_length / brinell::signal::decimate::FACTOR;
         assert_eq!(tail, expected as u64, "{name}");
     }

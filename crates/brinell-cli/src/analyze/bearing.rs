@@ -5,6 +5,7 @@ use super::measured::{ASK_BEARING, Measured};
 use crate::failure::Failure;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::{orders_named, orders_names, orders_of};
 
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come from.
 pub(super) fn orders(
@@ -47,10 +48,10 @@ fn base(
     measured: &Measured,
 ) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = name {
-        if let Some(known) = DefectOrders::named(name) {
+        if let Some(known) = orders_named(name) {
             return Ok(known);
         }
-        let names: Vec<&str> = DefectOrders::names().collect();
+        let names: Vec<&str> = orders_names().collect();
         return Err(Failure::Usage(format!(
             "--bearing {name}: no such bearing; there are {}. For another give --rollers, --pitch and --diameter, or --bpfo and so on",
             names.join(", ")
@@ -85,7 +86,7 @@ fn base(
     {
         let geometry = Geometry::of(&run.scenario.bearing);
         let words = "the scenario of the run in the file".to_owned();
-        return Ok((DefectOrders::of_bearing(&geometry), words));
+        return Ok((orders_of(&geometry), words));
     }
     Ok((DefectOrders::default(), String::new()))
 }

@@ -373,7 +373,7 @@ fn lay_over(
     options.exact = other.scenario.is_some();
     if let Some(run) = &other.scenario {
         let geometry = brinell::bearing::kinematics::Geometry::of(&run.scenario.bearing);
-        options.orders = brinell::analysis::DefectOrders::of_bearing(&geometry);
+        options.orders = brinell::bearing::orders_of(&geometry);
     }
     let found = look(&other, &options)?;
     let refused = |error| Failure::Usage(format!("--against {}: {error}", path.display()));

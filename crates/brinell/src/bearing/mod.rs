@@ -1,8 +1,11 @@
-//! Bearings as such: the catalogue of real ones, classes of clearance, static load ratings, and the speeds at which parts turn.
+//! Bearings as such: the catalogue of real ones, classes of clearance, static load ratings, the speeds at which parts turn, and orders of
+//! their defect frequencies.
 
 pub mod catalogue;
 pub mod clearance;
 pub mod kinematics;
+pub mod orders;
 pub mod rating;
 
 pub use kinematics::Kinematics;
+pub use orders::{orders_named, orders_names, orders_of};

@@ -255,7 +255,7 @@ impl Sensing {
 mod tests {
     use super::*;
     use crate::scenario::PathMode;
-    use crate::signal::Decimator;
+    use crate::simulate::Decimator;
     use std::f64::consts::TAU;
 
     const RATE: f64 = 25_600.0;

@@ -1,5 +1,6 @@
 //! The loop of a run: steps, their audits, samples and the anti-alias filter.
 
+use super::Decimator;
 use super::failure::explain;
 use super::switches::Switches;
 use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
@@ -8,7 +9,6 @@ use crate::channel::Frame;
 use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Motion, Power, imbalance};
 use crate::sensor::Sensing;
-use crate::signal::Decimator;
 use crate::signal::decimate::FACTOR;
 use crate::solver::{Stepper, System};
 use std::ops::ControlFlow;

@@ -4,6 +4,7 @@
 //! those instants is a sample of the instantaneous channels, evaluated from the equations of motion at the interpolated state
 //! (section 11 of the model). To fill the filter at the end, the run goes on for half the filter's length past the last sample.
 
+mod anti_alias;
 mod failure;
 mod going;
 mod switches;
@@ -17,6 +18,8 @@ use crate::start;
 use crate::statics::NoBalance;
 use going::Run;
 use std::ops::ControlFlow;
+
+pub use anti_alias::Decimator;
 
 /// Why a run ended before its time, or never began.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -6,6 +6,7 @@
 )]
 
 pub mod cases;
+#[path = "../../../brinell-signal/tests/common/counting.rs"]
 pub mod counting;
 
 use brinell::scenario::Scenario;

@@ -1,18 +1,16 @@
-//! The anti-alias chain of the measured channels: linear-phase FIR, then one sample in eight.
+//! Decimation: a linear-phase low-pass, then one sample in several.
 //!
-//! Model.md section 11: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4 f_s,
-//! stopband from 0.5 f_s, 80 dB), its delay removed, and decimated by 8. Everything above half the output rate is
-//! therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive digital filter design using
+//! The low-pass has a Kaiser window: passband to 0.4 of the output rate, stopband from 0.5, 80 dB. Everything above half
+//! the output rate is therefore down by 80 dB before it can fold. The filter is J. F. Kaiser, "Nonrecursive digital filter design using
 //! the I0-sinh window function", Proc. IEEE Int. Symp. Circuits and Systems (1974), 20-23.
 
-use crate::lanes::inner_products;
 use std::f64::consts::PI;
 
 use super::error::{SignalError, check, require};
 use super::filter::extend_oddly;
 use super::fir::strided;
 
-/// Input samples for each output sample.
+/// Input samples for each output sample of a simulation.
 pub const FACTOR: usize = 8;
 /// Upper edge of the passband as a fraction of the output rate.
 pub const PASSBAND: f64 = 0.4;
@@ -20,9 +18,6 @@ pub const PASSBAND: f64 = 0.4;
 pub const STOPBAND: f64 = 0.5;
 /// Ripple in both bands, dB below the passband.
 pub const ATTENUATION_DB: f64 = 80.0;
-
-/// Partial sums of the inner product: fixed, so that the compiler may use vector lanes without changing the result.
-const LANES: usize = 8;
 
 /// Modified Bessel function of the first kind and order zero, by its power series sum ((x/2)^k / k!)^2.
 ///
@@ -81,96 +76,6 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     taps
 }
 
-/// Filters and decimates any number of channels by [`FACTOR`], one frame at a time.
-///
-/// Output k is the filtered input at input index 8 k: the filter's delay is removed, at the price that output k can
-/// be given only once input 8 k + [`half_length`](Self::half_length) has arrived. To get every output up to t_end,
-/// push that many frames past it. Input before the first frame counts as zero, so where a channel does not start
-/// from zero, the outputs of the first `half_length` inputs (25 output samples) carry the filter's step response.
-#[derive(Debug, Clone)]
-pub struct Decimator {
-    channels: usize,
-    /// Taps, padded with zeros at the far end to a multiple of `LANES`.
-    taps: Vec<f64>,
-    half: usize,
-    /// For each channel a ring of `taps.len()` samples written twice, so that any window of it is contiguous.
-    rings: Vec<f64>,
-    /// Where the next frame goes in a ring.
-    at: usize,
-    /// Frames still to come before the next output.
-    wait: usize,
-    output: Vec<f64>,
-}
-
-impl Decimator {
-    /// A decimator with the chain of model.md section 11, for frames of `channels` values.
-    pub fn new(channels: usize) -> Self {
-        let factor = FACTOR as f64;
-        let mut taps = kaiser_lowpass(PASSBAND / factor, STOPBAND / factor, ATTENUATION_DB);
-        let half = taps.len() / 2;
-        taps.resize(taps.len().next_multiple_of(LANES), 0.0);
-        // The window is read oldest first and the filter is symmetric: the padding must meet the oldest samples.
-        let padding = taps.len() - (2 * half + 1);
-        taps.rotate_right(padding);
-        Decimator {
-            channels,
-            rings: vec![0.0; 2 * taps.len() * channels],
-            taps,
-            half,
-            at: 0,
-            wait: half,
-            output: vec![0.0; channels],
-        }
-    }
-
-    /// Half the filter's length: input frames by which an output lags the input it stands for.
-    pub fn half_length(&self) -> usize {
-        self.half
-    }
-
-    /// The filter's taps at the input rate, `2 * half_length + 1` of them.
-    pub fn taps(&self) -> &[f64] {
-        &self.taps[self.taps.len() - (2 * self.half + 1)..]
-    }
-
-    /// Takes the next input frame, one value for each channel; gives output frame k = 0, 1, ... as it completes.
-    ///
-    /// # Panics
-    /// Where the frame does not hold one value for each channel.
-    pub fn push(&mut self, input_frame: &[f64]) -> Option<&[f64]> {
-        assert_eq!(
-            input_frame.len(),
-            self.channels,
-            "one value for each channel"
-        );
-        let length = self.taps.len();
-        for (ring, &value) in self.rings.chunks_exact_mut(2 * length).zip(input_frame) {
-            ring[self.at] = value;
-            ring[self.at + length] = value;
-        }
-        self.at = if self.at + 1 == length {
-            0
-        } else {
-            self.at + 1
-        };
-        if self.wait > 0 {
-            self.wait -= 1;
-            return None;
-        }
-        self.wait = FACTOR - 1;
-        let window = |channel: usize| &self.rings[2 * length * channel + self.at..][..length];
-        // Two channels at a time share the taps that they load.
-        let (pairs, rest) = self.output.as_chunks_mut::<2>();
-        for (k, pair) in pairs.iter_mut().enumerate() {
-            *pair = inner_products(&self.taps, [window(2 * k), window(2 * k + 1)]);
-        }
-        if let [last] = rest {
-            [*last] = inner_products(&self.taps, [window(self.channels - 1)]);
-        }
-        Some(&self.output)
-    }
-}
-
 /// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k stands for input
 /// k `factor`, without delay, and nothing above half the new sampling rate folds by more than 80 dB down. Flat to 0.4 of
 /// the new sampling rate. A factor of 1 gives the slice back.
@@ -200,17 +105,10 @@ pub fn decimate(x: &[f64], factor: usize) -> Result<Vec<f64>, SignalError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::test_signals::{Noise, cosine};
+    use super::super::test_signals::cosine;
     use super::*;
 
     const FS: f64 = 25_600.0;
-
-    fn decimate(x: &[f64]) -> Vec<f64> {
-        let mut decimator = Decimator::new(1);
-        x.iter()
-            .filter_map(|&v| decimator.push(&[v]).map(|y| y[0]))
-            .collect()
-    }
 
     /// Zero-phase response at `f` cycles per input sample.
     fn response(taps: &[f64], f: f64) -> f64 {
@@ -239,9 +137,7 @@ mod tests {
 
     #[test]
     fn analytic_ripple_is_below_80_db_in_both_bands() {
-        let decimator = Decimator::new(1);
-        let taps = decimator.taps();
-        assert_eq!(taps.len(), 2 * decimator.half_length() + 1);
+        let taps = &kaiser_lowpass(PASSBAND / 8.0, STOPBAND / 8.0, ATTENUATION_DB);
         assert!((response(taps, 0.0) - 1.0).abs() < 1e-14);
         let (mut pass, mut stop): (f64, f64) = (0.0, 0.0);
         for i in 0..=20_000 {
@@ -286,32 +182,11 @@ mod tests {
     fn analytic_tap_count_is_kaisers() {
         // (A - 7.95) / (14.36 df) + 1 with A = 80 dB, df = 0.1 / 8 cycles per sample.
         let formula = (80.0 - 7.95) / (14.36 * 0.1 / 8.0) + 1.0;
-        let count = Decimator::new(1).taps().len() as f64;
+        let count = kaiser_lowpass(PASSBAND / 8.0, STOPBAND / 8.0, ATTENUATION_DB).len() as f64;
         assert!(
             (count - formula).abs() <= 6.0,
             "{count} taps, formula {formula}"
         );
-    }
-
-    #[test]
-    fn analytic_sine_passes_without_delay() {
-        let n = 400;
-        let x = cosine(8 * n + 400, 8.0 * FS, 0.3 * FS, 1.7, 0.4);
-        let expected = cosine(n, FS, 0.3 * FS, 1.7, 0.4);
-        let y = decimate(&x);
-        let worst = (60..n)
-            .map(|k| (y[k] - expected[k]).abs())
-            .fold(0.0, f64::max);
-        assert!(worst < 1.7e-4, "{worst:e}");
-    }
-
-    #[test]
-    fn analytic_alias_is_down_80_db() {
-        let x = cosine(8 * 400, 8.0 * FS, 0.55 * FS, 1.0, 0.4);
-        let worst = decimate(&x)[60..]
-            .iter()
-            .fold(0.0, |m: f64, v| m.max(v.abs()));
-        assert!(worst < 1e-4, "{worst:e}");
     }
 
     #[test]
@@ -323,39 +198,16 @@ mod tests {
             let stop = cosine(n, FS, 0.55 * fs, 1.0, 0.4);
             let expected = cosine(400, fs, 0.38 * fs, 1.0, 0.4);
             let (kept, stopped) = (
-                super::decimate(&keep, factor).unwrap(),
-                super::decimate(&stop, factor).unwrap(),
+                decimate(&keep, factor).unwrap(),
+                decimate(&stop, factor).unwrap(),
             );
             assert_eq!(kept.len(), 400);
             for k in 40..360 {
                 assert!((kept[k] - expected[k]).abs() < 1e-4 && stopped[k].abs() < 1e-4);
             }
         }
-        assert!(super::decimate(&[1.0; 60], 2).is_err());
-        assert!(super::decimate(&[1.0; 60], 0).is_err());
-        assert_eq!(super::decimate(&[1.0, 2.0], 1).unwrap(), [1.0, 2.0]);
-    }
-
-    #[test]
-    fn prop_output_is_the_centred_convolution() {
-        let x = Noise::new(7).normals(3000);
-        let reference = Decimator::new(1);
-        let (taps, half) = (reference.taps(), reference.half_length() as isize);
-        let mut decimator = Decimator::new(2);
-        let mut k = 0;
-        for (i, &v) in x.iter().enumerate() {
-            let arrived = i >= half as usize && (i - half as usize).is_multiple_of(FACTOR);
-            let output = decimator.push(&[v, -2.0 * v]);
-            assert_eq!(output.is_some(), arrived, "at input {i}");
-            let Some(output) = output else { continue };
-            let expected: f64 = (-half..=half)
-                .filter(|m| (8 * k + m) >= 0)
-                .map(|m| taps[(half + m) as usize] * x[(8 * k + m) as usize])
-                .sum();
-            assert!((output[0] - expected).abs() < 1e-13);
-            assert_eq!(output[1], -2.0 * output[0]);
-            k += 1;
-        }
-        assert_eq!(k, (3000 - half + 7) / 8);
+        assert!(decimate(&[1.0; 60], 2).is_err());
+        assert!(decimate(&[1.0; 60], 0).is_err());
+        assert_eq!(decimate(&[1.0, 2.0], 1).unwrap(), [1.0, 2.0]);
     }
 }

@@ -1,7 +1,7 @@
 //! Which bands are demodulated.
 
 use super::{AnalysisError, Options};
-use crate::signal::Band;
+use crate::Band;
 
 /// Multiple of the highest defect frequency above which a carrier is sought.
 pub(super) const BROAD: f64 = 3.0;

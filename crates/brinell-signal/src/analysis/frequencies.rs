@@ -4,10 +4,6 @@
 //! d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at rest, pure rolling:
 //! FTF = (1 - g) / 2, BPFO = Z (1 - g) / 2, BPFI = Z (1 + g) / 2, BSF = (D / d) (1 - g^2) / 2.
 
-use crate::bearing::catalogue;
-use crate::bearing::kinematics::{Geometry, Kinematics};
-use std::f64::consts::TAU;
-
 /// What can be damaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Component {
@@ -77,33 +73,6 @@ impl DefectOrders {
             bpfi: Some(0.5 * z * (1.0 + g)),
             bsf: Some(0.5 * pitch / d * (1.0 - g * g)),
         })
-    }
-
-    /// Of a cylindrical roller bearing of the catalogue or a scenario.
-    pub fn of_bearing(geometry: &Geometry) -> Self {
-        let k = Kinematics::pure_rolling(geometry, TAU);
-        DefectOrders {
-            ftf: Some(k.ftf),
-            bpfo: Some(k.bpfo),
-            bpfi: Some(k.bpfi),
-            bsf: Some(k.bsf),
-        }
-    }
-
-    /// Of a bearing of a public data set or of the catalogue, and where its numbers come from; `None` where no such bearing is known.
-    pub fn named(name: &str) -> Option<(Self, String)> {
-        if let Some(known) = NamedBearing::find(name) {
-            return Some((known.orders(), known.source.to_owned()));
-        }
-        let entry = catalogue::find(name)?;
-        let words = format!("{}: {}", entry.name, entry.title);
-        Some((Self::of_bearing(&entry.geometry().ok()?), words))
-    }
-
-    /// Names that [`DefectOrders::named`] knows.
-    pub fn names() -> impl Iterator<Item = &'static str> {
-        let catalogue = catalogue::all().iter().map(|entry| entry.name.as_str());
-        NAMED.iter().map(|bearing| bearing.name).chain(catalogue)
     }
 
     /// Whether there is nothing to look for.

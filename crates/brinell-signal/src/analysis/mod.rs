@@ -9,7 +9,7 @@
 //! Nothing here knows files. Times are s, frequencies Hz, amplitudes the signal's unit.
 //!
 //! ```
-//! use brinell::analysis::{NamedBearing, Options, analyze};
+//! use brinell_signal::analysis::{NamedBearing, Options, analyze};
 //!
 //! let fs = 12_000.0;
 //! let bearing = NamedBearing::find("6205-2RS").unwrap().orders();
@@ -58,8 +58,8 @@ pub use unit::{Quantity, Unit};
 pub use verdict::Elsewhere;
 pub use words::COLUMNS;
 
-use crate::signal::lengths::fast_up_to;
-use crate::signal::{
+use crate::lengths::fast_up_to;
+use crate::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     Transformed, VelocityBands, kurtogram, psd,
 };
@@ -429,7 +429,7 @@ fn done<T>(thread: ScopedJoinHandle<T>) -> T {
 /// enough. No verdict rests on it.
 ///
 /// # Errors
-/// As [`crate::signal::psd()`].
+/// As [`crate::psd()`].
 pub fn shown_spectrum(x: &[f64], fs: f64) -> Result<Spectrum, AnalysisError> {
     let wanted = (fs as usize).clamp(256, 1 << 16);
     let length = fast_up_to(wanted.min((x.len() / 4).max(256)));
@@ -439,13 +439,13 @@ pub fn shown_spectrum(x: &[f64], fs: f64) -> Result<Spectrum, AnalysisError> {
 }
 
 /// RMS velocity in the bands of ISO 15242, m/s, of an acceleration in m/s^2 sampled at `fs` Hz; see
-/// [`crate::signal::velocity_bands()`] for what differs from a measurement by the standard.
+/// [`crate::velocity_bands()`] for what differs from a measurement by the standard.
 ///
 /// # Errors
-/// As [`crate::signal::velocity_bands()`].
+/// As [`crate::velocity_bands()`].
 pub fn velocity(x: &[f64], fs: f64, shaft: f64) -> Result<VelocityBands, AnalysisError> {
-    use crate::signal::velocity_bands::NOMINAL;
-    Ok(crate::signal::velocity_bands(x, fs, &NOMINAL, 1.0 / shaft)?)
+    use crate::velocity_bands::NOMINAL;
+    Ok(crate::velocity_bands(x, fs, &NOMINAL, 1.0 / shaft)?)
 }
 
 fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
@@ -510,5 +510,5 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
 }
 
 fn out_of_range(name: &'static str, value: f64, range: &'static str) -> AnalysisError {
-    crate::signal::SignalError::OutOfRange { name, value, range }.into()
+    crate::SignalError::OutOfRange { name, value, range }.into()
 }

@@ -2,7 +2,7 @@
 
 use super::together::HARMONICS;
 use super::{Analysis, AnalysisError};
-use crate::signal::{Indicator, Segments, Spectrum, envelope, harmonics, psd};
+use crate::{Indicator, Segments, Spectrum, envelope, harmonics, psd};
 
 /// A quantity of both signals.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +103,7 @@ fn one(
     side: Side,
     step: f64,
     top: f64,
-    band: crate::signal::Band,
+    band: crate::Band,
     envelope_step: f64,
     envelope_top: f64,
 ) -> Result<(Spectrum, Spectrum, f64), AnalysisError> {

@@ -1,7 +1,7 @@
 //! An analysis as JSON. Frequencies in Hz; amplitudes in the unit named.
 
 use super::{Analysis, Comparison, Family, Standing, Unit};
-use crate::signal::VelocityBands;
+use crate::VelocityBands;
 use serde_json::{Map, Value, json};
 
 /// The analysis; `velocity` is in m/s where it was computed.

@@ -8,12 +8,12 @@
 
 use std::f64::consts::TAU;
 
-pub(crate) struct Random(brinell::random::Random);
+pub(crate) struct Random(brinell_signal::random::Random);
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
         let seed = seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(11);
-        let mut random = Random(brinell::random::Random::new(seed));
+        let mut random = Random(brinell_signal::random::Random::new(seed));
         random.uniform();
         random
     }

@@ -3,7 +3,7 @@
 use super::{
     Analysis, BandLevel, MachineClass, NoVelocity, NoZone, Unit, Zone, band_level, severity,
 };
-use crate::signal::Estimate;
+use crate::Estimate;
 use serde_json::{Value, json};
 
 /// Levels of one signal.

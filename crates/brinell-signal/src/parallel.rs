@@ -1,7 +1,4 @@
-//! Many jobs over a few threads, results in the order of completion: what sweeps, data sets and several scenarios at once are made of.
-//!
-//! A run uses one thread and shares nothing with another, so runs go side by side as they are. Threads meet when a job ends,
-//! never while one runs.
+//! Many jobs over a few threads, results in the order of completion. Threads meet when a job ends, never while one runs.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -15,7 +12,7 @@ pub fn threads(jobs: usize) -> NonZeroUsize {
     NonZeroUsize::new(jobs).map_or(NonZeroUsize::MIN, |jobs| cores.min(jobs))
 }
 
-/// An observer's answer: to go on until somebody sets the flag.
+/// To go on until somebody sets the flag: what whatever watches a long computation answers it.
 pub fn go_on(stop: &AtomicBool) -> ControlFlow<()> {
     match stop.load(Ordering::Relaxed) {
         true => ControlFlow::Break(()),

@@ -1,12 +1,12 @@
 //! A full analysis of ten seconds at 51.2 kHz takes less than a second on one core.
 //!
-//! `cargo test --release -p brinell --test signal_speed -- --ignored --nocapture` prints what each part takes.
+//! `cargo test --release -p brinell-signal --test signal_speed -- --ignored --nocapture` prints what each part takes.
 
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-use brinell::signal::velocity_bands::NOMINAL;
-use brinell::signal::{
+use brinell_signal::velocity_bands::NOMINAL;
+use brinell_signal::{
     Band, Blocks, Butterworth, Indicator, Passband, Rotation, Segments, SeparationSearch, decimate,
     envelope_spectrum, kurtogram, order_spectrum, psd, separations, spectrogram, velocity_bands,
 };

@@ -1,9 +1,9 @@
 //! A shaft whose speed drifts during the record: noticed by its own lines or a defect's, followed where that tells more, and nothing made up where it
 //! is steady.
 
-use brinell::analysis::{Analysis, Component, NamedBearing, Options, analyze};
-use brinell::random::Random;
-use brinell::signal::Rotation;
+use brinell_signal::Rotation;
+use brinell_signal::analysis::{Analysis, Component, NamedBearing, Options, analyze};
+use brinell_signal::random::Random;
 use std::f64::consts::TAU;
 
 const FS: f64 = 12_000.0;

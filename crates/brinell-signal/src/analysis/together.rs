@@ -8,10 +8,10 @@
 use super::family::{Family, Harmonic};
 use super::known_lines::Mains;
 use super::{AnalysisError, Options};
-use crate::many;
-use crate::signal::distribution::chi_square_quantile;
-use crate::signal::lengths::fast_up_to;
-use crate::signal::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
+use crate::distribution::chi_square_quantile;
+use crate::lengths::fast_up_to;
+use crate::parallel;
+use crate::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
 
 /// Harmonics of a defect frequency that are looked at.
 pub(super) const HARMONICS: usize = 5;
@@ -347,9 +347,9 @@ fn side_by_side<T: Sync, R: Send>(
     one: impl Fn(&T) -> Result<R, AnalysisError> + Sync,
 ) -> Result<Vec<R>, AnalysisError> {
     let mut results: Vec<_> = of.iter().map(|_| None).collect();
-    many::each(
+    parallel::each(
         of.len(),
-        many::threads(of.len()),
+        parallel::threads(of.len()),
         |k| one(&of[k]),
         |k, result| results[k] = Some(result),
     );

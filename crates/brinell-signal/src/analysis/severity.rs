@@ -1,10 +1,8 @@
 //! How severe a vibration is, whatever causes it: RMS velocity from 10 to 1000 Hz and its zone by ISO 20816-3; levels of the band demodulated.
 
 use super::{Quantity, Unit};
-use crate::signal::integrate::Motion;
-use crate::signal::{
-    Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms,
-};
+use crate::integrate::Motion;
+use crate::{Band, Blocks, Estimate, Indicator, SignalError, band_pass, envelope, velocity_rms};
 
 /// The band of ISO 20816-3 for shafts of 600 r/min and more, Hz.
 pub const SEVERITY_BAND: Band = Band {

@@ -2,8 +2,8 @@
 
 use super::together::HARMONICS;
 use super::{AnalysisError, Options};
-use crate::signal::lengths::fast_up_to;
-use crate::signal::{Segments, harmonics, psd};
+use crate::lengths::fast_up_to;
+use crate::{Segments, harmonics, psd};
 
 /// A mains frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -12,8 +12,8 @@
 use super::known_lines::near_mains;
 use super::together::{Envelopes, FLOOR, HARMONICS, apart, running_median};
 use super::{AnalysisError, Options};
-use crate::signal::lengths::fast_from;
-use crate::signal::{Detrend, Rotation, Segments, SignalError, Window, psd};
+use crate::lengths::fast_from;
+use crate::{Detrend, Rotation, Segments, SignalError, Window, psd};
 
 /// Revolutions of a stretch.
 const TURNS: f64 = 16.0;

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use brinell::analysis::{
+use brinell_signal::analysis::{
     Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze,
     compare,
 };
-use brinell::random::Random;
+use brinell_signal::random::Random;
 
 const SHAFT: f64 = 29.95;
 /// What the analyst was told: half a turn in a thousand off.
@@ -436,7 +436,7 @@ fn analytic_a_signal_over_itself_differs_nowhere() {
     );
 }
 
-/// `cargo test --release -p brinell --test analysis -- --ignored --nocapture`
+/// `cargo test --release -p brinell-signal --test analysis -- --ignored --nocapture`
 #[test]
 #[ignore = "a time, which means something in a release build on a quiet machine"]
 fn prop_ten_seconds_take_less_than_one() {

@@ -1,7 +1,7 @@
 //! Why there is no analysis.
 
 use super::{Sensitivity, Unit};
-use crate::signal::SignalError;
+use crate::SignalError;
 
 /// What is wrong with the signal, or with what was asked of it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

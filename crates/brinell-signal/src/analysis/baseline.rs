@@ -2,7 +2,7 @@
 
 use super::family::{Family, Standing};
 use super::{Analysis, AnalysisError, Options, Side, analyze, bands};
-use crate::signal::Band;
+use crate::Band;
 
 /// Growth of the modulation from which lines that are no damage by themselves are told.
 const GROWN: f64 = 2.0;

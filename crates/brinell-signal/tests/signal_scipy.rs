@@ -1,7 +1,7 @@
 //! The signal library against SciPy. `validation/scipy/README.md` says how the goldens in `signal/` are made.
 
-use brinell::signal::distribution::{chi_square_quantile, chi_square_tail, f_tail};
-use brinell::signal::{
+use brinell_signal::distribution::{chi_square_quantile, chi_square_tail, f_tail};
+use brinell_signal::{
     Band, Butterworth, Detrend, Indicator, Moments, Passband, Rotation, Segments, Window, convolve,
     decimate, envelope, fir, kurtogram, psd, spectrogram, velocity, velocity_trapezoid,
 };

@@ -1,0 +1,108 @@
+//! Signal processing and diagnosis of rolling bearings from vibration. Knows no simulator and no files.
+//!
+//! From a signal to an envelope spectrum to a verdict:
+//!
+//! ```
+//! use brinell_signal::analysis::{NamedBearing, Options, Verdict, analyze};
+//! use brinell_signal::{Band, Segments, envelope_spectrum, peak_near};
+//!
+//! // Two seconds at 12 kHz: impacts on the outer race, 3.585 a revolution at 30 Hz, ringing at 3 kHz.
+//! let (fs, shaft) = (12_000.0, 30.0);
+//! let x: Vec<f64> = (0..24_000)
+//!     .map(|i| {
+//!         let since = (f64::from(i) / fs) % (1.0 / (3.585 * shaft));
+//!         (-since / 4e-4).exp() * (6.283 * 3000.0 * since).sin() + 1e-3 * f64::from(i * 7919 % 101)
+//!     })
+//!     .collect();
+//!
+//! // The envelope of the band around the resonance: its highest line stands at the frequency of the impacts.
+//! let envelope = envelope_spectrum(&x, fs, Band::between(2000.0, 4000.0), &Segments::of(12_000))?;
+//! let line = peak_near(&envelope.spectrum, 3.585 * shaft, 2.0).unwrap();
+//! assert!((line.frequency - 107.55).abs() < 0.5);
+//!
+//! // The same, judged: all defect frequencies with their harmonics and sidebands, over all bands.
+//! let bearing = NamedBearing::find("6205-2RS").unwrap().orders();
+//! let analysis = analyze(&x, fs, &Options::new(shaft, bearing))?;
+//! assert_eq!(analysis.conclusion(), Verdict::Damage);
+//! assert_eq!(analysis.causes().next().unwrap().name, "BPFO");
+//! println!("{}", analysis.verdict());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What is here
+//!
+//! [`analysis`] takes one vibration signal to a verdict with its evidence.
+//!
+//! Following a signal, sample by sample: [`blocks`] gives the condition [`indicators`] with their intervals, which rest on
+//! [`mod@scatter`], [`mod@ratio`] how those of two signals compare, and [`stream`] the spectra: [`spectrum`] amplitudes and
+//! power spectral densities, [`mod@envelope`] the envelope's, and [`frequency`] the precise repetition frequency of a train of impacts.
+//! These hold a bounded amount of memory, however long the signal is; nothing is allocated per sample.
+//!
+//! Of a signal held as a slice, with its sample rate in Hz: [`window`], [`mod@psd`] (Welch with any window),
+//! [`mod@spectrogram`], [`mod@kurtogram`] (which band to demodulate), [`order`] (varying speed), [`mod@decimate`], [`filter`] and
+//! [`mod@fir`] (zero phase), [`integrate`] (acceleration to velocity), [`mod@velocity_bands`], [`lines`] (harmonics over the local noise),
+//! [`double_impulse`] (entry and exit of a defect, and the length that they imply), and [`distribution`] (what powers
+//! of noise follow). They return [`SignalError`] for input that they cannot use, and do not panic.
+//!
+//! All values are SI: time in s, frequency in Hz, and a signal in its own unit (m/s^2 for an acceleration), here
+//! written "unit". Results do not depend on the number of threads; only [`analysis`] uses more than one. The FFT chooses
+//! its instructions by processor, so between processors spectra may differ in the last bits; decimated signals and
+//! indicators use plain arithmetic and do not.
+
+pub mod analysis;
+pub mod blocks;
+pub mod decimate;
+pub mod distribution;
+pub mod double_impulse;
+pub mod envelope;
+mod error;
+pub mod filter;
+pub mod fir;
+pub mod frequency;
+pub mod indicators;
+pub mod integrate;
+mod interleaved;
+pub mod kurtogram;
+pub(crate) mod lengths;
+pub mod lines;
+pub mod order;
+pub mod parallel;
+pub mod psd;
+pub mod random;
+pub mod ratio;
+pub mod scatter;
+pub mod series;
+pub mod spectrogram;
+pub mod spectrum;
+pub mod stream;
+pub mod transformed;
+pub mod velocity_bands;
+pub mod window;
+
+#[cfg(test)]
+pub(crate) mod test_signals;
+
+pub use blocks::{Blocks, Estimate, Interval, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+pub use decimate::{decimate, kaiser_lowpass};
+pub use double_impulse::{
+    DefectLength, Events, Separation, SeparationSearch, consensus, defect_length, separations,
+};
+pub use envelope::{Band, EnvelopeSpectrum, envelope, envelope_spectrum};
+pub use error::SignalError;
+pub use filter::{Butterworth, Passband, Section};
+pub use fir::{convolve, fir};
+pub use frequency::{LineFrequency, LineSearch, line_frequency};
+pub use indicators::{Indicator, Moments};
+pub use integrate::{band_pass, velocity, velocity_trapezoid};
+pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
+pub use lines::{Line, LineSet, harmonics};
+pub use order::{Angular, Rotation, order_spectrum, resample};
+pub use psd::{Detrend, Segments, density_interval, psd};
+pub use scatter::{Scatter, scatter, student_t_quantile};
+pub use series::{Averages, MOST_BLOCKS};
+pub use spectrogram::{Spectrogram, spectrogram};
+pub use spectrum::{Peak, Spectrum, amplitude_spectrum, peak_near};
+pub use stream::{Spectra, StreamSpectra};
+pub use transformed::{Thinned, Transformed};
+pub use velocity_bands::{VelocityBands, velocity_bands, velocity_rms};
+pub use window::Window;
