@@ -3,7 +3,7 @@
 use super::Came;
 use super::figures::told;
 use crate::say::short;
-use brinell::paper::{Numbers, RMS, Verdict};
+use brinell_li2023::{Numbers, RMS, Verdict};
 use brinell_report::StudyPiece;
 
 /// Pure rolling of the NN3007 at 1800 r/min, Hz.

@@ -3,8 +3,8 @@
 use super::figures::told;
 use super::sensitivity::Flip;
 use crate::failure::Failure;
-use brinell::paper::{Basis, Claim, Found, Judged, Verdict};
 use brinell_io::{Cells, Column, Table};
+use brinell_li2023::{Basis, Claim, Found, Judged, Verdict};
 use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

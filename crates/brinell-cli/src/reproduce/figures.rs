@@ -5,7 +5,7 @@ use super::points::scenario;
 use super::what::What;
 use crate::damage;
 use crate::say::short;
-use brinell::paper::{Case, Experiment, Number, Numbers, RMS, STARTS, case};
+use brinell_li2023::{Case, Experiment, Number, Numbers, RMS, STARTS, case};
 use brinell_report::{
     Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table,
 };

@@ -19,10 +19,10 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
 pub(crate) use args::ReproduceArgs;
-use brinell::paper::{
+use brinell_io::atomic_write;
+use brinell_li2023::{
     Case, EXPERIMENTS, Experiment, Length, Numbers, Outline, case, claims as all_claims, judge,
 };
-use brinell_io::atomic_write;
 use claims::Told;
 use points::{FromPaper, Point, numbers, point};
 use sensitivity::{Plan, Sensitivity};
@@ -287,7 +287,7 @@ fn write(
 ) -> Result<Vec<PathBuf>, Failure> {
     let folder = &args.output;
     let mut header = json!({
-        "brinell": brinell::VERSION, "length": asked.length.words(), "base_toml": brinell::paper::BASE,
+        "brinell": brinell::VERSION, "length": asked.length.words(), "base_toml": brinell_li2023::BASE,
         "interval": "95 % of the value, an average over whole revolutions of the inner ring; peaks are those of a revolution",
     });
     if let Some(sensitivity) = &came.sensitivity {

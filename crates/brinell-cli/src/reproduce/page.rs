@@ -3,7 +3,7 @@
 use super::claims::{self, card, counts};
 use super::curves::Curves;
 use super::{Asked, Came, believe, figures};
-use brinell::paper::{BASE, Basis};
+use brinell_li2023::{BASE, Basis};
 use brinell_report::{Chapter, Fact, Study, StudyPiece, Table, Value};
 
 /// How verdicts come about, in words.

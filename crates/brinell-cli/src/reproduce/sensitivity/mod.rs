@@ -7,7 +7,7 @@ use super::points::{Point, numbers, point};
 use crate::campaign::{Ledger, Task};
 use crate::failure::Failure;
 use brinell::calibrate::{Settings, Unfit, fit, least_budget};
-use brinell::paper::{
+use brinell_li2023::{
     CASES, Claim, Distance, Draw, Judged, Length, Numbers, Reading, Record, SEARCHED, VARIANTS,
     Variant, Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
 };
@@ -279,7 +279,7 @@ impl Plan {
 /// The nearest set of each stretch of the record, the steady part first.
 fn nearest(drawn: &[Drawn], ledger: &Ledger) -> Vec<Nearest> {
     let mut all: Vec<Nearest> = Vec::new();
-    for record in brinell::paper::RECORDS {
+    for record in brinell_li2023::RECORDS {
         let mine: Vec<&Drawn> = drawn
             .iter()
             .filter(|d| d.0.reading.record == *record)

@@ -3,7 +3,7 @@
 use super::{Candidate, Nearest, Sensitivity, Tried};
 use crate::reproduce::figures::told;
 use crate::say::short;
-use brinell::paper::{Number, RANGES, RMS, Reading, Record, SEARCHED, distance};
+use brinell_li2023::{Number, RANGES, RMS, Reading, Record, SEARCHED, distance};
 use brinell_report::Table;
 
 /// The record from t = 0 that is shown beside the steady part where a variant names none.

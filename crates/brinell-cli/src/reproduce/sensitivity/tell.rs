@@ -2,7 +2,7 @@
 
 use super::{BEST, Candidate, SEED, Sensitivity, Tried};
 use crate::say::short;
-use brinell::paper::{RANGES, READ_AS, RECORDS, SEARCHED, Values, Verdict, claims};
+use brinell_li2023::{RANGES, READ_AS, RECORDS, SEARCHED, Values, Verdict, claims};
 use brinell_report::{Chapter, StudyPiece, Table};
 use serde_json::{Value, json};
 

@@ -4,8 +4,8 @@ mod defects;
 mod models;
 mod operation;
 
-use super::claim::{Check, Claim, Statement};
-use super::verdict::Trend;
+use crate::claim::{Check, Claim, Statement};
+use crate::verdict::Trend;
 
 /// Every claim, in the paper's order.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {

@@ -1,5 +1,4 @@
 //! The experiments of Li et al. (2023), section 4, and what its text says of them, as data; and how a sentence is held against numbers.
-//! Knows no files and runs nothing.
 //!
 //! [`CASES`] are the scenarios, [`STARTS`] the same looked at from t = 0, [`EXPERIMENTS`] group them by figure, [`claims`] are the sentences.
 //! [`Numbers`] holds what the cases gave, [`FromStart`] what they need beside a run's findings, and [`judge`] decides a claim by the rules of

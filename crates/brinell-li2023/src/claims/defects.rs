@@ -1,8 +1,8 @@
 //! Sections 3 and 4.1 to 4.3: roller and cage, validation, simplification, width. Conclusions stand with what they conclude from.
 
-use super::super::claim::{Basis, Check, Claim, Statement};
-use super::super::verdict::Trend;
 use super::{greater, so, trend};
+use crate::claim::{Basis, Check, Claim, Statement};
+use crate::verdict::Trend;
 
 const WIDTHS: &[&str] = &["width3", "irregular", "width5"];
 

@@ -1,8 +1,8 @@
 //! Claims as data: a sentence, and what is checked of it.
 
-use super::verdict::Trend;
+use crate::verdict::Trend;
 
-/// How a statement is checked. Names are those of [`crate::campaign::quantities`].
+/// How a statement is checked. Names are those of [`brinell::campaign::quantities`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Check {
     /// A number of a case lies within `share` of the paper's.

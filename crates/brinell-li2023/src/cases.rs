@@ -1,6 +1,6 @@
 //! The scenarios behind the paper's figures.
 
-use super::outline::Outline;
+use crate::outline::Outline;
 
 /// The scenario that every case changes (TOML).
 pub const BASE: &str = include_str!("nn3007.toml");
@@ -348,7 +348,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document;
+    use brinell::document;
 
     #[test]
     fn prop_every_case_is_a_sound_scenario_without_warnings() {
@@ -362,7 +362,7 @@ mod tests {
                 document::read(BASE, &settings).unwrap_or_else(|e| panic!("{}: {e:?}", case.id));
             assert_eq!(
                 loaded.scenario.operation.speed_rpm,
-                crate::scenario::Speed::Constant(case.rpm)
+                brinell::scenario::Speed::Constant(case.rpm)
             );
         }
     }

@@ -1,7 +1,7 @@
 //! Section 4.5: models. Conclusions stand with what they conclude from.
 
-use super::super::claim::{Check, Claim, Otherwise, Statement};
 use super::{greater, so};
+use crate::claim::{Check, Claim, Otherwise, Statement};
 
 /// Verdicts on what the paper calls the method in Ref. [43].
 const GUESSED: &str = "under our reading of Ref. [43]";

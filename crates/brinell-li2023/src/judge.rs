@@ -1,8 +1,8 @@
 //! How a claim is decided from numbers.
 
-use super::claim::{Check, Claim, Statement};
-use super::numbers::{Number, Numbers};
-use super::verdict::{Verdict, between, follows, greater, over};
+use crate::claim::{Check, Claim, Statement};
+use crate::numbers::{Number, Numbers};
+use crate::verdict::{Verdict, between, follows, greater, over};
 
 /// A number of ours behind a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +91,7 @@ fn found(case: &str, name: &str, number: Option<Number>) -> Found {
     }
 }
 
-fn quotient(what: String, ratio: Option<crate::signal::ratio::Ratio>) -> Found {
+fn quotient(what: String, ratio: Option<brinell::signal::ratio::Ratio>) -> Found {
     Found {
         what,
         value: ratio.map(|r| r.value),
@@ -216,11 +216,11 @@ fn ends(cases: &[&'static str], name: &str, numbers: &Numbers) -> Result<(At, At
 
 #[cfg(test)]
 mod tests {
-    use super::super::claim::Otherwise;
-    use super::super::verdict::Trend;
-    use super::super::{case, claims};
     use super::*;
-    use crate::signal::Interval;
+    use crate::claim::Otherwise;
+    use crate::verdict::Trend;
+    use crate::{case, claims};
+    use brinell::signal::Interval;
 
     fn scattered(center: f64) -> Number {
         Number {

@@ -1,8 +1,8 @@
 //! Section 4.4: speed and load. Conclusions stand with what they conclude from.
 
-use super::super::claim::{Check, Claim, Statement};
-use super::super::verdict::Trend;
 use super::{greater, so, trend};
+use crate::claim::{Check, Claim, Statement};
+use crate::verdict::Trend;
 
 const SPEEDS: &[&str] = &[
     "speed1000",
