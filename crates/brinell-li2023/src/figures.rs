@@ -70,7 +70,7 @@ const TRENDS: [Shown; 6] = [
 
 /// "Figs. 13 and 14".
 pub(crate) fn figures(experiment: &Experiment) -> String {
-    match experiment.figures {
+    match experiment.figures[..] {
         [one] => format!("Fig. {one}"),
         [first, .., last] => format!("Figs. {first}–{last}"),
         [] => String::new(),
@@ -187,10 +187,10 @@ pub(crate) fn chapter(
         _ => {}
     }
     let mut pieces = drawn.pieces;
-    if let Some((label, unit, values)) = experiment.steps {
+    if let Some((label, unit, values)) = &experiment.steps {
         for shown in TRENDS {
             // The widths' figure is of rings alone.
-            if unit == "mm" && !(shown.channels == RINGS && shown.indicator == "rms") {
+            if *unit == "mm" && !(shown.channels == RINGS && shown.indicator == "rms") {
                 continue;
             }
             let last = experiment.figures.last().unwrap_or(&first);

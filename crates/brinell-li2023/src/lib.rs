@@ -12,7 +12,6 @@ mod believe;
 mod book;
 mod cases;
 mod claim;
-mod claims;
 mod curve_files;
 mod curve_kind;
 mod curves;
@@ -37,8 +36,7 @@ pub mod verdict;
 pub use cases::{
     BASE, CASES, Case, EXPERIMENTS, Experiment, FIGURES, Length, STARTS, case, length_of,
 };
-pub use claim::{Basis, Check, Claim, Otherwise, Statement};
-pub use claims::claims;
+pub use claim::{Basis, Check, Claim, Otherwise, Statement, claims};
 pub use curve_files::{CaseObserver, CurveFiles};
 pub use error::Error;
 pub use judge::{Decided, Found, Judged, judge};
@@ -54,3 +52,8 @@ pub use runs::{Runs, Stage};
 pub use search::{Distance, Draw, RMS, SEARCHED, answers, axes, distance, draw, held, targets};
 pub use variants::{Aspect, VARIANTS, Variant};
 pub use verdict::Verdict;
+
+/// A file of data of this crate.
+fn data<T: serde::Deserialize<'static>>(name: &str, text: &'static str) -> T {
+    toml::from_str(text).unwrap_or_else(|fault| panic!("{name}: {fault}"))
+}

@@ -35,7 +35,7 @@ impl Request {
             |e: &&Experiment| figures.is_empty() || e.figures.iter().any(|f| figures.contains(f));
         let experiments: Vec<&Experiment> = EXPERIMENTS.iter().filter(wanted).collect();
         let mut cases: Vec<&'static Case> = Vec::new();
-        for id in experiments.iter().flat_map(|e| e.cases) {
+        for id in experiments.iter().flat_map(|e| &e.cases) {
             match case(id) {
                 Some(case) if !cases.contains(&case) => cases.push(case),
                 _ => {}

@@ -221,7 +221,7 @@ mod tests {
         for variant in VARIANTS {
             let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
             let settings: Vec<_> = variant.settings.iter().map(own).collect();
-            for case in CASES {
+            for case in CASES.iter() {
                 brinell::document::read(BASE, &case.over(&settings, variant.outline))
                     .unwrap_or_else(|e| panic!("{}, {}: {e:?}", variant.id, case.id));
             }

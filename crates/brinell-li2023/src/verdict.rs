@@ -10,6 +10,7 @@
 use crate::numbers::Number;
 use brinell::signal::Estimate;
 use brinell::signal::ratio::{Ratio, ratio};
+use serde::Deserialize;
 
 /// What came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -114,7 +115,8 @@ pub fn between(interval: Option<(f64, f64)>, low: f64, high: f64) -> Verdict {
 }
 
 /// Which way a quantity goes from step to step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Trend {
     /// Up at every step.
     Rises,
