@@ -141,6 +141,7 @@ pub const FIGURES: std::ops::RangeInclusive<u32> = 8..=20;
 mod tests {
     use super::*;
     use brinell::document;
+    use brinell::scenario::Shape;
 
     #[test]
     fn prop_every_case_is_a_sound_scenario_without_warnings() {
@@ -156,6 +157,11 @@ mod tests {
                 loaded.scenario.operation.speed_rpm,
                 brinell::scenario::Speed::Constant(case.rpm)
             );
+            let width = match loaded.scenario.defects[0].shape {
+                Shape::Li2023Irregular { max_width_mm } => Some(max_width_mm),
+                _ => None,
+            };
+            assert_eq!(case.irregular_width_mm, width, "{}", case.id);
         }
     }
 
