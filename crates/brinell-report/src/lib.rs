@@ -55,6 +55,7 @@ pub use data::{
 pub use kurtogram::{Kurtogram, KurtogramLevel};
 pub use load::{bin_centres, load_distribution};
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
+pub use number::short;
 pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
 pub use page::html;
 pub use picture::{Error, Picture};

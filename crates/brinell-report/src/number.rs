@@ -1,5 +1,22 @@
 //! Numbers as people read them: ticks at round values, true minus signs, units with raised exponents, symbols with lowered indices.
 
+/// A number with `digits` significant digits, plain where that is short: "1800", "0.0123", "1.90e8". For text that is copied or searched, so without spaces and raised digits.
+pub fn short(x: f64, digits: usize) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !x.is_finite() {
+        return x.to_string();
+    }
+    let exponent = x.abs().log10().floor() as i32;
+    if (-4..6).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.*e}", digits - 1)
+    }
+}
+
 /// A number with about `digits` significant digits: "1 800", "0.0123", "1.9×10⁸"; "not available" for NaN.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value.is_nan() {
@@ -321,5 +338,13 @@ mod tests {
         );
         assert!(linear_ticks(0.0, 0.0, 5).is_empty());
         assert_eq!(log_ticks(1e-3, 1.0, 5), [1e-3, 1e-2, 1e-1, 1.0]);
+    }
+
+    #[test]
+    fn regress_numbers_keep_their_digits() {
+        assert_eq!(short(250.1020, 6), "250.102");
+        assert_eq!(short(1.898e8, 4), "1.898e8");
+        assert_eq!(short(-0.001234, 3), "-0.00123");
+        assert_eq!(short(0.0, 3), "0");
     }
 }

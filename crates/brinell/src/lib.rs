@@ -20,7 +20,6 @@ pub mod lanes;
 pub mod model;
 pub mod observe;
 pub mod operation;
-pub mod paper;
 pub mod plausibility;
 pub mod pressure;
 pub mod scenario;

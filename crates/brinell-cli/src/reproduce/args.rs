@@ -1,7 +1,7 @@
 //! The command line of `brinell reproduce`.
 
 use crate::args::PlotFormat;
-use brinell::paper::FIGURES;
+use brinell_li2023::FIGURES;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

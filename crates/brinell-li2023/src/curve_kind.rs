@@ -1,11 +1,11 @@
 //! The kinds of curves that pictures show.
 
-use super::curves::{Curves, Even};
+use crate::curves::{Curves, Even};
 use brinell_report::{Along, Marker, OverlaidCurve, Overlay, Vertical};
 
 /// A kind of picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum What {
+pub(crate) enum CurveKind {
     Length,
     Stiffness,
     Spectrum,
@@ -24,8 +24,8 @@ pub(super) enum What {
 
 const ACCELERATION: [&str; 2] = ["Outer ring acceleration, x", "m/s^2"];
 
-impl What {
-    pub(super) fn title(self) -> &'static str {
+impl CurveKind {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Length => "Effective contact length",
             Self::Stiffness => "Contact stiffness",
@@ -44,7 +44,7 @@ impl What {
 
     /// Of some cases, by their place among the names; of waveforms the loudest lies lowest, so that none hides another. `None` where none of them
     /// has the curve.
-    pub(super) fn overlay(
+    pub(crate) fn overlay(
         self,
         name: &str,
         title: &str,
@@ -122,7 +122,7 @@ impl What {
     }
 
     /// The last part of a file's name.
-    pub(super) fn file(self) -> &'static str {
+    pub(crate) fn file(self) -> &'static str {
         match self {
             Self::Length => "length",
             Self::Stiffness => "stiffness",
@@ -137,7 +137,7 @@ impl What {
         }
     }
 
-    pub(super) fn note(self) -> &'static str {
+    pub(crate) fn note(self) -> &'static str {
         match self {
             Self::Length | Self::Stiffness => "The pass with the largest contact force.",
             Self::Spectrum => "Peak amplitude, Hann window. Marked: the frequency in pure rolling.",

@@ -1,17 +1,17 @@
 //! "What to believe": a few sentences to quote, their numbers and verdicts taken from what was computed.
 
-use super::Came;
-use super::figures::told;
-use crate::say::short;
-use brinell::paper::{Numbers, RMS, Verdict};
+use crate::figures::with_interval;
+use crate::reproduction::Reproduction;
+use crate::{Numbers, RMS, Verdict};
 use brinell_report::StudyPiece;
+use brinell_report::short;
 
 /// Pure rolling of the NN3007 at 1800 r/min, Hz.
 const ROLLING_HZ: f64 = 250.10;
 
 /// The chapter: what the motion says, then what follows from geometry and speed. What was not computed is left out.
-pub(super) fn pieces(came: &Came) -> Vec<StudyPiece> {
-    let facts = Facts { came };
+pub(crate) fn pieces(reproduction: &Reproduction) -> Vec<StudyPiece> {
+    let facts = Facts { reproduction };
     let dynamics = [
         facts.simplification(),
         facts.start_up(),
@@ -46,19 +46,19 @@ pub(super) fn pieces(came: &Came) -> Vec<StudyPiece> {
 }
 
 struct Facts<'a> {
-    came: &'a Came,
+    reproduction: &'a Reproduction,
 }
 
 impl Facts<'_> {
     fn numbers(&self) -> &Numbers {
-        &self.came.numbers
+        &self.reproduction.numbers
     }
 
     /// "2.00 [1.98, 2.02]".
     fn value(&self, case: &str, name: &str) -> Option<String> {
         let number = self.numbers().get(case, name)?;
         let interval = number.interval.map(|i| (i.low, i.high));
-        Some(told(Some(number.value), interval))
+        Some(with_interval(Some(number.value), interval))
     }
 
     fn plain(&self, case: &str, name: &str) -> Option<f64> {
@@ -67,13 +67,14 @@ impl Facts<'_> {
 
     /// A claim's verdict in words.
     fn verdict(&self, id: &str) -> Option<String> {
-        let told = self.came.told.iter().find(|t| t.claim.id == id)?;
-        Some(told.judged.words(told.claim))
+        let mut outcomes = self.reproduction.outcomes.iter();
+        let outcome = outcomes.find(|o| o.claim.id == id)?;
+        Some(outcome.judged.words(outcome.claim))
     }
 
     /// "; it holds under 40 of 45 assumptions", where assumptions were varied.
     fn under(&self, id: &str) -> String {
-        let Some(sensitivity) = &self.came.sensitivity else {
+        let Some(sensitivity) = &self.reproduction.sensitivity else {
             return String::new();
         };
         let all = sensitivity.verdicts(id);
@@ -94,7 +95,7 @@ impl Facts<'_> {
         );
         let ratio = self.plain("simplified", name)? / self.plain("irregular", name)?;
         let range = self
-            .came
+            .reproduction
             .sensitivity
             .as_ref()
             .and_then(|s| s.ratios("simplified", "irregular", name));
@@ -149,7 +150,7 @@ impl Facts<'_> {
             percent(off),
             percent(near)
         );
-        if let Some(sensitivity) = &self.came.sensitivity {
+        if let Some(sensitivity) = &self.reproduction.sensitivity {
             let [(steady, a), (start, b)] = sensitivity.nearest();
             if let (Some(a), Some(b)) = (a, b) {
                 text += &format!(
@@ -196,7 +197,7 @@ impl Facts<'_> {
             self.value("irregular", "outer_ax.rms")?,
             self.value("irregular", "outer_ay.rms")?
         );
-        if let Some(sensitivity) = &self.came.sensitivity {
+        if let Some(sensitivity) = &self.reproduction.sensitivity {
             let all = sensitivity.verdicts("x-above-y");
             let others: Vec<String> = (all.iter())
                 .filter(|(_, verdict)| *verdict != Verdict::Holds)
@@ -257,14 +258,14 @@ impl Facts<'_> {
             all.iter().copied().fold(f64::INFINITY, f64::min),
             all.iter().copied().fold(0.0, f64::max),
         );
-        let told = |all: [f64; 3]| all.map(|f| format!("{f:.2}")).join(", ");
+        let hertz = |all: [f64; 3]| all.map(|f| format!("{f:.2}")).join(", ");
         let mean = all.iter().sum::<f64>() / 3.0;
-        let film = self.came.sensitivity.as_ref().and_then(|s| {
+        let film = self.reproduction.sensitivity.as_ref().and_then(|s| {
             let of = |case: &str| s.value("film-quasi-static", case, "defect1.frequency");
             Some([of("rectangle")?, of("circle")?, of("irregular")?])
         });
         let film = film.map_or(String::new(), |all| {
-            format!(" (with the paper’s film of Eq. (42): {})", told(all))
+            format!(" (with the paper’s film of Eq. (42): {})", hertz(all))
         });
         Some(format!(
             "The defect frequency is one of speed, geometry and the cage’s slip: pure rolling, {ROLLING_HZ:.2} Hz, agrees with all six printed values \
@@ -272,7 +273,7 @@ impl Facts<'_> {
              agree with the printed ones within 1 %: {}. The printed simulated values of the three shapes differ by 0.99 Hz at one speed and load, \
              ours by {:.2} Hz; that they lie half a hertz or more apart: {}{}. A spectrum of one second has lines 1 Hz apart, and a cage that swings splits \
              them.",
-            told(all),
+            hertz(all),
             short(100.0 * (1.0 - mean / ROLLING_HZ), 2),
             self.verdict("frequency")?,
             most - least,

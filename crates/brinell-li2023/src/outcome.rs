@@ -1,24 +1,26 @@
 //! The claims as the page, the tables and the book show them.
 
-use super::figures::told;
-use super::sensitivity::Flip;
-use crate::failure::Failure;
-use brinell::paper::{Basis, Claim, Found, Judged, Verdict};
+use crate::Error;
+use crate::figures::with_interval;
+use crate::sensitivity::Flip;
+use crate::{Basis, Claim, Found, Judged, Verdict};
 use brinell_io::{Cells, Column, Table};
 use brinell_report::{ClaimCard, ClaimPart, Tagged, Tone};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// A claim with what came out, and which assumptions turn it.
-pub(super) struct Told {
-    pub(super) claim: &'static Claim,
-    pub(super) judged: Judged,
-    pub(super) flips: Vec<Flip>,
+pub struct Outcome {
+    /// The claim.
+    pub claim: &'static Claim,
+    /// What the numbers decide.
+    pub judged: Judged,
+    pub(crate) flips: Vec<Flip>,
 }
 
-impl Told {
+impl Outcome {
     /// The verdict, "depends" where an assumption turns it.
-    pub(super) fn words(&self) -> &'static str {
+    pub fn words(&self) -> &'static str {
         if self.flips.is_empty() {
             self.judged.verdict.words()
         } else {
@@ -27,7 +29,7 @@ impl Told {
     }
 
     /// Each statement with its verdict and its numbers; those of another reading after that reading's words.
-    pub(super) fn statements(&self) -> Vec<(String, Verdict, &[Found])> {
+    pub(crate) fn statements(&self) -> Vec<(String, Verdict, &[Found])> {
         let own = self.claim.statements.iter().zip(&self.judged.statements);
         let mut all: Vec<(String, Verdict, &[Found])> = own
             .map(|(s, (verdict, found))| (s.words.to_owned(), *verdict, found.as_slice()))
@@ -46,7 +48,7 @@ impl Told {
     }
 
     /// "supports (outer ring on 1e5 N/m: does not hold); ...": what turns it.
-    pub(super) fn depends(&self) -> String {
+    pub(crate) fn depends(&self) -> String {
         let one = |flip: &Flip| {
             format!(
                 "{} ({}: {})",
@@ -60,7 +62,7 @@ impl Told {
 }
 
 /// A verdict with its colour.
-pub(super) fn tagged(verdict: Verdict) -> Tagged {
+pub(crate) fn tagged(verdict: Verdict) -> Tagged {
     Tagged {
         word: verdict.words().into(),
         tone: match verdict {
@@ -72,7 +74,7 @@ pub(super) fn tagged(verdict: Verdict) -> Tagged {
 }
 
 /// Numbers behind a verdict, on one line.
-pub(super) fn ours(found: &[Found]) -> String {
+pub(crate) fn ours(found: &[Found]) -> String {
     let one = |f: &Found| {
         // Lengths read better in millimetres.
         let (scale, unit) = match f.unit {
@@ -86,25 +88,25 @@ pub(super) fn ours(found: &[Found]) -> String {
         format!(
             "{} {}{unit}",
             f.what,
-            told(f.value.map(|x| scale * x), interval)
+            with_interval(f.value.map(|x| scale * x), interval)
         )
     };
     found.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// As the page shows it.
-pub(super) fn card(told: &Told) -> ClaimCard {
-    let statements = told.statements();
+pub(crate) fn card(outcome: &Outcome) -> ClaimCard {
+    let statements = outcome.statements();
     let parts = statements.iter();
     ClaimCard {
-        place: format!("{} · {}", told.claim.id, told.claim.place),
-        sentence: told.claim.sentence.into(),
-        printed: told.claim.paper.into(),
+        place: format!("{} · {}", outcome.claim.id, outcome.claim.place),
+        sentence: outcome.claim.sentence.into(),
+        printed: outcome.claim.paper.into(),
         verdict: Tagged {
-            word: told.judged.words(told.claim),
-            ..tagged(told.judged.verdict)
+            word: outcome.judged.words(outcome.claim),
+            ..tagged(outcome.judged.verdict)
         },
-        depends: told.depends(),
+        depends: outcome.depends(),
         parts: parts
             .map(|(words, verdict, found)| ClaimPart {
                 verdict: tagged(*verdict),
@@ -112,12 +114,12 @@ pub(super) fn card(told: &Told) -> ClaimCard {
                 ours: ours(found),
             })
             .collect(),
-        note: told.claim.note.into(),
+        note: outcome.claim.note.into(),
     }
 }
 
 /// Verdicts and how many claims have each, in a fixed order.
-pub(super) fn counts(all: &[Told]) -> Vec<(Verdict, usize)> {
+pub(crate) fn counts(all: &[Outcome]) -> Vec<(Verdict, usize)> {
     use Verdict::{Fails, Holds, Missing, NotCheckable, Partly, Undecided};
     [Holds, Partly, Fails, Undecided, Missing, NotCheckable]
         .into_iter()
@@ -127,7 +129,7 @@ pub(super) fn counts(all: &[Told]) -> Vec<(Verdict, usize)> {
 }
 
 /// Claims with a verdict of a basis: how many of them hold.
-pub(super) fn held(all: &[Told], basis: Basis) -> (usize, usize) {
+pub(crate) fn held(all: &[Outcome], basis: Basis) -> (usize, usize) {
     let mine = || {
         all.iter()
             .filter(move |t| t.claim.basis == basis && !t.claim.statements.is_empty())
@@ -137,7 +139,7 @@ pub(super) fn held(all: &[Told], basis: Basis) -> (usize, usize) {
 }
 
 /// claims.csv and claims.json.
-pub(super) fn write(all: &[Told], header: &Value, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn write(all: &[Outcome], header: &Value, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let csv = table(all).write_csv(folder.join("claims.csv"))?;
     let mut object = header.clone();
     object["claims"] = all.iter().map(claim_json).collect();
@@ -147,30 +149,30 @@ pub(super) fn write(all: &[Told], header: &Value, folder: &Path) -> Result<Vec<P
     Ok(vec![csv, path])
 }
 
-fn claim_json(told: &Told) -> Value {
+fn claim_json(outcome: &Outcome) -> Value {
     let found = |f: &Found| json!({ "what": f.what, "value": f.value, "low": f.interval.map(|i| i.0), "high": f.interval.map(|i| i.1), "unit": f.unit });
-    let statements = told.statements();
+    let statements = outcome.statements();
     let statements: Vec<Value> = statements
         .iter()
         .map(|(words, verdict, all)| {
             json!({ "statement": words, "verdict": verdict.words(), "ours": all.iter().map(found).collect::<Vec<_>>() })
         })
         .collect();
-    let flips = told.flips.iter().map(|f| {
+    let flips = outcome.flips.iter().map(|f| {
         json!({ "assumption": f.variant.id, "about": f.variant.aspect.words(), "is": f.variant.words, "verdict": f.verdict.words() })
     });
     json!({
-        "id": told.claim.id, "place": told.claim.place, "sentence": told.claim.sentence, "paper": told.claim.paper,
-        "verdict": told.judged.verdict.words(), "in_words": told.judged.words(told.claim), "about": told.claim.basis.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": told.claim.note,
+        "id": outcome.claim.id, "place": outcome.claim.place, "sentence": outcome.claim.sentence, "paper": outcome.claim.paper,
+        "verdict": outcome.judged.verdict.words(), "in_words": outcome.judged.words(outcome.claim), "about": outcome.claim.basis.words(), "depends_on": flips.collect::<Vec<_>>(), "statements": statements, "note": outcome.claim.note,
     })
 }
 
 /// A row a statement; a claim without any has one too.
-fn table(all: &[Told]) -> Table {
+fn table(all: &[Outcome]) -> Table {
     let mut columns: [Vec<Option<String>>; 10] = Default::default();
-    for told in all {
-        let claim = told.claim;
-        let statements = told.statements();
+    for outcome in all {
+        let claim = outcome.claim;
+        let statements = outcome.statements();
         for k in 0..statements.len().max(1) {
             let one = statements.get(k);
             let cells = [
@@ -178,12 +180,12 @@ fn table(all: &[Told]) -> Table {
                 Some(claim.place.to_owned()),
                 Some(claim.sentence.to_owned()),
                 Some(claim.paper.to_owned()),
-                Some(told.judged.words(claim)),
+                Some(outcome.judged.words(claim)),
                 Some(claim.basis.words().to_owned()).filter(|_| one.is_some()),
                 one.map(|s| s.0.clone()),
                 one.map(|s| s.1.words().to_owned()),
                 one.map(|s| ours(s.2)),
-                Some(told.depends()),
+                Some(outcome.depends()),
             ];
             for (column, cell) in columns.iter_mut().zip(cells) {
                 column.push(cell.filter(|text| !text.is_empty()));

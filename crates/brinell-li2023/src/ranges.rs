@@ -1,7 +1,7 @@
 //! What the paper does not state: ranges to draw whole sets from.
 
-use super::outline::Outline;
-use super::reading::Record;
+use crate::outline::Outline;
+use crate::reading::Record;
 
 /// A key that a search draws.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,14 +1,14 @@
 //! What the paper's cases need of a run beside its findings: statistics from t = 0 on, and the forces between cage and rollers around the
 //! bearing.
 
-use super::reading::{WINDOWS_MS, from_start_name};
-use crate::campaign::{Quantity, Spread};
-use crate::channel::Frame;
-use crate::defect::wrap;
-use crate::observe::Findings;
-use crate::observe::load_zone::BINS;
-use crate::scenario::ModelKind;
-use crate::simulate::{Observer, Simulation};
+use crate::reading::{WINDOWS_MS, from_start_name};
+use brinell::campaign::{Quantity, Spread};
+use brinell::channel::Frame;
+use brinell::defect::wrap;
+use brinell::observe::Findings;
+use brinell::observe::load_zone::BINS;
+use brinell::scenario::ModelKind;
+use brinell::simulate::{Observer, Simulation};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
@@ -195,8 +195,8 @@ impl Observer for FromStart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::read;
-    use crate::paper::BASE;
+    use crate::BASE;
+    use brinell::document::read;
 
     #[test]
     fn analytic_records_from_the_start() {

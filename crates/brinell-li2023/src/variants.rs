@@ -1,7 +1,7 @@
 //! What the paper does not state: one change at a time, in every case.
 
-use super::outline::Outline;
-use super::reading::Reading;
+use crate::outline::Outline;
+use crate::reading::Reading;
 
 /// Which unstated assumption a variant changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,16 +1,16 @@
 //! The claims under each unstated assumption, and the search for a set of assumptions that agrees best.
 
-mod table;
-mod tell;
+mod chapters;
+mod tables;
 
-use super::points::{Point, numbers, point};
-use crate::campaign::{Ledger, Task};
-use crate::failure::Failure;
-use brinell::calibrate::{Settings, Unfit, fit, least_budget};
-use brinell::paper::{
-    CASES, Claim, Distance, Draw, Judged, Length, Numbers, Reading, Record, SEARCHED, VARIANTS,
-    Variant, Verdict, answers, axes, case, claims, distance, draw, held, judge, targets,
+use crate::points::numbers;
+use crate::{
+    CASES, Claim, Distance, Draw, Error, Judged, Length, Numbers, Point, RECORDS, Reading, Record,
+    Runs, SEARCHED, Stage, VARIANTS, Variant, Verdict, answers, axes, case, claims, distance, draw,
+    held, judge, targets,
 };
+use brinell::calibrate::{Settings, Unfit, fit, least_budget};
+use std::ops::ControlFlow;
 
 /// The search is a fixed one.
 const SEED: u64 = 2023;
@@ -24,9 +24,9 @@ const SCOPES: [(Option<Record>, usize); 2] = [(None, 640), (Some(Record::Steady)
 
 /// An assumption that turns a verdict.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flip {
-    pub(super) variant: &'static Variant,
-    pub(super) verdict: Verdict,
+pub(crate) struct Flip {
+    pub(crate) variant: &'static Variant,
+    pub(crate) verdict: Verdict,
 }
 
 /// A variant's points.
@@ -36,14 +36,14 @@ struct Varied {
 }
 
 /// Everything that the sensitivity needs to run.
-pub(super) struct Plan {
+pub(crate) struct Plan {
     varied: Vec<Varied>,
     quick: bool,
     length: Length,
 }
 
 /// A set that a search looked at, with its runs.
-pub(super) type Drawn = (Draw, Vec<Point>);
+type Drawn = (Draw, Vec<Point>);
 
 /// What was found under one assumption made otherwise.
 struct Tried {
@@ -62,7 +62,7 @@ struct Nearest {
 }
 
 /// A set of assumptions, looked at on all cases.
-pub(super) struct Candidate {
+struct Candidate {
     draw: Draw,
     distance: Distance,
     judged: Vec<(&'static Claim, Judged)>,
@@ -81,7 +81,7 @@ impl Candidate {
 }
 
 /// What came out.
-pub(super) struct Sensitivity {
+pub(crate) struct Sensitivity {
     /// In the order of [`VARIANTS`].
     variants: Vec<Tried>,
     /// The best sets of the search, best first.
@@ -94,7 +94,7 @@ pub(super) struct Sensitivity {
 }
 
 impl Plan {
-    pub(super) fn new(quick: bool) -> Result<Self, Failure> {
+    pub(crate) fn new(quick: bool) -> Result<Self, Error> {
         let length = if quick {
             Length::QUICK_VARIANT
         } else {
@@ -103,14 +103,14 @@ impl Plan {
         let varied = VARIANTS.iter().map(|variant| {
             let settings = owned(variant.settings);
             let points = CASES.iter();
-            let points = points.map(|case| point(case, &settings, variant.outline, length));
+            let points = points.map(|case| Point::new(case, &settings, variant.outline, length));
             Ok(Varied {
                 variant,
-                points: points.collect::<Result<_, Failure>>()?,
+                points: points.collect::<Result<_, Error>>()?,
             })
         });
         Ok(Self {
-            varied: varied.collect::<Result<_, Failure>>()?,
+            varied: varied.collect::<Result<_, Error>>()?,
             quick,
             length,
         })
@@ -126,61 +126,63 @@ impl Plan {
     }
 
     /// Sets that the searches look at, at most.
-    pub(super) fn sets(&self) -> usize {
+    fn sets(&self) -> usize {
         SCOPES.iter().map(|scope| self.budget(*scope)).sum()
     }
 
     /// What runs first.
-    pub(super) fn tasks(&self) -> impl Iterator<Item = &Task> {
-        let points = self.varied.iter().flat_map(|v| &v.points);
-        points.map(|point| &point.task)
+    pub(crate) fn points(&self) -> impl Iterator<Item = &Point> {
+        self.varied.iter().flat_map(|v| &v.points)
     }
 
-    /// Sets of the searches, in the order in which they were looked at. `run` sees to it that what it gets is done, and says whether it was
-    /// interrupted; then there are none.
-    pub(super) fn search(
-        &self,
-        ledger: &mut Ledger,
-        mut run: impl FnMut(&[Drawn], &mut Ledger) -> Result<bool, Failure>,
-    ) -> Result<Option<Vec<Drawn>>, Failure> {
-        let mut all = Vec::new();
+    /// The searches, the best sets in all cases, and everything judged; the runs of [`Plan::points`] are made. `None` where it was interrupted.
+    pub(crate) fn run<R: Runs>(&self, runs: &mut R) -> Result<Option<Sensitivity>, R::Error> {
+        runs.search_begins(self.sets());
+        let mut drawn = Vec::new();
         for scope in SCOPES {
-            if !self.search_within(scope, &mut all, ledger, &mut run)? {
+            if self.search_within(scope, &mut drawn, runs)?.is_break() {
                 return Ok(None);
             }
         }
-        Ok(Some(all))
+        let finalists = self.finalists(&drawn, runs)?;
+        let points: Vec<&Point> = finalists.iter().flat_map(|f| &f.points).collect();
+        let flow = runs.make(&points, Stage::Best)?;
+        Ok(flow
+            .is_continue()
+            .then(|| self.finish(&drawn, finalists, runs)))
     }
 
-    /// One search; whether it came to its end.
-    fn search_within(
+    /// One search: its sets are added to `all` in the order in which they were looked at.
+    fn search_within<R: Runs>(
         &self,
         scope: (Option<Record>, usize),
         all: &mut Vec<Drawn>,
-        ledger: &mut Ledger,
-        run: &mut impl FnMut(&[Drawn], &mut Ledger) -> Result<bool, Failure>,
-    ) -> Result<bool, Failure> {
+        runs: &mut R,
+    ) -> Result<ControlFlow<()>, R::Error> {
         let mut failure = None;
         let mut ask = |places: &[Vec<f64>]| {
             let made = places.iter().enumerate().map(|(k, place)| {
                 let draw = draw(all.len() + k + 1, place, scope.0);
                 let cases = SEARCHED.iter().filter_map(|id| case(id));
                 let points =
-                    cases.map(|case| point(case, &draw.settings, draw.outline, Length::START));
-                let points = points.collect::<Result<_, Failure>>()?;
+                    cases.map(|case| Point::new(case, &draw.settings, draw.outline, Length::START));
+                let points = points.collect::<Result<_, Error>>()?;
                 Ok((draw, points))
             });
-            let done = made.collect::<Result<Vec<Drawn>, Failure>>();
-            let done = done.and_then(|batch| Ok((run(&batch, ledger)?, batch)));
+            let batch = made.collect::<Result<Vec<Drawn>, R::Error>>();
+            let done = batch.and_then(|batch| {
+                let points: Vec<&Point> = batch.iter().flat_map(|(_, points)| points).collect();
+                Ok((runs.make(&points, Stage::Search)?, batch))
+            });
             let batch = match done {
-                Ok((false, batch)) => batch,
-                Ok((true, _)) => return Err(Unfit::Interrupted),
+                Ok((ControlFlow::Continue(()), batch)) => batch,
+                Ok((ControlFlow::Break(()), _)) => return Err(Unfit::Interrupted),
                 Err(error) => {
                     failure = Some(error);
                     return Err(Unfit::Interrupted);
                 }
             };
-            let answered = batch.iter().map(|one| answers(&read(one, ledger)));
+            let answered = batch.iter().map(|one| answers(&read(one, runs)));
             let answered = answered.collect();
             all.extend(batch);
             Ok(answered)
@@ -193,21 +195,17 @@ impl Plan {
         let found = fit(axes(scope.0), &targets, settings, &mut ask);
         match (failure, found) {
             (Some(failure), _) => Err(failure),
-            (None, Err(Unfit::Interrupted)) => Ok(false),
-            // Without one that came to its end there is nothing to choose from, and that is told.
-            (None, _) => Ok(true),
+            (None, Err(Unfit::Interrupted)) => Ok(ControlFlow::Break(())),
+            // Without one that came to its end there is nothing to choose from, and the results say so.
+            (None, _) => Ok(ControlFlow::Continue(())),
         }
     }
 
     /// The best sets, on all cases: what runs then.
-    pub(super) fn finalists(
-        &self,
-        drawn: &[Drawn],
-        ledger: &Ledger,
-    ) -> Result<Vec<Finalist>, Failure> {
+    fn finalists(&self, drawn: &[Drawn], runs: &impl Runs) -> Result<Vec<Finalist>, Error> {
         let scored = drawn.iter().enumerate();
         let mut scored: Vec<(f64, usize)> = scored
-            .filter_map(|(k, one)| Some((score(&read(one, ledger))?, k)))
+            .filter_map(|(k, one)| Some((score(&read(one, runs))?, k)))
             .collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         // Neighbours would say the same of the other cases.
@@ -227,23 +225,18 @@ impl Plan {
         let finalist = |draw: &Draw| {
             let points = CASES
                 .iter()
-                .map(|case| point(case, &draw.settings, draw.outline, self.length));
+                .map(|case| Point::new(case, &draw.settings, draw.outline, self.length));
             Ok(Finalist {
-                points: points.collect::<Result<_, Failure>>()?,
+                points: points.collect::<Result<_, Error>>()?,
                 draw: draw.clone(),
             })
         };
         best.into_iter().map(finalist).collect()
     }
 
-    pub(super) fn finish(
-        &self,
-        drawn: &[Drawn],
-        finalists: Vec<Finalist>,
-        ledger: &Ledger,
-    ) -> Sensitivity {
+    fn finish(&self, drawn: &[Drawn], finalists: Vec<Finalist>, runs: &impl Runs) -> Sensitivity {
         let variants = self.varied.iter().map(|v| {
-            let plain = numbers(&v.points, ledger);
+            let plain = numbers(&v.points, runs);
             let read = plain.read(v.variant.reading);
             Tried {
                 variant: v.variant,
@@ -252,7 +245,7 @@ impl Plan {
             }
         });
         let candidates = finalists.into_iter().filter_map(|f| {
-            let numbers = numbers(&f.points, ledger).read(f.draw.reading);
+            let numbers = numbers(&f.points, runs).read(f.draw.reading);
             Some(Candidate {
                 distance: distance(&numbers)?,
                 judged: claims()
@@ -270,23 +263,23 @@ impl Plan {
             variants: variants.collect(),
             candidates,
             drawn: drawn.len(),
-            nearest: nearest(drawn, ledger),
+            nearest: nearest(drawn, runs),
             length: self.length,
         }
     }
 }
 
 /// The nearest set of each stretch of the record, the steady part first.
-fn nearest(drawn: &[Drawn], ledger: &Ledger) -> Vec<Nearest> {
+fn nearest(drawn: &[Drawn], runs: &impl Runs) -> Vec<Nearest> {
     let mut all: Vec<Nearest> = Vec::new();
-    for record in brinell::paper::RECORDS {
+    for record in RECORDS {
         let mine: Vec<&Drawn> = drawn
             .iter()
             .filter(|d| d.0.reading.record == *record)
             .collect();
         let known = mine
             .iter()
-            .filter_map(|one| Some((one.0.number, distance(&read(one, ledger))?)));
+            .filter_map(|one| Some((one.0.number, distance(&read(one, runs))?)));
         all.push(Nearest {
             record: *record,
             sets: mine.len(),
@@ -297,13 +290,13 @@ fn nearest(drawn: &[Drawn], ledger: &Ledger) -> Vec<Nearest> {
 }
 
 /// A set of assumptions on its way to all cases.
-pub(super) struct Finalist {
+struct Finalist {
     draw: Draw,
-    pub(super) points: Vec<Point>,
+    points: Vec<Point>,
 }
 
-fn read((draw, points): &Drawn, ledger: &Ledger) -> Numbers {
-    numbers(points, ledger).read(draw.reading)
+fn read((draw, points): &Drawn, runs: &impl Runs) -> Numbers {
+    numbers(points, runs).read(draw.reading)
 }
 
 fn owned(settings: &[(&str, &str)]) -> Vec<(String, String)> {
@@ -318,7 +311,7 @@ fn score(numbers: &Numbers) -> Option<f64> {
 
 impl Sensitivity {
     /// Assumptions under which a claim that held fails, or one that failed holds. `verdict` is that of its own statements alone.
-    pub(super) fn flips(&self, place: usize, verdict: Verdict) -> Vec<Flip> {
+    pub(crate) fn flips(&self, place: usize, verdict: Verdict) -> Vec<Flip> {
         let turned = |other: Verdict| {
             use Verdict::{Fails, Holds, Partly};
             matches!(
@@ -337,20 +330,20 @@ impl Sensitivity {
     }
 
     /// The verdicts of a claim under every assumption, that of the baseline first.
-    pub(super) fn verdicts(&self, id: &str) -> Vec<(&'static Variant, Verdict)> {
+    pub(crate) fn verdicts(&self, id: &str) -> Vec<(&'static Variant, Verdict)> {
         let place = claims().position(|claim| claim.id == id);
         let of = |tried: &Tried| Some((tried.variant, tried.judged[place?].plain));
         self.variants.iter().filter_map(of).collect()
     }
 
     /// A number of a case under an assumption.
-    pub(super) fn value(&self, variant: &str, case: &str, name: &str) -> Option<f64> {
+    pub(crate) fn value(&self, variant: &str, case: &str, name: &str) -> Option<f64> {
         let tried = self.variants.iter().find(|t| t.variant.id == variant)?;
         tried.numbers.get(case, name).map(|n| n.value)
     }
 
     /// Smallest and largest ratio of a number in two cases, both of the steady part, over the assumptions under which that is what is read.
-    pub(super) fn ratios(&self, of: &str, to: &str, name: &str) -> Option<(f64, f64)> {
+    pub(crate) fn ratios(&self, of: &str, to: &str, name: &str) -> Option<(f64, f64)> {
         let steady = self
             .variants
             .iter()
@@ -365,7 +358,7 @@ impl Sensitivity {
     }
 
     /// Sets that were looked at with the steady part and with a record from t = 0, and how near the nearest of each came.
-    pub(super) fn nearest(&self) -> [(usize, Option<&Distance>); 2] {
+    pub(crate) fn nearest(&self) -> [(usize, Option<&Distance>); 2] {
         [true, false].map(|steady| {
             let mine = || {
                 self.nearest

@@ -1,19 +1,19 @@
 //! The reproduction as a chapter's text: Markdown, pictures beside it.
 
-use super::Came;
-use super::claims::{Told, counts, ours};
+use crate::outcome::{Outcome, counts, ours};
+use crate::reproduction::Reproduction;
 use brinell_report::{Study, StudyPiece, Table};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// The text. Pictures are linked as from the folder above `book`, where the file that includes this one stands.
-pub(super) fn text(study: &Study, came: &Came, book: &Path) -> String {
+pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> String {
     let folder = book
         .file_name()
         .map_or(String::new(), |name| format!("{}/", name.to_string_lossy()));
     let mut text =
         String::from("<!-- Written by `brinell reproduce --book`; edits are lost. -->\n\n");
-    let counts: Vec<String> = counts(&came.told)
+    let counts: Vec<String> = counts(&reproduction.outcomes)
         .iter()
         .map(|(verdict, n)| format!("{} {n}", verdict.words()))
         .collect();
@@ -28,7 +28,7 @@ pub(super) fn text(study: &Study, came: &Came, book: &Path) -> String {
                 StudyPiece::Words(words) => {
                     let _ = writeln!(text, "{words}\n");
                 }
-                StudyPiece::Claims(_) => claims(&mut text, &came.told),
+                StudyPiece::Claims(_) => claims(&mut text, &reproduction.outcomes),
                 StudyPiece::Table(one) => table(&mut text, one),
                 StudyPiece::Curves(one, _) => picture(&mut text, &folder, &one.name, &one.title),
                 StudyPiece::Stack(one) => {
@@ -53,28 +53,28 @@ fn cell(words: &str) -> String {
     words.replace('|', "\\|").replace(['\n', '\r'], " ")
 }
 
-fn claims(text: &mut String, all: &[Told]) {
+fn claims(text: &mut String, all: &[Outcome]) {
     text.push_str("| The paper | Verdict | Printed | Ours |\n| --- | --- | --- | --- |\n");
-    for told in all {
-        let mut ours_all = Vec::new();
-        for (words, verdict, found) in told.statements() {
-            ours_all.push(format!("{words} — {}: {}", verdict.words(), ours(found)));
+    for outcome in all {
+        let mut lines = Vec::new();
+        for (words, verdict, found) in outcome.statements() {
+            lines.push(format!("{words} — {}: {}", verdict.words(), ours(found)));
         }
-        if !told.claim.note.is_empty() {
-            ours_all.push(told.claim.note.to_owned());
+        if !outcome.claim.note.is_empty() {
+            lines.push(outcome.claim.note.to_owned());
         }
-        let mut verdict = told.judged.words(told.claim);
-        if !told.flips.is_empty() {
-            verdict = format!("{verdict}; depends on {}", told.depends());
+        let mut verdict = outcome.judged.words(outcome.claim);
+        if !outcome.flips.is_empty() {
+            verdict = format!("{verdict}; depends on {}", outcome.depends());
         }
         let _ = writeln!(
             text,
             "| {} ({}) | {} | {} | {} |",
-            cell(told.claim.sentence),
-            told.claim.place,
+            cell(outcome.claim.sentence),
+            outcome.claim.place,
             cell(&verdict),
-            cell(told.claim.paper),
-            ours_all
+            cell(outcome.claim.paper),
+            lines
                 .iter()
                 .map(|o| cell(o))
                 .collect::<Vec<_>>()

@@ -1,15 +1,16 @@
 //! How numbers with intervals decide a statement. A number without an interval is exact: it is read off a shape, not off a signal.
 //!
-//! - a > b: by the 95 % interval of the ratio ([`crate::signal::ratio`]); decided where it excludes equality.
+//! - a > b: by the 95 % interval of the ratio ([`brinell::signal::ratio`]); decided where it excludes equality.
 //! - near: decided where the interval lies wholly inside, or wholly outside, the stated bounds.
 //! - trends: by the ratios of neighbours. A step whose interval includes equality may go either way; the trend holds where it holds
 //!   whichever way such steps go, fails where it fails whichever way they go, and is undecided otherwise.
 //!
 //! Each interval is at 95 % by itself: of twenty true equalities one is expected to look decided.
 
-use super::numbers::Number;
-use crate::signal::Estimate;
-use crate::signal::ratio::{Ratio, ratio};
+use crate::numbers::Number;
+use brinell::signal::Estimate;
+use brinell::signal::ratio::{Ratio, ratio};
+use serde::Deserialize;
 
 /// What came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -114,7 +115,8 @@ pub fn between(interval: Option<(f64, f64)>, low: f64, high: f64) -> Verdict {
 }
 
 /// Which way a quantity goes from step to step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Trend {
     /// Up at every step.
     Rises,
@@ -171,7 +173,7 @@ pub fn follows(trend: Trend, steps: &[Option<Ratio>]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::Interval;
+    use brinell::signal::Interval;
 
     fn number(value: f64, half: f64) -> Number {
         Number {
@@ -218,7 +220,7 @@ mod tests {
     #[test]
     fn analytic_ratio_of_equal_scatter_is_that_of_the_signal_room() {
         // ln r +- t sqrt(u_a + u_b) with 38 degrees of freedom; the halves are t(19) s.
-        let t = |freedom| crate::signal::student_t_quantile(0.975, freedom);
+        let t = |freedom| brinell::signal::student_t_quantile(0.975, freedom);
         let (low, high) = over(number(2.0, 0.1), number(1.0, 0.05))
             .unwrap()
             .interval

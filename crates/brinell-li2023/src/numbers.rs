@@ -1,9 +1,9 @@
 //! What the cases gave, by name.
 
-use super::reading::{Reading, Record};
-use crate::campaign::{Row, Spread};
-use crate::observe::passes::PassPoint;
-use crate::signal::{Estimate, Interval};
+use crate::reading::{Reading, Record};
+use brinell::campaign::{Row, Spread};
+use brinell::observe::passes::PassPoint;
+use brinell::signal::{Estimate, Interval};
 use std::collections::BTreeMap;
 
 /// Of a number that scatters, in a run too short to say how much: it decides nothing.
@@ -113,9 +113,9 @@ pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::verdict::{Verdict, greater, over};
     use super::*;
-    use crate::campaign::Quantity;
+    use crate::verdict::{Verdict, greater, over};
+    use brinell::campaign::Quantity;
 
     fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
         let point = |k: i32| {

@@ -1,13 +1,13 @@
 //! The paper's figures as pictures and tables of ours.
 
-use super::curves::Curves;
-use super::points::scenario;
-use super::what::What;
-use crate::damage;
-use crate::say::short;
-use brinell::paper::{Case, Experiment, Number, Numbers, RMS, STARTS, case};
+use crate::curve_kind::CurveKind;
+use crate::curves::Curves;
+use crate::points::scenario;
+use crate::{Case, Experiment, Number, Numbers, Outline, RMS, STARTS, case};
+use brinell::scenario::Scenario;
+use brinell_report::short;
 use brinell_report::{
-    Chapter, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table,
+    Chapter, DamageView, IndicatorLine, IndicatorPlot, IndicatorPoint, Stack, StudyPiece, Table,
 };
 
 /// Channels of a plot, and what is plotted: one picture.
@@ -69,8 +69,8 @@ const TRENDS: [Shown; 6] = [
 ];
 
 /// "Figs. 13 and 14".
-pub(super) fn figures(experiment: &Experiment) -> String {
-    match experiment.figures {
+pub(crate) fn figures(experiment: &Experiment) -> String {
+    match experiment.figures[..] {
         [one] => format!("Fig. {one}"),
         [first, .., last] => format!("Figs. {first}–{last}"),
         [] => String::new(),
@@ -78,10 +78,11 @@ pub(super) fn figures(experiment: &Experiment) -> String {
 }
 
 /// An experiment's chapter.
-pub(super) fn chapter(
+pub(crate) fn chapter(
     experiment: &Experiment,
     numbers: &Numbers,
     curves: impl Fn(&str) -> Option<Curves>,
+    plan: &dyn Fn(&Scenario) -> Option<DamageView>,
 ) -> Chapter {
     let first = experiment.figures[0];
     let all: Vec<&Case> = experiment.cases.iter().filter_map(|id| case(id)).collect();
@@ -98,13 +99,24 @@ pub(super) fn chapter(
     match first {
         8 => {
             for case in &cases {
-                drawn.plan(&format!("fig08-{}", case.id), case, None);
+                drawn.plan(&format!("fig08-{}", case.id), case, None, plan);
             }
-            drawn.stack("fig09-length", What::Length, &one_by_one(&cases), true, "");
+            drawn.stack(
+                "fig09-length",
+                CurveKind::Length,
+                &one_by_one(&cases),
+                true,
+                "",
+            );
         }
         10..=12 => {
-            for what in [What::Spectrum, What::Envelope, What::Waveform, What::Impact] {
-                drawn.together(&format!("fig{first}-{}", what.file()), what, &every);
+            for kind in [
+                CurveKind::Spectrum,
+                CurveKind::Envelope,
+                CurveKind::Waveform,
+                CurveKind::Impact,
+            ] {
+                drawn.together(&format!("fig{first}-{}", kind.file()), kind, &every);
             }
             if first == 12 {
                 drawn.around("section3-around");
@@ -112,25 +124,37 @@ pub(super) fn chapter(
         }
         13 => {
             if let [irregular, simplified, ..] = cases[..] {
-                drawn.plan("fig13-plan", irregular, Some(simplified));
+                drawn.plan("fig13-plan", irregular, Some(simplified), plan);
             }
             let own = "Each plot has its own scale: in one, the simplified shape would hide the irregular one.";
             drawn.stack(
                 "fig14-waveform",
-                What::Waveform,
+                CurveKind::Waveform,
                 &one_by_one(&cases),
                 false,
                 own,
             );
-            drawn.together("fig14-stiffness", What::Stiffness, &every);
-            drawn.stack("fig14-entry", What::Entry, &one_by_one(&cases), false, own);
-            drawn.stack("fig14-exit", What::Exit, &one_by_one(&cases), false, own);
+            drawn.together("fig14-stiffness", CurveKind::Stiffness, &every);
+            drawn.stack(
+                "fig14-entry",
+                CurveKind::Entry,
+                &one_by_one(&cases),
+                false,
+                own,
+            );
+            drawn.stack(
+                "fig14-exit",
+                CurveKind::Exit,
+                &one_by_one(&cases),
+                false,
+                own,
+            );
         }
         15 => {
-            drawn.together("fig15-length", What::Length, &every);
+            drawn.together("fig15-length", CurveKind::Length, &every);
             drawn.stack(
                 "fig16-waveform",
-                What::Waveform,
+                CurveKind::Waveform,
                 &one_by_one(&cases),
                 true,
                 "One scale for all.",
@@ -141,7 +165,13 @@ pub(super) fn chapter(
                 .iter()
                 .map(|case| with_rms(case, "measured_ax.rms", numbers));
             drawn.names = names.collect();
-            drawn.stack("fig20-waveform", What::Waveform, &panels(false), true, "");
+            drawn.stack(
+                "fig20-waveform",
+                CurveKind::Waveform,
+                &panels(false),
+                true,
+                "",
+            );
             let mut from_start = Drawn {
                 names: (starts.iter())
                     .map(|case| with_rms(case, "measured_ax.first_285ms.rms", numbers))
@@ -151,16 +181,16 @@ pub(super) fn chapter(
             };
             let words = "If the paper’s Figs. 14a, 16 and 20 look like this, bursts that decay from t = 0, its RMS contains the start-up; \
                          bursts of equal height all along refute it. RMS over 0 to 0.285 s.";
-            from_start.stack("fig20-start", What::Start, &panels(true), true, words);
+            from_start.stack("fig20-start", CurveKind::Start, &panels(true), true, words);
             drawn.pieces.append(&mut from_start.pieces);
         }
         _ => {}
     }
     let mut pieces = drawn.pieces;
-    if let Some((label, unit, values)) = experiment.steps {
+    if let Some((label, unit, values)) = &experiment.steps {
         for shown in TRENDS {
             // The widths' figure is of rings alone.
-            if unit == "mm" && !(shown.channels == RINGS && shown.indicator == "rms") {
+            if *unit == "mm" && !(shown.channels == RINGS && shown.indicator == "rms") {
                 continue;
             }
             let last = experiment.figures.last().unwrap_or(&first);
@@ -238,21 +268,21 @@ impl Drawn {
         places.iter().filter_map(of).collect()
     }
 
-    fn missing(&mut self, what: What) {
+    fn missing(&mut self, kind: CurveKind) {
         self.pieces.push(StudyPiece::Words(format!(
             "{}: not computed.",
-            what.title()
+            kind.title()
         )));
     }
 
     /// Curves in one plot.
-    fn together(&mut self, name: &str, what: What, places: &[usize]) {
-        match what.overlay(name, what.title(), &self.some(places)) {
+    fn together(&mut self, name: &str, kind: CurveKind, places: &[usize]) {
+        match kind.overlay(name, kind.title(), &self.some(places)) {
             Some(overlay) => {
                 let names = self.names.clone();
                 self.pieces.push(StudyPiece::Curves(overlay, names));
             }
-            None => self.missing(what),
+            None => self.missing(kind),
         }
     }
 
@@ -260,22 +290,22 @@ impl Drawn {
     fn stack(
         &mut self,
         name: &str,
-        what: What,
+        kind: CurveKind,
         panels: &[(String, Vec<usize>)],
         alike: bool,
         more: &str,
     ) {
         let plots = panels
             .iter()
-            .filter_map(|(title, places)| what.overlay(name, title, &self.some(places)));
+            .filter_map(|(title, places)| kind.overlay(name, title, &self.some(places)));
         let plots: Vec<_> = plots.collect();
         if plots.is_empty() {
-            return self.missing(what);
+            return self.missing(kind);
         }
-        let note = format!("{} {more}", what.note());
+        let note = format!("{} {more}", kind.note());
         self.pieces.push(StudyPiece::Stack(Stack {
             name: name.into(),
-            title: what.title().into(),
+            title: kind.title().into(),
             panels: plots,
             names: self.names.clone(),
             alike,
@@ -285,13 +315,13 @@ impl Drawn {
 
     /// Load, cage forces and spin around the bearing, of the first case.
     fn around(&mut self, name: &str) {
-        let kinds = [What::Load, What::Pocket, What::Spin];
+        let kinds = [CurveKind::Load, CurveKind::Pocket, CurveKind::Spin];
         let plots = kinds
             .iter()
-            .filter_map(|what| what.overlay(name, what.title(), &self.some(&[0])));
+            .filter_map(|kind| kind.overlay(name, kind.title(), &self.some(&[0])));
         let plots: Vec<_> = plots.collect();
         if plots.is_empty() {
-            return self.missing(What::Pocket);
+            return self.missing(CurveKind::Pocket);
         }
         self.pieces.push(StudyPiece::Stack(Stack {
             name: name.into(),
@@ -299,17 +329,22 @@ impl Drawn {
             panels: plots,
             names: self.names.clone(),
             alike: false,
-            note: format!("{} Rollers go from left to right.", What::Pocket.note()),
+            note: format!(
+                "{} Rollers go from left to right.",
+                CurveKind::Pocket.note()
+            ),
         }));
     }
 
     /// A case's defect from above, another's around it.
-    fn plan(&mut self, name: &str, case: &Case, against: Option<&Case>) {
-        let view = |case: &Case| {
-            let scenario = scenario(case).ok()?;
-            let all = damage::all(&scenario, None).ok()?;
-            all.into_iter().next().map(|damage| damage.view)
-        };
+    fn plan(
+        &mut self,
+        name: &str,
+        case: &Case,
+        against: Option<&Case>,
+        plan: &dyn Fn(&Scenario) -> Option<DamageView>,
+    ) {
+        let view = |case: &Case| plan(&scenario(&case.over(&[], Outline::Joined)).ok()?);
         let Some(mut shown) = view(case) else { return };
         shown.plan_title = format!("{}, from above", case.label);
         if let (Some(case), Some(other)) = (against, against.and_then(view)) {
@@ -358,7 +393,7 @@ fn trend(
 }
 
 /// A value with its interval, for people.
-pub(super) fn told(value: Option<f64>, interval: Option<(f64, f64)>) -> String {
+pub(crate) fn with_interval(value: Option<f64>, interval: Option<(f64, f64)>) -> String {
     let Some(value) = value else {
         return "–".into();
     };
@@ -376,7 +411,7 @@ pub(super) fn told(value: Option<f64>, interval: Option<(f64, f64)>) -> String {
 
 fn cell(number: Option<Number>) -> String {
     let interval = number.and_then(|n| n.interval).map(|i| (i.low, i.high));
-    told(number.map(|n| n.value), interval)
+    with_interval(number.map(|n| n.value), interval)
 }
 
 const COLUMNS: [(&str, &str); 9] = [

@@ -58,6 +58,6 @@ impl Record {
 }
 
 /// Name of an indicator (`rms`, `peak_to_peak`) of a channel over a record from t = 0: `outer_ax.first_285ms.rms`.
-pub(super) fn from_start_name(channel: &str, ms: u32, indicator: &str) -> String {
+pub(crate) fn from_start_name(channel: &str, ms: u32, indicator: &str) -> String {
     format!("{channel}.first_{ms}ms.{indicator}")
 }

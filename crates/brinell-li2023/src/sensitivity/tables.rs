@@ -1,10 +1,10 @@
 //! Tables of the sensitivity: the three RMS values under every assumption, and what the nearest sets assume.
 
 use super::{Candidate, Nearest, Sensitivity, Tried};
-use crate::reproduce::figures::told;
-use crate::say::short;
-use brinell::paper::{Number, RANGES, RMS, Reading, Record, SEARCHED, distance};
+use crate::figures::with_interval;
+use crate::{Number, RANGES, RMS, Reading, Record, SEARCHED, distance};
 use brinell_report::Table;
+use brinell_report::short;
 
 /// The record from t = 0 that is shown beside the steady part where a variant names none.
 const SHOWN_MS: u32 = 285;
@@ -150,7 +150,7 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
         for case in SEARCHED {
             let of = |n: Option<Number>| {
                 let interval = n.and_then(|n| n.interval).map(|i| (i.low, i.high));
-                told(n.map(|n| n.value), interval)
+                with_interval(n.map(|n| n.value), interval)
             };
             let behind = filtered
                 .get(case, "outer_ax.rms")

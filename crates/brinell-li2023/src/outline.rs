@@ -1,6 +1,6 @@
 //! Eq. (27) in other readings: the irregular defect as a profile with the jumps of the print.
 //!
-//! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are [`crate::defect::Shape::Li2023Irregular`].
+//! Half-widths h in mm over six arcs, as in section 12 of the model. Joined, they are [`brinell::defect::Shape::Li2023Irregular`].
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -143,16 +143,16 @@ fn list(values: &[f64]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::BASE;
     use super::*;
-    use crate::defect::Shape;
+    use crate::BASE;
+    use brinell::defect::Shape;
 
     fn shape(text: Option<String>) -> Shape {
         let settings: Vec<_> = text
             .into_iter()
             .map(|t| ("defects.0.shape".to_owned(), t))
             .collect();
-        let loaded = crate::document::read(BASE, &settings).unwrap_or_else(|e| panic!("{e:?}"));
+        let loaded = brinell::document::read(BASE, &settings).unwrap_or_else(|e| panic!("{e:?}"));
         Shape::new(&loaded.scenario.defects[0].shape, 20e-6).unwrap()
     }
 

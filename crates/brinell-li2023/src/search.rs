@@ -1,12 +1,12 @@
-//! A search for one set of assumptions: a unit cube over [`super::RANGES`], what [`crate::calibrate::fit`] is to meet in it, and how far a set
+//! A search for one set of assumptions: a unit cube over [`crate::RANGES`], what [`brinell::calibrate::fit`] is to meet in it, and how far a set
 //! stays from the paper's figures.
 
-use super::numbers::Numbers;
-use super::outline::Outline;
-use super::ranges::{RANGES, READ_AS, RECORDS, Values};
-use super::reading::{Reading, Record};
-use super::{Verdict, claims, judge};
-use crate::calibrate::{Answer, Target};
+use crate::numbers::Numbers;
+use crate::outline::Outline;
+use crate::ranges::{RANGES, READ_AS, RECORDS, Values};
+use crate::reading::{Reading, Record};
+use crate::{Verdict, claims, judge};
+use brinell::calibrate::{Answer, Target};
 
 /// Cases that every draw runs: the paper's three RMS values, at a seventh of the cost of all cases.
 pub const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];
@@ -165,8 +165,8 @@ pub fn distance(numbers: &Numbers) -> Option<Distance> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BASE, CASES, Number, VARIANTS, WINDOWS_MS};
     use super::*;
+    use crate::{BASE, CASES, Number, VARIANTS, WINDOWS_MS};
     use std::collections::BTreeSet;
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
         for (axis, range) in RANGES.iter().enumerate() {
             let all: Vec<Draw> = (0..=n).map(|k| along(axis, k)).collect();
             for draw in &all {
-                crate::document::read(BASE, &draw.settings).unwrap_or_else(|e| panic!("{e:?}"));
+                brinell::document::read(BASE, &draw.settings).unwrap_or_else(|e| panic!("{e:?}"));
             }
             let of = |draw: &Draw| {
                 let settings = draw.settings.iter();
@@ -221,8 +221,8 @@ mod tests {
         for variant in VARIANTS {
             let own = |(k, v): &(&str, &str)| ((*k).to_owned(), (*v).to_owned());
             let settings: Vec<_> = variant.settings.iter().map(own).collect();
-            for case in CASES {
-                crate::document::read(BASE, &case.over(&settings, variant.outline))
+            for case in CASES.iter() {
+                brinell::document::read(BASE, &case.over(&settings, variant.outline))
                     .unwrap_or_else(|e| panic!("{}, {}: {e:?}", variant.id, case.id));
             }
             if let Record::FromStart(ms) = variant.reading.record {

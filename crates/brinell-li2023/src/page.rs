@@ -1,10 +1,12 @@
 //! The reproduction as one page.
 
-use super::claims::{self, card, counts};
-use super::curves::Curves;
-use super::{Asked, Came, believe, figures};
-use brinell::paper::{BASE, Basis};
-use brinell_report::{Chapter, Fact, Study, StudyPiece, Table, Value};
+use crate::curves::Curves;
+use crate::outcome::{self, card, counts};
+use crate::reproduction::{Reproduction, Request};
+use crate::{BASE, Basis};
+use crate::{believe, figures};
+use brinell::scenario::Scenario;
+use brinell_report::{Chapter, DamageView, Fact, Study, StudyPiece, Table, Value};
 
 /// How verdicts come about, in words.
 const RULES: [&str; 6] = [
@@ -27,8 +29,13 @@ const RULES: [&str; 6] = [
      prints.",
 ];
 
-pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<Curves>) -> Study {
-    let counts = counts(&came.told);
+pub(crate) fn study(
+    reproduction: &Reproduction,
+    curves: impl Fn(&str) -> Option<Curves>,
+    plan: impl Fn(&Scenario) -> Option<DamageView>,
+) -> Study {
+    let request = &reproduction.request;
+    let counts = counts(&reproduction.outcomes);
     let mut facts: Vec<Fact> = counts
         .iter()
         .map(|(verdict, n)| {
@@ -41,11 +48,11 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
             )
         })
         .collect();
-    if came.sensitivity.is_some() {
-        let n = came
-            .told
+    if reproduction.sensitivity.is_some() {
+        let n = reproduction
+            .outcomes
             .iter()
-            .filter(|told| !told.flips.is_empty())
+            .filter(|outcome| !outcome.flips.is_empty())
             .count();
         facts.push(Fact::new(
             "Depend on an assumption",
@@ -54,8 +61,8 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
             "of the above",
         ));
     }
-    let [dynamics, shapes, kinematics] =
-        [Basis::Dynamics, Basis::Shapes, Basis::Kinematics].map(|b| claims::held(&came.told, b));
+    let [dynamics, shapes, kinematics] = [Basis::Dynamics, Basis::Shapes, Basis::Kinematics]
+        .map(|b| outcome::held(&reproduction.outcomes, b));
     facts.insert(
         0,
         Fact::new(
@@ -72,21 +79,24 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
         id: "believe".into(),
         short: "What to believe".into(),
         title: "What to believe".into(),
-        pieces: believe::pieces(came),
+        pieces: believe::pieces(reproduction),
     }];
     chapters.push(Chapter {
         id: "claims".into(),
         short: "Claims".into(),
         title: "The paper’s claims".into(),
-        pieces: vec![StudyPiece::Claims(came.told.iter().map(card).collect())],
+        pieces: vec![StudyPiece::Claims(
+            reproduction.outcomes.iter().map(card).collect(),
+        )],
     });
-    let experiments = asked.experiments.iter();
-    chapters.extend(experiments.map(|e| figures::chapter(e, &came.numbers, &curves)));
-    if let Some(sensitivity) = &came.sensitivity {
+    let experiments = request.experiments.iter();
+    chapters
+        .extend(experiments.map(|e| figures::chapter(e, &reproduction.numbers, &curves, &plan)));
+    if let Some(sensitivity) = &reproduction.sensitivity {
         chapters.extend(sensitivity.chapters());
     }
     let mut rules: Vec<StudyPiece> = RULES.map(|w| StudyPiece::Words(w.into())).to_vec();
-    rules.push(StudyPiece::Table(runs(asked)));
+    rules.push(StudyPiece::Table(runs(request)));
     rules.push(StudyPiece::Table(scenario()));
     chapters.push(Chapter {
         id: "rules".into(),
@@ -95,10 +105,10 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
         pieces: rules,
     });
     let mut warnings = Vec::new();
-    if came.interrupted {
+    if reproduction.interrupted {
         warnings.push("Interrupted: some runs are missing. The same command goes on.".into());
     }
-    for (case, reason) in &came.failures {
+    for (case, reason) in &reproduction.failures {
         warnings.push(format!("{case} failed: {reason}"));
     }
     Study {
@@ -106,7 +116,7 @@ pub(super) fn study(asked: &Asked, came: &Came, curves: impl Fn(&str) -> Option<
         subtitle: format!(
             "Section 4 of “Dynamic modeling and vibration analysis of double row cylindrical roller bearings with irregular-shaped defects”; \
              {} a run",
-            asked.length.words()
+            request.length.words()
         ),
         version: brinell::VERSION.into(),
         warnings,
@@ -124,15 +134,15 @@ fn capital(text: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-fn runs(asked: &Asked) -> Table {
-    let rows = asked.points.iter().map(|point| {
+fn runs(request: &Request) -> Table {
+    let rows = request.points.iter().map(|point| {
         let own = point.case.settings.iter();
         let settings: Vec<String> = own.map(|(k, v)| format!("{k} = {v}")).collect();
         vec![
             point.case.id.into(),
             point.case.label.into(),
             settings.join("; "),
-            format!("{}", point.task.duration_s),
+            format!("{}", point.duration_s),
         ]
     });
     Table {

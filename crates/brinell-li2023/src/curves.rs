@@ -14,43 +14,43 @@ const PASS: usize = 600;
 
 /// Evenly spaced values.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Even {
-    pub(super) first: f64,
-    pub(super) step: f64,
-    pub(super) values: Vec<f64>,
+pub(crate) struct Even {
+    pub(crate) first: f64,
+    pub(crate) step: f64,
+    pub(crate) values: Vec<f64>,
 }
 
 /// The curves of a run, SI units; empty where the run was too short for one.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Curves {
+pub(crate) struct Curves {
     /// Measured acceleration along the load.
-    pub(super) waveform: Even,
-    pub(super) spectrum: Even,
-    pub(super) envelope: Even,
+    pub(crate) waveform: Even,
+    pub(crate) spectrum: Even,
+    pub(crate) envelope: Even,
     /// Instants within the waveform at which rollers come onto the damage.
-    pub(super) enters: Vec<f64>,
+    pub(crate) enters: Vec<f64>,
     /// Instants at which they leave it.
-    pub(super) leaves: Vec<f64>,
+    pub(crate) leaves: Vec<f64>,
     /// Mean measured acceleration around entries.
-    pub(super) entry: Even,
+    pub(crate) entry: Even,
     /// And around exits.
-    pub(super) exit: Even,
+    pub(crate) exit: Even,
     /// Of the heaviest pass: angle from the damage's centre, rad, and what belongs to it.
-    pub(super) angle: Vec<f64>,
-    pub(super) length: Vec<f64>,
-    pub(super) stiffness: Vec<f64>,
-    pub(super) force: Vec<f64>,
+    pub(crate) angle: Vec<f64>,
+    pub(crate) length: Vec<f64>,
+    pub(crate) stiffness: Vec<f64>,
+    pub(crate) force: Vec<f64>,
     /// Around the bearing, by bins of its angle: mean force at the outer contacts of the damaged row, N.
-    pub(super) around_load: Vec<f64>,
+    pub(crate) around_load: Vec<f64>,
     /// Mean force between its cage and rollers, N; NaN where no roller came by.
-    pub(super) around_pocket: Vec<f64>,
+    pub(crate) around_pocket: Vec<f64>,
     /// Its rollers' spin over that of pure rolling; NaN likewise.
-    pub(super) around_spin: Vec<f64>,
+    pub(crate) around_spin: Vec<f64>,
 }
 
 impl Curves {
     /// Of a run, and the mean forces between cage and rollers around the bearing.
-    pub(super) fn of(run: &Finished, around_pocket: Vec<f64>) -> Self {
+    pub(crate) fn of(run: &Finished, around_pocket: Vec<f64>) -> Self {
         let (findings, rate) = (&run.findings, run.simulation.sample_rate());
         let (first, values) = findings.waveform.latest();
         let short = values.len() as f64 <= SHORT_S * rate;
@@ -125,7 +125,7 @@ impl Curves {
         }
     }
 
-    pub(super) fn to_json(&self) -> Value {
+    pub(crate) fn to_json(&self) -> Value {
         let even = |e: &Even| json!({ "first": e.first, "step": e.step, "values": e.values });
         json!({
             "waveform": even(&self.waveform), "spectrum": even(&self.spectrum), "envelope": even(&self.envelope),
@@ -136,7 +136,7 @@ impl Curves {
     }
 
     /// From what [`Curves::to_json`] gave; `None` where it is not that.
-    pub(super) fn from_json(value: &Value) -> Option<Self> {
+    pub(crate) fn from_json(value: &Value) -> Option<Self> {
         let list = |value: &Value| {
             let values = value.as_array()?.iter();
             values.map(Value::as_f64).collect::<Option<Vec<f64>>>()

@@ -1,13 +1,13 @@
 //! The sensitivity and the search as files and the page show them.
 
 use super::{BEST, Candidate, SEED, Sensitivity, Tried};
-use crate::say::short;
-use brinell::paper::{RANGES, READ_AS, RECORDS, SEARCHED, Values, Verdict, claims};
+use crate::{RANGES, READ_AS, RECORDS, SEARCHED, Values, Verdict, claims};
+use brinell_report::short;
 use brinell_report::{Chapter, StudyPiece, Table};
 use serde_json::{Value, json};
 
 impl Sensitivity {
-    pub(in super::super) fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         let candidate = |c: &Candidate| {
             let settings: serde_json::Map<String, Value> = c
                 .draw
@@ -48,7 +48,7 @@ impl Sensitivity {
     }
 
     /// The page's chapters.
-    pub(in super::super) fn chapters(&self) -> Vec<Chapter> {
+    pub(crate) fn chapters(&self) -> Vec<Chapter> {
         vec![
             Chapter {
                 id: "sensitivity".into(),
@@ -140,7 +140,7 @@ impl Sensitivity {
     }
 
     /// What the search says, in a sentence or two.
-    pub(in super::super) fn found(&self) -> String {
+    pub(crate) fn found(&self) -> String {
         let Some(best) = self.candidates.first() else {
             return "No set came through the search.".into();
         };

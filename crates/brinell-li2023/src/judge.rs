@@ -1,8 +1,8 @@
 //! How a claim is decided from numbers.
 
-use super::claim::{Check, Claim, Statement};
-use super::numbers::{Number, Numbers};
-use super::verdict::{Verdict, between, follows, greater, over};
+use crate::claim::{Check, Claim, Statement};
+use crate::numbers::{Number, Numbers};
+use crate::verdict::{Verdict, between, follows, greater, over};
 
 /// A number of ours behind a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +37,11 @@ impl Judged {
     /// The verdict in words, with what it is conditional on: "undecided: holds if the RMS includes the start-up".
     pub fn words(&self, claim: &Claim) -> String {
         let mut words = self.verdict.words().to_owned();
-        if let Some(other) = claim.otherwise.filter(|_| self.verdict != self.plain) {
+        if let Some(other) = claim
+            .otherwise
+            .as_ref()
+            .filter(|_| self.verdict != self.plain)
+        {
             words += &format!(": holds {}", other.words);
         }
         if !claim.under.is_empty() && self.verdict != Verdict::Missing {
@@ -55,8 +59,8 @@ pub fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
         let verdicts: Vec<Verdict> = decided.iter().map(|s| s.0).collect();
         (Verdict::of_all(&verdicts), decided)
     };
-    let (plain, statements) = all(claim.statements);
-    let otherwise = claim.otherwise.map(|other| all(other.statements));
+    let (plain, statements) = all(&claim.statements);
+    let otherwise = claim.otherwise.as_ref().map(|other| all(&other.statements));
     let turned = matches!(plain, Verdict::Fails | Verdict::Partly)
         && otherwise
             .as_ref()
@@ -91,7 +95,7 @@ fn found(case: &str, name: &str, number: Option<Number>) -> Found {
     }
 }
 
-fn quotient(what: String, ratio: Option<crate::signal::ratio::Ratio>) -> Found {
+fn quotient(what: String, ratio: Option<brinell::signal::ratio::Ratio>) -> Found {
     Found {
         what,
         value: ratio.map(|r| r.value),
@@ -144,7 +148,11 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             });
             (verdict, vec![quotient(quotient_words(of, from), ratio)])
         }
-        Check::Apart { cases, name, least } => match ends(cases, name, numbers) {
+        Check::Apart {
+            ref cases,
+            name,
+            least,
+        } => match ends(cases, name, numbers) {
             Ok((most, smallest)) => {
                 let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
                 let apart = most.1.value - smallest.1.value;
@@ -161,7 +169,11 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             }
             Err(missing) => (Verdict::Missing, vec![missing]),
         },
-        Check::Follows { trend, cases, name } => {
+        Check::Follows {
+            trend,
+            ref cases,
+            name,
+        } => {
             let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
             let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
             let steps: Vec<_> = values.windows(2).map(step).collect();
@@ -171,7 +183,11 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
                 .collect();
             (follows(trend, &steps), all)
         }
-        Check::Changes { cases, name, times } => match ends(cases, name, numbers) {
+        Check::Changes {
+            ref cases,
+            name,
+            times,
+        } => match ends(cases, name, numbers) {
             Ok((most, least)) => {
                 let ratio = over(most.1, least.1);
                 let what = format!("{} / {}: {name}", most.0, least.0);
@@ -216,11 +232,11 @@ fn ends(cases: &[&'static str], name: &str, numbers: &Numbers) -> Result<(At, At
 
 #[cfg(test)]
 mod tests {
-    use super::super::claim::Otherwise;
-    use super::super::verdict::Trend;
-    use super::super::{case, claims};
     use super::*;
-    use crate::signal::Interval;
+    use crate::claim::Otherwise;
+    use crate::verdict::Trend;
+    use crate::{case, claims};
+    use brinell::signal::Interval;
 
     fn scattered(center: f64) -> Number {
         Number {
@@ -233,12 +249,12 @@ mod tests {
         }
     }
 
-    fn of(check: Check, values: &[(&str, f64)]) -> Verdict {
+    fn of(check: &Check, values: &[(&str, f64)]) -> Verdict {
         let mut numbers = Numbers::default();
         for (case, value) in values {
             numbers.insert(case, "q.rms", scattered(*value));
         }
-        decide(&check, &numbers).0
+        decide(check, &numbers).0
     }
 
     #[test]
@@ -249,96 +265,96 @@ mod tests {
             paper: 10.0,
             share: 0.1,
         };
-        assert_eq!(of(near, &[("a", 10.2)]), Verdict::Holds);
-        assert_eq!(of(near, &[("a", 11.0)]), Verdict::Undecided);
-        assert_eq!(of(near, &[("a", 13.0)]), Verdict::Fails);
-        assert_eq!(of(near, &[]), Verdict::Missing);
+        assert_eq!(of(&near, &[("a", 10.2)]), Verdict::Holds);
+        assert_eq!(of(&near, &[("a", 11.0)]), Verdict::Undecided);
+        assert_eq!(of(&near, &[("a", 13.0)]), Verdict::Fails);
+        assert_eq!(of(&near, &[]), Verdict::Missing);
         let greater = Check::Greater {
             of: ("a", "q.rms"),
             than: ("b", "q.rms"),
         };
-        assert_eq!(of(greater, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
-        assert_eq!(of(greater, &[("a", 1.0), ("b", 1.0)]), Verdict::Undecided);
-        assert_eq!(of(greater, &[("a", 1.0), ("b", 2.0)]), Verdict::Fails);
-        assert_eq!(of(greater, &[("a", 1.0)]), Verdict::Missing);
+        assert_eq!(of(&greater, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
+        assert_eq!(of(&greater, &[("a", 1.0), ("b", 1.0)]), Verdict::Undecided);
+        assert_eq!(of(&greater, &[("a", 1.0), ("b", 2.0)]), Verdict::Fails);
+        assert_eq!(of(&greater, &[("a", 1.0)]), Verdict::Missing);
         let ratio = Check::Ratio {
             of: ("a", "q.rms"),
             to: ("b", "q.rms"),
             low: 1.0,
             high: 1.1,
         };
-        assert_eq!(of(ratio, &[("a", 1.05), ("b", 1.0)]), Verdict::Holds);
-        assert_eq!(of(ratio, &[("a", 1.1), ("b", 1.0)]), Verdict::Undecided);
-        assert_eq!(of(ratio, &[("a", 1.5), ("b", 1.0)]), Verdict::Fails);
+        assert_eq!(of(&ratio, &[("a", 1.05), ("b", 1.0)]), Verdict::Holds);
+        assert_eq!(of(&ratio, &[("a", 1.1), ("b", 1.0)]), Verdict::Undecided);
+        assert_eq!(of(&ratio, &[("a", 1.5), ("b", 1.0)]), Verdict::Fails);
         let follows = Check::Follows {
             trend: Trend::Rises,
-            cases: &["a", "b", "c"],
+            cases: vec!["a", "b", "c"],
             name: "q.rms",
         };
         assert_eq!(
-            of(follows, &[("a", 1.0), ("b", 2.0), ("c", 3.0)]),
+            of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 3.0)]),
             Verdict::Holds
         );
         assert_eq!(
-            of(follows, &[("a", 1.0), ("b", 2.0), ("c", 2.0)]),
+            of(&follows, &[("a", 1.0), ("b", 2.0), ("c", 2.0)]),
             Verdict::Undecided
         );
         assert_eq!(
-            of(follows, &[("a", 1.0), ("b", 3.0), ("c", 2.0)]),
+            of(&follows, &[("a", 1.0), ("b", 3.0), ("c", 2.0)]),
             Verdict::Fails
         );
-        assert_eq!(of(follows, &[("a", 1.0), ("c", 2.0)]), Verdict::Missing);
+        assert_eq!(of(&follows, &[("a", 1.0), ("c", 2.0)]), Verdict::Missing);
         let changes = Check::Changes {
-            cases: &["a", "b", "c"],
+            cases: vec!["a", "b", "c"],
             name: "q.rms",
             times: 1.5,
         };
         assert_eq!(
-            of(changes, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
+            of(&changes, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
             Verdict::Holds
         );
         assert_eq!(
-            of(changes, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
+            of(&changes, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
             Verdict::Undecided
         );
         assert_eq!(
-            of(changes, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
+            of(&changes, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
             Verdict::Fails
         );
-        assert_eq!(of(changes, &[("a", 1.1)]), Verdict::Missing);
+        assert_eq!(of(&changes, &[("a", 1.1)]), Verdict::Missing);
         let differs = Check::Differs {
             of: ("a", "q.rms"),
             from: ("b", "q.rms"),
             times: 1.5,
         };
-        assert_eq!(of(differs, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
-        assert_eq!(of(differs, &[("a", 1.0), ("b", 2.0)]), Verdict::Holds);
-        assert_eq!(of(differs, &[("a", 1.5), ("b", 1.0)]), Verdict::Undecided);
-        assert_eq!(of(differs, &[("a", 1.1), ("b", 1.0)]), Verdict::Fails);
-        assert_eq!(of(differs, &[("a", 1.1)]), Verdict::Missing);
+        assert_eq!(of(&differs, &[("a", 2.0), ("b", 1.0)]), Verdict::Holds);
+        assert_eq!(of(&differs, &[("a", 1.0), ("b", 2.0)]), Verdict::Holds);
+        assert_eq!(of(&differs, &[("a", 1.5), ("b", 1.0)]), Verdict::Undecided);
+        assert_eq!(of(&differs, &[("a", 1.1), ("b", 1.0)]), Verdict::Fails);
+        assert_eq!(of(&differs, &[("a", 1.1)]), Verdict::Missing);
         let apart = Check::Apart {
-            cases: &["a", "b", "c"],
+            cases: vec!["a", "b", "c"],
             name: "q.rms",
             least: 0.5,
         };
         assert_eq!(
-            of(apart, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
+            of(&apart, &[("a", 2.0), ("b", 1.0), ("c", 1.5)]),
             Verdict::Holds
         );
         assert_eq!(
-            of(apart, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
+            of(&apart, &[("a", 1.5), ("b", 1.0), ("c", 1.2)]),
             Verdict::Undecided
         );
         assert_eq!(
-            of(apart, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
+            of(&apart, &[("a", 1.1), ("b", 1.0), ("c", 1.0)]),
             Verdict::Fails
         );
-        assert_eq!(of(apart, &[("a", 1.1)]), Verdict::Missing);
+        assert_eq!(of(&apart, &[("a", 1.1)]), Verdict::Missing);
     }
 
     #[test]
     fn prop_another_reading_makes_a_failure_undecided_and_says_so() {
-        const AS_READ: &[Statement] = &[Statement {
+        let as_read = vec![Statement {
             words: "near",
             check: Check::Near {
                 case: "a",
@@ -347,7 +363,7 @@ mod tests {
                 share: 0.1,
             },
         }];
-        const OTHER: &[Statement] = &[Statement {
+        let other = vec![Statement {
             words: "near",
             check: Check::Near {
                 case: "b",
@@ -357,13 +373,13 @@ mod tests {
             },
         }];
         let claim = Claim {
-            statements: AS_READ,
+            statements: as_read,
             under: "under a guess",
             otherwise: Some(Otherwise {
                 words: "if b",
-                statements: OTHER,
+                statements: other,
             }),
-            ..Claim::USUAL
+            ..Claim::default()
         };
         let words = |a: f64, b: Option<f64>| {
             let mut numbers = Numbers::default();

@@ -1,9 +1,12 @@
-//! Claims as data: a sentence, and what is checked of it.
+//! Claims as data: a sentence, and what is checked of it. They stand in `claims.toml`.
 
-use super::verdict::Trend;
+use crate::verdict::Trend;
+use serde::Deserialize;
+use std::sync::LazyLock;
 
-/// How a statement is checked. Names are those of [`crate::campaign::quantities`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How a statement is checked. Names are those of [`brinell::campaign::quantities`].
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Check {
     /// A number of a case lies within `share` of the paper's.
     Near {
@@ -39,7 +42,7 @@ pub enum Check {
         /// The trend.
         trend: Trend,
         /// The cases, in order.
-        cases: &'static [&'static str],
+        cases: Vec<&'static str>,
         /// The number.
         name: &'static str,
     },
@@ -55,7 +58,7 @@ pub enum Check {
     /// A number's largest value along cases exceeds its smallest by so much.
     Apart {
         /// The cases.
-        cases: &'static [&'static str],
+        cases: Vec<&'static str>,
         /// The number.
         name: &'static str,
         /// Least difference, in the number's unit.
@@ -64,7 +67,7 @@ pub enum Check {
     /// A number's largest value along cases is at least `times` its smallest.
     Changes {
         /// The cases.
-        cases: &'static [&'static str],
+        cases: Vec<&'static str>,
         /// The number.
         name: &'static str,
         /// Least ratio.
@@ -73,7 +76,8 @@ pub enum Check {
 }
 
 /// One checkable statement.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Statement {
     /// In words.
     pub words: &'static str,
@@ -82,9 +86,11 @@ pub struct Statement {
 }
 
 /// What a verdict is a finding about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Basis {
     /// The motion of the bearing.
+    #[default]
     Dynamics,
     /// The shapes that go in, before anything moves.
     Shapes,
@@ -104,20 +110,24 @@ impl Basis {
 }
 
 /// Another reading of a sentence, under which it may hold.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Otherwise {
     /// "if the RMS includes the start-up".
     pub words: &'static str,
     /// What is checked.
-    pub statements: &'static [Statement],
+    pub statements: Vec<Statement>,
 }
 
 /// A sentence of the paper.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Claim {
     /// What its verdict is about.
+    #[serde(default)]
     pub basis: Basis,
     /// What the verdict is conditional on, after a comma; may be empty.
+    #[serde(default)]
     pub under: &'static str,
     /// Another reading. Where the sentence does not hold as read first and does under this one, it is undecided.
     pub otherwise: Option<Otherwise>,
@@ -128,39 +138,42 @@ pub struct Claim {
     /// Its words, shortened at most.
     pub sentence: &'static str,
     /// The paper's figures, where it prints any.
+    #[serde(default)]
     pub paper: &'static str,
     /// What is checked; none where no number decides the sentence.
-    pub statements: &'static [Statement],
+    #[serde(default)]
+    pub statements: Vec<Statement>,
     /// What to know about it: how it was read, or why it cannot be checked and what was looked at instead.
+    #[serde(default)]
     pub note: &'static str,
 }
 
-impl Claim {
-    /// What a claim has if it says nothing else.
-    pub const USUAL: Self = Self {
-        basis: Basis::Dynamics,
-        under: "",
-        otherwise: None,
-        id: "",
-        place: "",
-        sentence: "",
-        paper: "",
-        statements: &[],
-        note: "",
-    };
+static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields, bound(deserialize = "'de: 'static"))]
+    struct File {
+        claim: Vec<Claim>,
+    }
+    let file: File = crate::data("claims.toml", include_str!("claims.toml"));
+    file.claim
+});
+
+/// Every claim, in the paper's order.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    CLAIMS.iter()
 }
 
 impl Check {
     /// Cases that it needs.
     pub fn cases(&self) -> Vec<&'static str> {
-        match *self {
-            Self::Near { case, .. } => vec![case],
+        match self {
+            Self::Near { case, .. } => vec![*case],
             Self::Greater { of, than } => vec![of.0, than.0],
             Self::Ratio { of, to, .. } => vec![of.0, to.0],
             Self::Differs { of, from, .. } => vec![of.0, from.0],
             Self::Follows { cases, .. }
             | Self::Changes { cases, .. }
-            | Self::Apart { cases, .. } => cases.to_vec(),
+            | Self::Apart { cases, .. } => cases.clone(),
         }
     }
 }
@@ -168,7 +181,7 @@ impl Check {
 impl Claim {
     /// Cases that it needs.
     pub fn cases(&self) -> Vec<&'static str> {
-        let other = self.otherwise.iter().flat_map(|o| o.statements);
+        let other = self.otherwise.iter().flat_map(|o| &o.statements);
         let mut all: Vec<_> = self
             .statements
             .iter()
@@ -178,5 +191,68 @@ impl Claim {
         all.sort_unstable();
         all.dedup();
         all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::claims;
+
+    /// The paper's running text on one line, without emphasis and the captions that stand between its lines. `None` where it is not beside the
+    /// project, of which it is no part.
+    fn paper() -> Option<String> {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/paper.txt");
+        let text = std::fs::read_to_string(path).ok()?;
+        let running = |line: &str| match line.trim_start().strip_prefix("Fig. ") {
+            Some(_) => String::new(),
+            // A caption that follows the end of a column.
+            None => match line.find("Fig. 10 Comparisons") {
+                Some(at) => line[..at].to_owned(),
+                None => line.to_owned(),
+            },
+        };
+        let lines: Vec<String> = text.lines().map(running).collect();
+        let text = lines.join(" ").replace('*', "");
+        let words: Vec<&str> = text.split_whitespace().collect();
+        // Broken at a line's end.
+        Some(words.join(" ").replace("inner/ outer", "inner/outer"))
+    }
+
+    /// What a sentence quotes: everything but what stands in brackets, unless that is a number, as in "Ref. [43]".
+    fn quoted(sentence: &str) -> Vec<String> {
+        let mut pieces = vec![String::new()];
+        for (k, part) in sentence.split('[').enumerate() {
+            let (inside, after) = part.split_once(']').unwrap_or(("", part));
+            let last = pieces.len() - 1;
+            if k == 0 {
+                pieces[last].push_str(part);
+            } else if inside.bytes().all(|b| b.is_ascii_digit()) {
+                pieces[last].push_str(&format!("[{part}"));
+            } else {
+                pieces.push(after.to_owned());
+            }
+        }
+        let pieces = pieces.iter().map(|piece| piece.trim());
+        let said = pieces.filter(|piece| piece.contains(char::is_alphanumeric));
+        said.map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn lit_sentences_are_the_papers_to_the_letter() {
+        assert_eq!(
+            quoted("a [x] b [43] c [...], [our words]."),
+            ["a", "b [43] c"]
+        );
+        let Some(paper) = paper() else {
+            eprintln!("skipped: the paper's text is not beside the project");
+            return;
+        };
+        for claim in claims() {
+            let pieces = quoted(claim.sentence);
+            assert!(!pieces.is_empty(), "{}", claim.id);
+            for piece in pieces {
+                assert!(paper.contains(&piece), "{}: {piece:?}", claim.id);
+            }
+        }
     }
 }

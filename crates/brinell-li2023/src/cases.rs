@@ -1,0 +1,201 @@
+//! The scenarios behind the paper's figures. They stand in `cases.toml`.
+
+use crate::outline::Outline;
+use serde::Deserialize;
+use std::sync::LazyLock;
+
+/// The scenario that every case changes (TOML).
+pub const BASE: &str = include_str!("nn3007.toml");
+
+/// One scenario: [`BASE`] with settings over it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// How claims and files call it.
+    pub id: &'static str,
+    /// How legends call it.
+    pub label: &'static str,
+    /// Speed of the inner ring, r/min.
+    pub rpm: f64,
+    /// Key and value over [`BASE`].
+    #[serde(default)]
+    pub settings: Vec<(&'static str, &'static str)>,
+    /// Greatest width of its irregular defect, mm; `None` where its defect is another.
+    pub irregular_width_mm: Option<f64>,
+}
+
+impl Case {
+    /// Everything that it sets over [`BASE`], `more` below its own, its irregular defect in a reading of Eq. (27).
+    pub fn over(&self, more: &[(String, String)], outline: Outline) -> Vec<(String, String)> {
+        let own = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
+        let mut settings: Vec<(String, String)> = more.to_vec();
+        settings.extend(self.settings.iter().map(own));
+        if let Some(shape) = self.irregular_width_mm.and_then(|mm| outline.shape(mm)) {
+            settings.retain(|(key, _)| key != SHAPE);
+            settings.push((SHAPE.to_owned(), shape));
+        }
+        settings
+    }
+}
+
+/// How long a case runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Length {
+    /// So many turns of the inner ring whose statistics count, and [`Length::SHORTEST_S`] at least.
+    Turns(u32),
+    /// So long, s.
+    Seconds(f64),
+}
+
+impl Length {
+    /// For the whole reproduction.
+    pub const FULL: Self = Self::Turns(240);
+    /// With wider intervals.
+    pub const QUICK: Self = Self::Turns(40);
+    /// For variants of assumptions, each of which needs every case.
+    pub const VARIANT: Self = Self::Turns(24);
+    /// The same, quick.
+    pub const QUICK_VARIANT: Self = Self::Turns(12);
+    /// Holds a record of 0.3 s from t = 0.
+    pub const SHORTEST_S: f64 = 0.301;
+    /// For cases about the start, and for sets of a search.
+    pub const START: Self = Self::Seconds(Self::SHORTEST_S);
+
+    /// Simulated time at a speed, s. Statistics begin after the load ramp, 0.02 s, and one turn.
+    pub fn duration_s(self, rpm: f64) -> f64 {
+        let turns = match self {
+            Self::Turns(turns) => turns,
+            Self::Seconds(seconds) => return seconds,
+        };
+        let turn = 60.0 / rpm;
+        // A hair more, so that the last turn is whole in spite of round-off and sampling.
+        let exact = turn.max(0.02) + (f64::from(turns) + 1.05) * turn;
+        ((1e3 * exact).ceil() / 1e3).max(Self::SHORTEST_S)
+    }
+
+    /// "240 turns of the shaft".
+    pub fn words(self) -> String {
+        match self {
+            Self::Turns(turns) => format!("{turns} turns of the shaft"),
+            Self::Seconds(seconds) => format!("{seconds} s"),
+        }
+    }
+}
+
+const SHAPE: &str = "defects.0.shape";
+/// Every scenario of section 4, once.
+pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| file().case);
+
+/// The same bearing looked at from t = 0 on, start-up included.
+pub static STARTS: LazyLock<Vec<Case>> = LazyLock::new(|| file().start);
+
+/// Section 4, in its order.
+pub static EXPERIMENTS: LazyLock<Vec<Experiment>> = LazyLock::new(|| file().experiment);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, bound(deserialize = "'de: 'static"))]
+struct File {
+    case: Vec<Case>,
+    start: Vec<Case>,
+    experiment: Vec<Experiment>,
+}
+
+fn file() -> File {
+    crate::data("cases.toml", include_str!("cases.toml"))
+}
+
+/// A case by its id.
+pub fn case(id: &str) -> Option<&'static Case> {
+    CASES.iter().chain(STARTS.iter()).find(|case| case.id == id)
+}
+
+/// How long a case runs where the others run `length`: those about the start need no more than that.
+pub fn length_of(case: &Case, length: Length) -> Length {
+    if STARTS.iter().any(|start| start.id == case.id) {
+        Length::START
+    } else {
+        length
+    }
+}
+
+/// What a figure or several of them show.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// The figures.
+    pub figures: Vec<u32>,
+    /// Heading.
+    pub title: &'static str,
+    /// The cases, in the order of colours and of the x axis.
+    pub cases: Vec<&'static str>,
+    /// Along x where the cases are steps of one quantity: its name, its unit, and its values.
+    pub steps: Option<(&'static str, &'static str, Vec<f64>)>,
+    /// What the paper sets, and what stands here.
+    pub words: &'static str,
+}
+
+/// Figures that can be reproduced.
+pub const FIGURES: std::ops::RangeInclusive<u32> = 8..=20;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use brinell::document;
+    use brinell::scenario::Shape;
+
+    #[test]
+    fn prop_every_case_is_a_sound_scenario_without_warnings() {
+        for case in CASES.iter().chain(STARTS.iter()) {
+            let settings: Vec<_> = case
+                .settings
+                .iter()
+                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
+                .collect();
+            let loaded =
+                document::read(BASE, &settings).unwrap_or_else(|e| panic!("{}: {e:?}", case.id));
+            assert_eq!(
+                loaded.scenario.operation.speed_rpm,
+                brinell::scenario::Speed::Constant(case.rpm)
+            );
+            let width = match loaded.scenario.defects[0].shape {
+                Shape::Li2023Irregular { max_width_mm } => Some(max_width_mm),
+                _ => None,
+            };
+            assert_eq!(case.irregular_width_mm, width, "{}", case.id);
+        }
+    }
+
+    #[test]
+    fn prop_experiments_name_cases_and_cover_the_figures() {
+        let mut figures: Vec<u32> = Vec::new();
+        for experiment in EXPERIMENTS.iter() {
+            figures.extend(&experiment.figures);
+            assert!(experiment.cases.iter().all(|id| case(id).is_some()));
+            if let Some((_, _, values)) = &experiment.steps {
+                assert_eq!(values.len(), experiment.cases.len());
+            }
+        }
+        assert_eq!(figures, FIGURES.collect::<Vec<_>>());
+        let all: Vec<&Case> = CASES.iter().chain(STARTS.iter()).collect();
+        for (k, one) in all.iter().enumerate() {
+            assert!(all[..k].iter().all(|other| other.id != one.id));
+            assert!(
+                EXPERIMENTS.iter().any(|e| e.cases.contains(&one.id)),
+                "{}",
+                one.id
+            );
+        }
+    }
+
+    #[test]
+    fn analytic_lengths_hold_their_turns() {
+        // 1800 r/min: a turn is 1/30 s, longer than the ramp; 40 turns, the one before, and a hair.
+        let duration = Length::QUICK.duration_s(1800.0);
+        assert!((42.0 / 30.0..42.2 / 30.0).contains(&duration), "{duration}");
+        // 5000 r/min: the ramp of 0.02 s is longer than a turn of 0.012 s.
+        let duration = Length::QUICK.duration_s(5000.0);
+        assert!((0.02 + 41.0 * 0.012..0.02 + 41.2 * 0.012).contains(&duration));
+        // And 12 turns at 5000 r/min would not hold a record of 0.3 s.
+        assert_eq!(Length::QUICK_VARIANT.duration_s(5000.0), Length::SHORTEST_S);
+    }
+}

@@ -1,0 +1,63 @@
+//! Cases as runs to be made.
+
+use crate::{BASE, Case, Error, Length, Numbers, Outline, Runs, length_of};
+use brinell::campaign::fingerprint;
+use brinell::document;
+use brinell::scenario::Scenario;
+
+/// A case under assumptions, ready to run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The case.
+    pub case: &'static Case,
+    /// Key and value of everything that is set over [`BASE`].
+    pub settings: Vec<(String, String)>,
+    /// Of its scenario: what its run is filed under.
+    pub fingerprint: String,
+    /// Simulated time, s.
+    pub duration_s: f64,
+}
+
+impl Point {
+    /// A case with `more` settings below its own, its irregular defect in a reading of Eq. (27). What it sets itself, its shape or its load,
+    /// stays.
+    pub(crate) fn new(
+        case: &'static Case,
+        more: &[(String, String)],
+        outline: Outline,
+        length: Length,
+    ) -> Result<Self, Error> {
+        let mut settings = case.over(more, outline);
+        let duration = length_of(case, length).duration_s(case.rpm);
+        settings.push(("simulation.duration_s".into(), format!("{duration:?}")));
+        Ok(Self {
+            case,
+            fingerprint: fingerprint(&scenario(&settings)?),
+            duration_s: duration,
+            settings,
+        })
+    }
+}
+
+/// The scenario that settings over [`BASE`] make.
+///
+/// # Errors
+/// Where a setting is not one that a scenario allows.
+pub fn scenario(settings: &[(String, String)]) -> Result<Scenario, Error> {
+    let loaded = document::read(BASE, settings).map_err(Error::Scenario)?;
+    Ok(loaded.scenario)
+}
+
+/// Numbers of all points that are finished.
+pub(crate) fn numbers<'a>(
+    points: impl IntoIterator<Item = &'a Point>,
+    runs: &impl Runs,
+) -> Numbers {
+    let mut numbers = Numbers::default();
+    for point in points {
+        if let Some(row) = runs.row(&point.fingerprint) {
+            numbers.add(point.case.id, row);
+        }
+    }
+    numbers
+}

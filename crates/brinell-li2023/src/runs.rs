@@ -1,0 +1,34 @@
+//! What makes the runs of a reproduction and keeps their numbers, from outside: this crate knows neither threads nor a journal.
+
+use crate::{Error, Point};
+use brinell::campaign::Row;
+use std::ops::ControlFlow;
+
+/// What a batch of runs is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// The cases, and the same under each unstated assumption.
+    Cases,
+    /// A batch of a search for a set of assumptions: one of many.
+    Search,
+    /// All cases under the best sets of the search.
+    Best,
+}
+
+/// Makes runs and keeps their numbers.
+pub trait Runs {
+    /// Why a run could not be made or kept. A run that fails is a row like another.
+    type Error: From<Error>;
+
+    /// What is known of a finished run, by [`Point::fingerprint`].
+    fn row(&self, fingerprint: &str) -> Option<&Row>;
+
+    /// Makes those of the runs that are not finished, each once; `Break` where that was interrupted.
+    ///
+    /// # Errors
+    /// Where the runs cannot be made or kept.
+    fn make(&mut self, points: &[&Point], stage: Stage) -> Result<ControlFlow<()>, Self::Error>;
+
+    /// The searches begin; they look at `sets` sets of assumptions at most.
+    fn search_begins(&mut self, sets: usize);
+}
