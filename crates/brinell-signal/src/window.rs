@@ -52,6 +52,9 @@ impl Window {
 
     /// For a transform of `length` samples.
     pub fn periodic(self, length: usize) -> Vec<f64> {
+        if self == Window::Rectangular {
+            return vec![1.0; length];
+        }
         let n = length as f64;
         if self == Window::Hann {
             return (0..length)

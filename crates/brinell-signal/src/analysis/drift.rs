@@ -11,9 +11,10 @@
 
 use super::known_lines::near_mains;
 use super::together::{Envelopes, FLOOR, HARMONICS, apart, running_median};
-use super::{AnalysisError, Options};
+use super::Options;
 use crate::lengths::fast_from;
-use crate::{Detrend, Rotation, Segments, SignalError, Window, psd};
+use crate::spectrum::SegmentTransform;
+use crate::{Detrend, Rotation, SignalError, Window};
 
 /// Revolutions of a stretch.
 const TURNS: f64 = 16.0;
@@ -127,40 +128,26 @@ impl Drift {
 }
 
 /// Drift of the shaft's speed by lines at its harmonics in `x`, a signal less its mean.
-pub(super) fn by_shaft(
-    x: &[f64],
-    fs: f64,
-    options: &Options,
-) -> Result<Option<Drift>, AnalysisError> {
-    let Some(stretches) = Stretches::of(&[x], fs, options)? else {
-        return Ok(None);
-    };
+pub(super) fn by_shaft(x: &[f64], fs: f64, options: &Options) -> Option<Drift> {
+    let stretches = Stretches::of(&[x], fs, options)?;
     let orders: Vec<f64> = (1..=OF_SHAFT).map(|h| h as f64).collect();
-    Ok(stretches.drift(&orders, "shaft", true).map(|found| found.1))
+    stretches.drift(&orders, "shaft", true).map(|found| found.1)
 }
 
 /// The same by the lines of a defect frequency in the envelopes of all bands: of the one that gains most.
-pub(super) fn by_families(
-    envelopes: &Envelopes,
-    options: &Options,
-) -> Result<Option<Drift>, AnalysisError> {
+pub(super) fn by_families(envelopes: &Envelopes, options: &Options) -> Option<Drift> {
     let values: Vec<&[f64]> = envelopes.each.iter().map(|e| &e.1.values[..]).collect();
-    let Some(stretches) = Stretches::of(&values, envelopes.rate, options)? else {
-        return Ok(None);
-    };
+    let stretches = Stretches::of(&values, envelopes.rate, options)?;
     let drifts = (options.orders.strikes()).filter_map(|(_, name, order)| {
         let orders: Vec<f64> = (1..=HARMONICS).map(|h| h as f64 * order).collect();
         stretches.drift(&orders, name, false)
     });
     let highest = drifts.max_by(|a, b| a.0.total_cmp(&b.0));
     let beyond_slip = |d: &Drift| d.highest().1 - d.lowest().1 > SLIP * d.mean();
-    Ok(highest
-        .filter(|(_, d)| beyond_slip(d))
-        .map(|(_, mut drift)| {
-            let factor = options.shaft / drift.mean();
-            drift.course.iter_mut().for_each(|p| p.1 *= factor);
-            drift
-        }))
+    let (_, mut drift) = highest.filter(|(_, d)| beyond_slip(d))?;
+    let factor = options.shaft / drift.mean();
+    drift.course.iter_mut().for_each(|p| p.1 *= factor);
+    Some(drift)
 }
 
 /// Spectra of successive stretches.
@@ -176,14 +163,12 @@ struct Stretches<'a> {
 
 impl<'a> Stretches<'a> {
     /// Of signals of one length, as bands' envelopes, that count alike; `None` where they are too short.
-    fn of(signals: &[&[f64]], fs: f64, options: &'a Options) -> Result<Option<Self>, SignalError> {
-        let Some(samples) = signals.first().map(|s| s.len()) else {
-            return Ok(None);
-        };
+    fn of(signals: &[&[f64]], fs: f64, options: &'a Options) -> Option<Self> {
+        let samples = signals.first()?.len();
         let revolutions = samples as f64 / fs * options.shaft;
         let count = ((revolutions / TURNS) as usize).max(FEWEST);
         if revolutions < FEWEST as f64 * FEWEST_TURNS {
-            return Ok(None);
+            return None;
         }
         let length = samples / count;
         let padded = fast_from(PADDED * length);
@@ -195,23 +180,23 @@ impl<'a> Stretches<'a> {
         let independent = PADDED as f64;
         let width = (FLOOR.0 * options.shaft / step).max(FLOOR.1 * independent) as usize;
         let weight = apart(signals.len()).sqrt() / signals.len() as f64;
-        let window = Window::Hann.periodic(length);
-        let whole = Segments {
-            length: padded,
-            overlap: 0.0,
-            window: Window::Rectangular,
-            detrend: Detrend::None,
-        };
-        let mut part = vec![0.0; padded];
+        let mut window = Window::Hann.periodic(length);
+        window.resize(padded, 0.0);
+        // Planned once: there are hundreds of spectra of one length.
+        let mut transform = SegmentTransform::new(window);
         let mut heights = Vec::with_capacity(count);
         for k in 0..count {
             let mut sum: Vec<f64> = Vec::new();
             for signal in signals {
-                part[..length].copy_from_slice(&signal[k * length..(k + 1) * length]);
-                Detrend::Mean.apply(&mut part[..length]);
-                part.iter_mut().zip(&window).for_each(|(v, w)| *v *= w);
-                let mut power = psd(&part, fs, &whole)?.density;
-                power.truncate(bins);
+                let part = &mut transform.input[..length];
+                part.copy_from_slice(&signal[k * length..(k + 1) * length]);
+                Detrend::Mean.apply(part);
+                // The window is zero beyond; what an earlier transform left there is not.
+                transform.input[length..].fill(0.0);
+                let spectrum = transform.windowed_input();
+                let power: Vec<f64> = (spectrum.iter().take(bins))
+                    .map(|line| line.norm_sqr())
+                    .collect();
                 sum.resize(power.len(), 0.0);
                 // The median of an exponential distribution is ln 2 of its mean.
                 let floor = running_median(&power, width.min(power.len()));
@@ -222,12 +207,12 @@ impl<'a> Stretches<'a> {
             }
             heights.push(sum);
         }
-        Ok(Some(Stretches {
+        Some(Stretches {
             heights,
             step,
             seconds: length as f64 / fs,
             options,
-        }))
+        })
     }
 
     /// The course that lines at `orders` tell, where it is a drift, and what it gains.

@@ -265,7 +265,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             None => known_lines::shaft(&x, fs, options),
         });
         let drift = scope.spawn(|| match options.rotation.is_some() || options.exact {
-            true => Ok(None),
+            true => None,
             false => drift::by_shaft(&x, fs, options),
         });
         // As much as is transformed fast, with a trace of noise.
@@ -286,12 +286,12 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let transformed = transformed?.dithered(DITHER);
     let samples = x.len();
     drop(x);
-    let mut drift = drift?;
+    let mut drift = drift;
     let range = bands::range(fs, options)?;
     let mut envelopes = Envelopes::of(&transformed, range, shaft, options)?;
     let known = options.rotation.is_some() || options.exact;
     if drift.is_none() && shaft_lines.is_empty() && !known {
-        drift = drift::by_families(&envelopes, options)?;
+        drift = drift::by_families(&envelopes, options);
     }
     let tolerance = match shaft_lines.is_empty() || options.exact {
         true => 0.0,
