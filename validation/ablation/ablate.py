@@ -42,10 +42,13 @@ def together(words, *names):
 
 variant("plain sum over harmonics", ("family.rs", "sum += least;", "sum += ratio.max(f64::MIN_POSITIVE).ln();"))
 variant("no modulation asked of a high score", ("family.rs", "const FAINT: f64 = 0.14;", "const FAINT: f64 = 0.0;"))
-variant("no score limit: 14 % suffices beyond noise", ("family.rs", "(SCORE + HARMONICS as f64 * shorter.ln()).max(noise)", "noise"))
+variant("no score limit: 14 % suffices beyond noise", ("family.rs", "let limit = SCORE.max(noise);", "let limit = noise;"))
 variant("a high score is no way to damage", ("family.rs", "(high || deep) && self", "deep && self"))
 variant("deep modulation is no way to damage", ("family.rs", "(high || deep) && self", "high && self"))
-variant("limit not lowered for short records", ("family.rs", "(revolutions / REVOLUTIONS).min(1.0)", "1.0_f64"))
+variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = self.elsewhere(lead.map(|k| &all[k]));", "let elsewhere: Option<Elsewhere> = None;"))
+variant("speed as given not tried", ("mod.rs", "if !shaft_lines.is_empty() && !options.exact && !is_damage(&families)", "if false"))
+variant("lower parts of the range not tried", ("mod.rs", "if options.band.is_none() && !options.exact && !is_damage(&families)", "if false"))
+variant("no least score", ("family.rs", "const LEAST_SCORE: f64 = 5.0;", "const LEAST_SCORE: f64 = 0.0;"))
 variant("sidebands not counted in modulation", ("family.rs", "depth += line.depth.min(carrier.depth);", ""))
 variant("sidebands not capped by their carrier", ("family.rs", "depth += line.depth.min(carrier.depth);", "depth += line.depth;"))
 variant("one broad band", ("together.rs", "let width = top.max(whole / BANDS).min(whole);", "let width = whole;"))
@@ -62,20 +65,15 @@ variant("an element may run ahead", ("family.rs", "AHEAD.min(tolerance)", "toler
 variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
 variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: outside &&", "is_skirt: false && outside &&"))
 for turns in (60, 30):
-    segments = ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;")
-    # The limit is that of a record of 120 revolutions in one segment.
-    variant(f"segments of {turns} revolutions", segments)
     variant(
-        f"segments of {turns} revolutions, limit as of a record so short",
-        segments,
-        ("family.rs", "(revolutions / REVOLUTIONS).min(1.0)", "(revolutions.min(REVOLUTIONS) / 120.0).min(1.0)"),
+        f"segments of {turns} revolutions",
+        ("together.rs", "const REVOLUTIONS: f64 = 120.0;", f"const REVOLUTIONS: f64 = {turns}.0;"),
     )
 constant("score limit", "family.rs", "SCORE", "14.5", (12.0, 13.0, 16.0))
 constant("deep from", "family.rs", "DEEP", "0.25", (0.2, 0.3))
 constant("faint below", "family.rs", "FAINT", "0.14", (0.1, 0.18))
 WITHOUT_EFFECT = [
     "no modulation asked of a high score",
-    "limit not lowered for short records",
     "sidebands not counted in modulation",
     "only three bins hidden, skirts not followed",
     "an element needs no sidebands",
@@ -83,8 +81,8 @@ WITHOUT_EFFECT = [
     "no least number of lines",
     "skirts of what lies beyond the tolerance not refused",
 ]
-together("eight that change nothing by themselves, at once", *WITHOUT_EFFECT)
-together("the eight, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
+together("seven that change nothing by themselves, at once", *WITHOUT_EFFECT)
+together("the seven, and an element needs no lead", *WITHOUT_EFFECT, "an element needs no lead")
 
 
 def apply(changes, folder):

@@ -79,7 +79,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
     };
     let note = |s: &Spectrum| {
         format!(
-            "Hann window, lines {} Hz apart, {} averages.",
+            "Hann window, lines {} Hz apart, averages: {}.",
             short(s.frequency_step, 3),
             s.segments
         )
@@ -89,7 +89,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
         " Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).",
         a.view.choice.words()
     );
-    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines stand highest; those of damage run through it as dashed lines.";
+    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines stand highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (
@@ -195,7 +195,11 @@ fn facts(result: &Result_) -> Vec<Fact> {
                 ""
             };
             let label = i.name().replace('_', " ");
-            facts.push(Fact::new(capital(&label), e.value, unit, ""));
+            let note = match i {
+                Indicator::Peak => "mean over revolutions",
+                _ => "",
+            };
+            facts.push(Fact::new(capital(&label), e.value, unit, note));
         }
     }
     facts.extend(result.level.fact());
@@ -209,6 +213,9 @@ fn capital(text: &str) -> String {
     }
 }
 
+/// Harmonics of a comb at no frequency of the bearing that are marked.
+const HARMONICS: usize = 5;
+
 fn markers(a: &Analysis) -> Vec<Marker> {
     let marker = |f: &Family| Marker {
         label: f.name.into(),
@@ -217,7 +224,14 @@ fn markers(a: &Analysis) -> Vec<Marker> {
         harmonics: f.harmonics.len(),
         present: f.standing == Standing::Damage,
     };
-    a.families.iter().map(marker).collect()
+    let elsewhere = a.elsewhere.map(|e| Marker {
+        label: "other".into(),
+        meaning: "strongest comb, at no frequency of this bearing".into(),
+        frequency_hz: e.frequency,
+        harmonics: HARMONICS,
+        present: true,
+    });
+    a.families.iter().map(marker).chain(elsewhere).collect()
 }
 
 fn families(a: &Analysis) -> Table {
@@ -226,7 +240,7 @@ fn families(a: &Analysis) -> Table {
         columns: COLUMNS.map(str::to_owned).to_vec(),
         rows: a.rows().into_iter().map(Vec::from).collect(),
         note: format!(
-            "Each within {} % of pure rolling, in the envelope spectra of {} bands averaged over their noise floors; a harmonic stands from 3 dB on. \
+            "Each within {} % of pure rolling, in the envelope spectra of {} bands averaged over their noise floors; a harmonic is present from 3 dB on; one that a line of shaft or mains hides is not counted. \
              Modulation: depth to which lines and sidebands modulate the envelope, over all bands.",
             100.0 * a.options.tolerance,
             a.bands,

@@ -9,9 +9,9 @@
 //! A course of many speeds always has more merit than one speed. It is a drift where it has far more, and where two harmonics say so, each against
 //! the one speed that suits it best: a course that passes from one steady line to another has no harmonic that moves along.
 
+use super::Options;
 use super::known_lines::near_mains;
 use super::together::{Envelopes, FLOOR, HARMONICS, apart, running_median};
-use super::Options;
 use crate::lengths::fast_from;
 use crate::spectrum::SegmentTransform;
 use crate::{Detrend, Rotation, SignalError, Window};
