@@ -27,6 +27,8 @@
 //! # Ok::<(), brinell_damage::DamageError>(())
 //! ```
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 mod contour;
 mod depth;
 mod depth_csv;

@@ -8,6 +8,8 @@
 //! A [`Request`] knows the [`Point`]s to be run, [`Runs`] makes them, and a [`Reproduction`] is what came out: outcomes of the claims, page,
 //! tables, and the book's chapter.
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 mod believe;
 mod book;
 mod cases;

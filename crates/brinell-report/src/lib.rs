@@ -12,6 +12,8 @@
 //! assert!(headline_png(&report).is_ok());
 //! ```
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 mod analysis;
 mod calibrate;
 mod chart;

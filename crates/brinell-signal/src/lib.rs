@@ -49,6 +49,8 @@
 //! its instructions by processor, so between processors spectra may differ in the last bits; decimated signals and
 //! indicators use plain arithmetic and do not.
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 pub mod analysis;
 pub mod blocks;
 pub mod decimate;

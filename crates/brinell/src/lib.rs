@@ -2,6 +2,8 @@
 //!
 //! [`signal`], [`analysis`], [`random`] and [`many`] are those of the crate `brinell-signal`, which knows nothing of the rest.
 
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
 pub mod accuracy;
 pub mod bearing;
 pub mod cage;
