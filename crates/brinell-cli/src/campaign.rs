@@ -6,11 +6,12 @@
 use crate::failure::Failure;
 use crate::progress::{Joint, Progress};
 use crate::recorder::Recorder;
-use brinell::campaign::{Finished, Quantity, Row, fingerprint, finish};
 use brinell::channel::Frame;
+use brinell::result::{Finished, Quantity, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Journal, SignalWriter};
+use brinell_study::campaign::{Row, fingerprint};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;

@@ -13,10 +13,10 @@ use crate::results::{
 };
 use crate::say::{complain, one_line, say, short};
 use crate::{files, page};
-use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
 use brinell::plausibility::{self, Beforehand};
+use brinell::result::{Finished, finish};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};

@@ -2,7 +2,7 @@
 
 use crate::error::DatasetError;
 use crate::sidecar::{put, written};
-use brinell::campaign::digest;
+use brinell_study::campaign::digest;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;

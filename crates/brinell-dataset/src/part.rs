@@ -5,8 +5,8 @@ use crate::columns::DataColumn;
 use crate::error::DatasetError;
 use crate::folder::{CAMPAIGN, FAILED, Folder, NAME, PART, facts_of};
 use crate::row::is_failed;
-use brinell::design::Part;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
+use brinell_study::design::Part;
 use serde_json::{Map, Value, json};
 
 /// Cells of a row group, in bytes: what is in memory at once of a file that is written.

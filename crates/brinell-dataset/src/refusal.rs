@@ -2,8 +2,8 @@
 
 use crate::campaign::Document;
 use crate::error::DatasetError;
-use brinell::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
 use brinell::document::Problem;
+use brinell_study::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
 
 /// That a plan may be run, by what a survey found.
 ///

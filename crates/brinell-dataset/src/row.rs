@@ -4,9 +4,7 @@ use crate::campaign::Campaign;
 use crate::columns::{HEAD, KNOWN, TRUTH};
 use crate::run::Listener;
 use crate::truth::{Instant, Truth};
-use brinell::campaign::fingerprint;
 use brinell::defect::{Defect, Shape};
-use brinell::design::{Draw, Value, unsaid};
 use brinell::document::{Loaded, on_one_line, one_line};
 use brinell::kernel::Kernel;
 use brinell::observe::slip::RowSlip;
@@ -14,6 +12,8 @@ use brinell::scenario::{self, Scenario, Speed, Surface};
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Kind};
+use brinell_study::campaign::fingerprint;
+use brinell_study::design::{Draw, Value, unsaid};
 use serde_json::{Map, Value as Json};
 use std::collections::HashMap;
 
@@ -130,7 +130,8 @@ impl Draft {
             values = draw.values;
         }
         values.resize(draws.parameters().len(), None);
-        let parameter = |(p, value): (&brinell::design::Parameter, Option<Value>)| match value {
+        let parameter = |(p, value): (&brinell_study::design::Parameter, Option<Value>)| match value
+        {
             None => Cell::Empty,
             Some(value) if p.numeric => Cell::number(value.number),
             Some(value) => words(value.words()),

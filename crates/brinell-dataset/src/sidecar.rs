@@ -4,10 +4,10 @@ use crate::campaign::Campaign;
 use crate::card;
 use crate::error::DatasetError;
 use crate::folder::{Folder, SECRET_PATH, file_name, make};
-use brinell::campaign::digest;
-use brinell::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell_io::{IoError, Kind, atomic_write};
+use brinell_study::campaign::digest;
+use brinell_study::design::Part;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 

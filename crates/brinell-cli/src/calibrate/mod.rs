@@ -17,13 +17,13 @@ use crate::run::{make_folder, stop_flag};
 use crate::say::{complain, say, short};
 use crate::sweep::{cost, duration, plural};
 pub(crate) use args::CalibrateArgs;
-use brinell::calibrate::search::latin_hypercube;
-use brinell::calibrate::{
-    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
-};
-use brinell::campaign::fingerprint;
 use brinell::document::Loaded;
 use brinell::simulate::Simulation;
+use brinell_study::calibrate::search::latin_hypercube;
+use brinell_study::calibrate::{
+    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
+};
+use brinell_study::campaign::fingerprint;
 use measured::Pattern;
 use outcome::Outcome;
 use runs::{FromPoints, Runs};
@@ -171,7 +171,7 @@ impl Plan {
         });
         let units = units.collect();
         let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
-        let names = brinell::campaign::names(&middle.scenario, &simulation);
+        let names = brinell::result::names(&middle.scenario, &simulation);
         for target in &targets {
             known(&target.name, &names)?;
         }
@@ -341,7 +341,7 @@ fn tell_reasons(runs: &Runs, plan: &Plan) {
 }
 
 fn start(budget: usize, keys: usize) -> usize {
-    brinell::calibrate::start_size(keys, budget)
+    brinell_study::calibrate::start_size(keys, budget)
 }
 
 /// The files of a calibration.

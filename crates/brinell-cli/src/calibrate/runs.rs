@@ -5,9 +5,10 @@ use crate::campaign::{self, Ledger, Task, Work};
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::progress::Joint;
-use brinell::calibrate::{Answer, Key, Target, Unfit};
-use brinell::campaign::{Finished, Quantity, Row, digest, fingerprint};
+use brinell::result::{Finished, Quantity};
 use brinell::scenario::Scenario;
+use brinell_study::calibrate::{Answer, Key, Target, Unfit};
+use brinell_study::campaign::{Row, digest, fingerprint};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -84,7 +85,7 @@ pub(super) struct Runs<'a> {
 }
 
 impl Runs<'_> {
-    /// For [`brinell::calibrate::fit`].
+    /// For [`brinell_study::calibrate::fit`].
     pub(super) fn ask(&mut self, places: &[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> {
         let wanted: Vec<Result<Task, String>> =
             places.iter().map(|place| self.points.task(place)).collect();

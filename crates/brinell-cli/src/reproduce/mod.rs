@@ -11,13 +11,14 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
 pub(crate) use args::ReproduceArgs;
-use brinell::campaign::{Finished, Quantity, Row};
+use brinell::result::{Finished, Quantity};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_li2023::{
     BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage,
     scenario, write_page,
 };
+use brinell_study::campaign::Row;
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;

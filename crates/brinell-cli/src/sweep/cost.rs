@@ -1,7 +1,7 @@
 //! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the results.
 
 use crate::campaign::{Task, Work};
-use brinell::campaign::finish;
+use brinell::result::finish;
 use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation, SolverWork};
 use std::num::NonZeroUsize;

@@ -13,10 +13,10 @@ use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
-use brinell::campaign::fingerprint;
 use brinell::document::read;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
+use brinell_study::campaign::fingerprint;
 
 use page::usual;
 pub(crate) use page::{plural, told, words};
@@ -153,7 +153,7 @@ fn plan(
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     // A point without a model is a row with its reason, and says nothing of the others' numbers.
     let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| {
-        brinell::campaign::names(&points.example, &simulation)
+        brinell::result::names(&points.example, &simulation)
     });
     for name in &args.plot {
         if names.is_empty() || names.contains(name) {

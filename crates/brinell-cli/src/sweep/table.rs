@@ -1,8 +1,9 @@
 //! The table of a sweep: a row a point, in the plan's order.
 
 use super::points::{Points, signal_file};
-use brinell::campaign::{Quantity, Row, columns};
+use brinell::result::Quantity;
 use brinell_io::{Cells, Column, Table};
+use brinell_study::campaign::{Row, columns};
 
 /// How a point stands.
 pub(super) enum Standing<'a> {

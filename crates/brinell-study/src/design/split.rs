@@ -3,7 +3,7 @@
 use super::draws::Draws;
 use super::plan::Split;
 use super::stream::{bits, word};
-use crate::document::Problem;
+use brinell::document::Problem;
 use std::collections::BTreeMap;
 
 /// Bands of equal probability that a continuous distribution is cut into.

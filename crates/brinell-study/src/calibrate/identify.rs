@@ -7,7 +7,7 @@
 //! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That share is taken
 //! off: a direction that shows no more than noise has no information.
 
-use crate::signal::student_t_quantile;
+use brinell::signal::student_t_quantile;
 use nalgebra::{DMatrix, DVector};
 
 /// An interval that covers so much of a key's range says nothing.

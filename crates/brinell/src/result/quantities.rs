@@ -71,7 +71,7 @@ impl Quantity {
 }
 
 /// Least stiffness of a contact over a defect, as the name's last part.
-pub(super) const LEAST_STIFFNESS: &str = "least_stiffness";
+pub const LEAST_STIFFNESS: &str = "least_stiffness";
 
 /// Harmonics of a defect frequency whose level is told.
 const HARMONICS: usize = 3;

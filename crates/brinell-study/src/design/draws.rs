@@ -6,8 +6,8 @@ use super::sequence::{Sequence, Sobol};
 use super::split::{self, Part};
 use super::stream::{Secret, bits, seed, unit, word};
 use super::turns::{APART, Place, places};
-use crate::document::reading::{Node, Toml, parse, quote};
-use crate::document::{Loaded, Problem, read};
+use brinell::document::reading::{Node, Toml, parse, quote};
+use brinell::document::{Loaded, Problem, read};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
@@ -41,7 +41,7 @@ const SEEDED_PER_RUN: [Seeded; 2] = [
 pub struct Draw {
     /// Index of the class.
     pub class: usize,
-    /// Overrides for [`crate::document::read`], seeds included.
+    /// Overrides for [`brinell::document::read`], seeds included.
     pub settings: Vec<(String, String)>,
     /// What was drawn, a value for each of [`Draws::parameters`]; `None` where the class does not draw it.
     pub values: Vec<Option<Value>>,

@@ -1,8 +1,7 @@
 //! Runs side by side: every number of each, and how it stands to the first run's.
 
-use super::quantities::{LEAST_STIFFNESS, Quantity};
-use super::run::Finished;
-use crate::signal::ratio::{Ratio, ratio};
+use brinell::result::{Finished, LEAST_STIFFNESS, Quantity};
+use brinell::signal::ratio::{Ratio, ratio};
 use std::collections::HashMap;
 
 /// One number of several runs.
@@ -19,7 +18,7 @@ pub struct Compared {
     pub ratios: Vec<Option<Ratio>>,
 }
 
-/// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see [`crate::signal::ratio`].
+/// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see [`brinell::signal::ratio`].
 pub fn compare(runs: &[&Finished]) -> Vec<Compared> {
     let mut all: Vec<Compared> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();

@@ -2,8 +2,8 @@
 
 use super::draws::Draws;
 use super::plan::OutOfRange;
-use crate::document::{Place, Problem, Severity, locate, numberless};
-use crate::many;
+use brinell::document::{Place, Problem, Severity, locate, numberless};
+use brinell::many;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -88,7 +88,7 @@ impl Survey {
             Ok((loaded, draw)) => {
                 let again = draw.redrawn > 0;
                 let problems = match draws.first(base, run) {
-                    Ok(first) if again => crate::document::read(base, &first.settings).err(),
+                    Ok(first) if again => brinell::document::read(base, &first.settings).err(),
                     _ => None,
                 };
                 (problems.unwrap_or_default(), Some(loaded))

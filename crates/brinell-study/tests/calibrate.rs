@@ -1,7 +1,7 @@
 //! The search finds known optima within its budget, and neither interruption nor repetition changes what it asks for.
 
-use brinell::calibrate::search::latin_hypercube;
-use brinell::calibrate::{Answer, Fit, Settings, Target, Unfit, fit, least_budget};
+use brinell_study::calibrate::search::latin_hypercube;
+use brinell_study::calibrate::{Answer, Fit, Settings, Target, Unfit, fit, least_budget};
 use std::collections::HashMap;
 
 fn targets(values: &[f64], uncertainty: f64) -> Vec<Target> {

@@ -1,10 +1,11 @@
 //! Many runs as one piece of work: company changes nothing, names are known beforehand, and numbers say what findings say.
 
-use brinell::campaign::{self, Unfinished};
 use brinell::document::read;
+use brinell::result::{self, Unfinished};
 use brinell::scenario::Scenario;
 use brinell::signal::Indicator;
 use brinell::simulate::Simulation;
+use brinell_study::campaign;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
@@ -34,14 +35,14 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     let mut finished = Vec::new();
     for (one, result) in list.iter().zip(all) {
         let together = result.expect("it runs");
-        let alone = campaign::run(one.clone(), |_| ControlFlow::Continue(())).unwrap();
+        let alone = result::run(one.clone(), |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(together.quantities(), alone.quantities());
         finished.push(together);
     }
     for run in &finished {
         let simulation = Simulation::new(&run.scenario).unwrap();
         let names: Vec<String> = run.quantities().into_iter().map(|q| q.name).collect();
-        assert_eq!(campaign::names(&run.scenario, &simulation), names);
+        assert_eq!(result::names(&run.scenario, &simulation), names);
         let mut once = names.clone();
         once.sort();
         once.dedup();
@@ -52,7 +53,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     let [full, lumped, healthy] = &finished[..] else {
         panic!("three runs")
     };
-    let quantity = |run: &campaign::Finished, name: &str| {
+    let quantity = |run: &result::Finished, name: &str| {
         let all = run.quantities();
         all.into_iter()
             .find(|q| q.name == name)

@@ -1,6 +1,6 @@
 //! Runs as a table: a column for each number that any of them has.
 
-use super::quantities::{Quantity, Spread};
+use brinell::result::{Quantity, Spread};
 use std::collections::HashMap;
 
 /// A column of numbers, one a run.

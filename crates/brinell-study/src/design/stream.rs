@@ -3,7 +3,7 @@
 //! What anybody may know comes of the plan's seed ([`bits`]), fast and invertible. What is held out comes of the plan's secret by
 //! HMAC-SHA-256 (RFC 2104, FIPS 198-1): who has any number of these numbers learns nothing of the secret, nor of another number.
 
-use crate::random::mix;
+use brinell::random::mix;
 use hmac::{Hmac, Mac};
 use sha2::Sha256;
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! A piece of a scenario file in which any value may be a distribution.
 
 use super::distribution::{Distribution, Value};
-use crate::document::reading::{Leaf, Misfit, Node, Spec, Toml, key_text};
+use brinell::document::reading::{Leaf, Misfit, Node, Spec, Toml, key_text};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 

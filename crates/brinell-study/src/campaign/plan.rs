@@ -122,7 +122,7 @@ impl Plan {
         place
     }
 
-    /// Key and value of everything that a point sets: overrides for [`crate::document::read`].
+    /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].
     pub fn settings(&self, point: usize) -> Vec<(String, String)> {
         let chosen = self.axes.iter().zip(self.place(point));
         chosen

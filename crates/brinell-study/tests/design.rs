@@ -1,8 +1,8 @@
 //! Plans of data sets: that runs draw what their distributions say, each its own and always the same, and that bad plans are told.
 
-use brinell::design::{Draws, OutOfRange, Part, Plan, Survey};
 use brinell::document::Problem;
 use brinell::random::mix;
+use brinell_study::design::{Draws, OutOfRange, Part, Plan, Survey};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 

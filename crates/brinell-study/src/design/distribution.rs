@@ -1,8 +1,8 @@
 //! Distributions of a key's values: from a place in the unit interval to a value.
 
 use crate::campaign::{Axis, PlanError};
-use crate::document::reading::{Misfit, Node, Toml};
-use crate::signal::distribution::{normal_quantile, normal_tail};
+use brinell::document::reading::{Misfit, Node, Toml};
+use brinell::signal::distribution::{normal_quantile, normal_tail};
 
 /// Significant digits of a drawn number: finer ones mean nothing, and the last bit of a logarithm is not the same on every machine.
 const DIGITS: usize = 9;

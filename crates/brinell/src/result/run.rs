@@ -1,11 +1,9 @@
-//! Scenarios from start to findings, alone or side by side.
+//! A scenario from start to findings.
 
 use crate::channel::Frame;
-use crate::many;
 use crate::observe::{Findings, Watch};
 use crate::scenario::Scenario;
 use crate::simulate::{End, Observer, Outcome, RunError, Simulation, SolverWork};
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 /// A run that is over, with all that was found in it.
@@ -74,32 +72,12 @@ pub fn run(
 }
 
 /// Only what came to its end.
-pub(super) fn whole(finished: Finished) -> Result<Finished, Unfinished> {
+fn whole(finished: Finished) -> Result<Finished, Unfinished> {
     match &finished.outcome.end {
         End::Complete => Ok(finished),
         End::Stopped => Err(Unfinished::Stopped),
         End::Failed(error) => Err(Unfinished::Failed(error.clone())),
     }
-}
-
-/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` is told which scenario
-/// has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for bit.
-pub fn run_all(
-    scenarios: &[Scenario],
-    threads: NonZeroUsize,
-    progress: impl Fn(usize, f64) -> ControlFlow<()> + Sync,
-) -> Vec<Result<Finished, Unfinished>> {
-    let mut all: Vec<Option<Result<Finished, Unfinished>>> =
-        scenarios.iter().map(|_| None).collect();
-    many::each(
-        scenarios.len(),
-        threads,
-        |k| run(scenarios[k].clone(), |t| progress(k, t)),
-        |k, result| all[k] = Some(result),
-    );
-    all.into_iter()
-        .map(|result| result.unwrap_or(Err(Unfinished::Stopped)))
-        .collect()
 }
 
 struct Both<'a> {

@@ -1,8 +1,8 @@
 //! What is kept of a point: its settings, which scenario it was, and its numbers or why there are none.
 
-use super::quantities::{Quantity, Spread};
-use crate::scenario::Scenario;
-use crate::signal::Interval;
+use brinell::result::{Quantity, Spread};
+use brinell::scenario::Scenario;
+use brinell::signal::Interval;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 

@@ -4,8 +4,8 @@
 //! The signal is cut into segments that do not overlap; the mean square of a level is their mean, and its standard uncertainty follows
 //! from their scatter. Both signals have the same rate and the same segments, so that what a window smears, it smears alike.
 
-use crate::signal::spectrum::FEWEST_SAMPLES;
-use crate::signal::{Band, Detrend, Segments, SignalError, envelope, psd};
+use brinell::signal::spectrum::FEWEST_SAMPLES;
+use brinell::signal::{Band, Detrend, Segments, SignalError, envelope, psd};
 
 /// Segments of the shorter signal.
 const SEGMENTS: usize = 4;
@@ -119,7 +119,7 @@ impl Signature {
             let spectra = pieces.map(|piece| psd(piece, self.rate, &segments(Detrend::Mean)));
             spectra.collect::<Result<Vec<_>, _>>()
         };
-        let level = |name: String, low: f64, high: f64, of: &[crate::signal::Spectrum]| {
+        let level = |name: String, low: f64, high: f64, of: &[brinell::signal::Spectrum]| {
             let squares: Vec<f64> = of.iter().map(|s| s.band_rms(low, high).powi(2)).collect();
             let n = squares.len() as f64;
             let mean = squares.iter().sum::<f64>() / n;

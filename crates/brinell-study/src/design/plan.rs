@@ -2,10 +2,10 @@
 
 use super::stream::Secret;
 use super::template::Template;
-use crate::document::reading::{
-    Choice, Fallback, Finder, Keys, Reader, brief_path, key, parse, path_parts, stated, words,
+use brinell::document::reading::{
+    Choice, Fallback, Finder, Keys, Reader, brief_path, key, parse, path_parts, stated,
 };
-use crate::document::{Problem, Problems, Severity, locate, numberless};
+use brinell::document::{Problem, Problems, Severity, locate, numberless};
 use std::collections::HashSet;
 
 /// Runs of a plan at most: what each of them draws is kept in memory.
@@ -36,16 +36,24 @@ pub enum OutOfRange {
     Fail,
 }
 
-words! { Design:
-    Random = "random", "each run for itself";
-    LatinHypercube = "latin-hypercube", "one run of a class in each slice";
-    Sobol = "sobol", "a Sobol sequence for each class";
+impl Choice for Design {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        ("random", Self::Random, "each run for itself"),
+        (
+            "latin-hypercube",
+            Self::LatinHypercube,
+            "one run of a class in each slice",
+        ),
+        ("sobol", Self::Sobol, "a Sobol sequence for each class"),
+    ];
 }
 
-words! { OutOfRange:
-    Refuse = "refuse", "refuse the plan";
-    Redraw = "redraw", "draw the run again";
-    Fail = "fail", "keep the run as a failed one";
+impl Choice for OutOfRange {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        ("refuse", Self::Refuse, "refuse the plan"),
+        ("redraw", Self::Redraw, "draw the run again"),
+        ("fail", Self::Fail, "keep the run as a failed one"),
+    ];
 }
 
 impl Design {
@@ -178,7 +186,7 @@ impl Plan {
                 if !value.is_empty() {
                     problem = problem.value(value);
                 }
-                (problem.at(place), None)
+                (problem.placed(place), None)
             });
         };
         for (what, template) in self.templates() {
