@@ -1,7 +1,9 @@
-//! Studies of many runs: sweeps and comparisons ([`campaign`]), fits to targets ([`calibrate`]), and plans of data sets ([`design`]).
+//! Studies of many runs: sweeps and comparisons ([`campaign`]), fits to targets ([`calibrate`]), plans of data
+//! sets ([`design`]) and the data sets themselves ([`dataset`]).
 //!
 //! What one run is, and its numbers, is [`brinell::result`].
 
 pub mod calibrate;
 pub mod campaign;
+pub mod dataset;
 pub mod design;

@@ -12,7 +12,7 @@ use crate::say::{complain, say};
 use crate::sweep::plural;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
-use brinell_dataset::{Campaign, DatasetError, Listener, RunListener, merge, run, verify};
+use brinell_study::dataset::{Campaign, DatasetError, Listener, RunListener, merge, run, verify};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;

@@ -5,7 +5,7 @@ use crate::say::{complain, say, short};
 use crate::sweep::cost::mean_pace;
 use crate::sweep::{duration, plural};
 use brinell::document::on_one_line;
-use brinell_dataset::Campaign;
+use brinell_study::dataset::Campaign;
 use brinell_study::design::{Misses, OutOfRange, Survey};
 use std::num::NonZeroUsize;
 

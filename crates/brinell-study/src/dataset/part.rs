@@ -1,12 +1,12 @@
 //! Finished runs to a file of the data set.
 
-use crate::campaign::Campaign;
-use crate::columns::DataColumn;
-use crate::error::DatasetError;
-use crate::folder::{CAMPAIGN, FAILED, Folder, NAME, PART, facts_of};
-use crate::row::is_failed;
+use crate::dataset::campaign::Campaign;
+use crate::dataset::columns::DataColumn;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{CAMPAIGN, FAILED, Folder, NAME, PART, facts_of};
+use crate::dataset::row::is_failed;
+use crate::design::Part;
 use brinell_io::{Cell, Metadata, RecordColumn, RecordWriter, Written, keys, read_row_file};
-use brinell_study::design::Part;
 use serde_json::{Map, Value, json};
 
 /// Cells of a row group, in bytes: what is in memory at once of a file that is written.

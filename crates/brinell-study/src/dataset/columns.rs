@@ -1,7 +1,7 @@
 //! The columns of a data set, once: what each is called, what it holds, and whether it gives a label away.
 
+use crate::design::Draws;
 use brinell_io::{Column, Kind, RecordColumn};
-use brinell_study::design::Draws;
 
 /// A column of a data set's files.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,16 +1,16 @@
 //! A plan with its base scenario: everything that the runs are made from.
 
-use crate::columns::{DataColumn, columns};
-use crate::error::DatasetError;
-use crate::folder::Folder;
-use crate::refusal::refused;
+use crate::campaign::{digest, fingerprint};
+use crate::dataset::columns::{DataColumn, columns};
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::Folder;
+use crate::dataset::refusal::refused;
+use crate::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
 use brinell_damage::resolve_loaded;
 use brinell_io::{Column, read_text};
-use brinell_study::campaign::{digest, fingerprint};
-use brinell_study::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
 use std::collections::HashSet;
 use std::fs::File;
 use std::num::NonZeroUsize;
@@ -250,7 +250,7 @@ impl Sources {
     /// What follows from first runs: the signals, the columns, and what tells this campaign from others.
     fn settle(self, mut meaning: Vec<String>) -> Result<Campaign, DatasetError> {
         let draws = &self.draws;
-        let varies = |p: &brinell_study::design::Parameter| p.key.starts_with("bearing.");
+        let varies = |p: &crate::design::Parameter| p.key.starts_with("bearing.");
         let asked = match draws.parameters().iter().any(varies) {
             true => ASKED.min(draws.runs()),
             false => 1,

@@ -1,9 +1,9 @@
 //! Runs of a shard, side by side, each on the disk as soon as it is done.
 
-use crate::campaign::Campaign;
-use crate::error::DatasetError;
-use crate::folder::{Folder, make};
-use crate::{part, row, sidecar};
+use crate::dataset::campaign::Campaign;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{Folder, make};
+use crate::dataset::{part, row, sidecar};
 use brinell::many;
 use brinell_io::write_row_file;
 use std::collections::HashMap;

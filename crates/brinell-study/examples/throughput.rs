@@ -1,6 +1,6 @@
 //! How fast a data set is made, against the bare solver on the same scenarios:
 //!
-//!     cargo run --release -p brinell-dataset --example throughput -- [PLAN] [RUNS] [ROUNDS]
+//!     cargo run --release -p brinell-study --example throughput -- [PLAN] [RUNS] [ROUNDS]
 //!
 //! Each round runs the first RUNS of the plan with nobody listening, on one thread and on two, then as data sets of 1, 8 and RUNS runs a file, and on
 //! two threads. A data set is held against the bare solver on as many threads: two runs at once share caches, clock and memory, whoever listens.
@@ -9,7 +9,7 @@
 
 use brinell::many;
 use brinell::simulate::{Observer, Simulation};
-use brinell_dataset::{Campaign, Shard, Silent, run};
+use brinell_study::dataset::{Campaign, Shard, Silent, run};
 use std::error::Error;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;

@@ -1,13 +1,13 @@
 //! `dataset.json`: what the files are, for those who have nothing but the folder.
 
-use crate::campaign::Campaign;
-use crate::card;
-use crate::error::DatasetError;
-use crate::folder::{Folder, SECRET_PATH, file_name, make};
+use crate::campaign::digest;
+use crate::dataset::campaign::Campaign;
+use crate::dataset::card;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{Folder, SECRET_PATH, file_name, make};
+use crate::design::Part;
 use brinell::document::{Origin, Provenance};
 use brinell_io::{IoError, Kind, atomic_write};
-use brinell_study::campaign::digest;
-use brinell_study::design::Part;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 

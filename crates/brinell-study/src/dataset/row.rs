@@ -1,9 +1,11 @@
 //! One run: from its draw to a row of the data set.
 
-use crate::campaign::Campaign;
-use crate::columns::{HEAD, KNOWN, TRUTH};
-use crate::run::Listener;
-use crate::truth::{Instant, Truth};
+use crate::campaign::fingerprint;
+use crate::dataset::campaign::Campaign;
+use crate::dataset::columns::{HEAD, KNOWN, TRUTH};
+use crate::dataset::run::Listener;
+use crate::dataset::truth::{Instant, Truth};
+use crate::design::{Draw, Value, unsaid};
 use brinell::defect::{Defect, Shape};
 use brinell::document::{Loaded, on_one_line, one_line};
 use brinell::kernel::Kernel;
@@ -12,8 +14,6 @@ use brinell::scenario::{self, Scenario, Speed, Surface};
 use brinell::signal::Estimate;
 use brinell::simulate::{End, Outcome, Simulation};
 use brinell_io::{Cell, Kind};
-use brinell_study::campaign::fingerprint;
-use brinell_study::design::{Draw, Value, unsaid};
 use serde_json::{Map, Value as Json};
 use std::collections::HashMap;
 
@@ -130,8 +130,7 @@ impl Draft {
             values = draw.values;
         }
         values.resize(draws.parameters().len(), None);
-        let parameter = |(p, value): (&brinell_study::design::Parameter, Option<Value>)| match value
-        {
+        let parameter = |(p, value): (&crate::design::Parameter, Option<Value>)| match value {
             None => Cell::Empty,
             Some(value) if p.numeric => Cell::number(value.number),
             Some(value) => words(value.words()),

@@ -1,8 +1,8 @@
 //! The data set's card: `README.md` with the splits for Hugging Face's `load_dataset`, and `croissant.json` for tools that read MLCommons' Croissant.
 
-use crate::error::DatasetError;
-use crate::sidecar::{put, written};
-use brinell_study::campaign::digest;
+use crate::campaign::digest;
+use crate::dataset::error::DatasetError;
+use crate::dataset::sidecar::{put, written};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! What is wrong with a plan whose runs cannot all be made, in the author's terms.
 
-use crate::campaign::Document;
-use crate::error::DatasetError;
+use crate::dataset::campaign::Document;
+use crate::dataset::error::DatasetError;
+use crate::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
 use brinell::document::Problem;
-use brinell_study::design::{Draws, Misses, OutOfRange, Survey, place_in_plan};
 
 /// That a plan may be run, by what a survey found.
 ///

@@ -1,9 +1,9 @@
 //! A data set's folder held against what it says of itself.
 
-use crate::card::CROISSANT;
-use crate::error::DatasetError;
-use crate::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name};
-use crate::sidecar::{CARD, files_of, is_whole};
+use crate::dataset::card::CROISSANT;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{CAMPAIGN, Folder, PART, SECRET_PATH, file_name};
+use crate::dataset::sidecar::{CARD, files_of, is_whole};
 use brinell_io::{keys, record_facts, sha256_of};
 use serde_json::Value;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! What lies where in a data set's folder, and whose folder it is.
 
-use crate::campaign::Campaign;
-use crate::error::DatasetError;
-use crate::sidecar;
+use crate::dataset::campaign::Campaign;
+use crate::dataset::error::DatasetError;
+use crate::dataset::sidecar;
 use brinell_io::{IoError, Metadata, RecordFacts, atomic_write, lock, record_facts, sha256_of};
 use serde_json::{Value, json};
 use std::fs::File;

@@ -1,8 +1,8 @@
 //! Folders in which shards of one campaign ran apart, joined in one.
 
-use crate::error::DatasetError;
-use crate::folder::{Folder, make};
-use crate::sidecar;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{Folder, make};
+use crate::dataset::sidecar;
 use brinell_io::{atomic_copy, atomic_write, sha256_of};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
