@@ -9,7 +9,8 @@
 
 use brinell::many;
 use brinell::simulate::{Observer, Simulation};
-use brinell_study::dataset::{Campaign, Shard, Silent, run};
+use brinell_study::dataset::{Campaign, Shard, run};
+use brinell_study::listener::Silent;
 use std::error::Error;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;

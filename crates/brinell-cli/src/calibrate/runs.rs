@@ -1,7 +1,7 @@
 //! The runs of a calibration: what a point of the unit cube means as a scenario, and what its run answers.
 
 use super::measured::Pattern;
-use crate::campaign::{self, Ledger, Task, Work};
+use crate::campaign;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::progress::Joint;
@@ -9,6 +9,7 @@ use brinell::result::{Finished, Quantity};
 use brinell::scenario::Scenario;
 use brinell_study::calibrate::{Answer, Key, Target, Unfit};
 use brinell_study::campaign::{Row, digest, fingerprint};
+use brinell_study::runner::{Ledger, Task, Work};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -43,6 +44,8 @@ impl FromPoints<'_> {
 }
 
 impl Work for FromPoints<'_> {
+    type Error = Failure;
+
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }
@@ -108,7 +111,7 @@ impl Runs<'_> {
             self.stop,
         );
         match went {
-            Ok(went) if !went.interrupted => {}
+            Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),
             Err(failure) => {
                 self.failure = Some(failure);

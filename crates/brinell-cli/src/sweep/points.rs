@@ -2,7 +2,6 @@
 
 use super::SweepArgs;
 use crate::args::ScenarioArgs;
-use crate::campaign::{Task, Work};
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
@@ -11,6 +10,7 @@ use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
 use brinell_study::campaign::{Axis, Plan, digest, fingerprint};
+use brinell_study::runner::{Task, Work};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -199,6 +199,8 @@ impl FromSource<'_> {
 }
 
 impl Work for FromSource<'_> {
+    type Error = Failure;
+
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }

@@ -3,9 +3,9 @@
 use crate::campaign::fingerprint;
 use crate::dataset::campaign::Campaign;
 use crate::dataset::columns::{HEAD, KNOWN, TRUTH};
-use crate::dataset::run::Listener;
 use crate::dataset::truth::{Instant, Truth};
 use crate::design::{Draw, Value, unsaid};
+use crate::listener::Listener;
 use brinell::defect::{Defect, Shape};
 use brinell::document::{Loaded, on_one_line, one_line};
 use brinell::kernel::Kernel;

@@ -4,12 +4,12 @@ use crate::dataset::campaign::Campaign;
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::{Folder, make};
 use crate::dataset::{part, row, sidecar};
+use crate::listener::Listener;
 use brinell::many;
 use brinell_io::write_row_file;
 use std::collections::HashMap;
 use std::fs::File;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,44 +47,6 @@ impl FromStr for Shard {
             Some((0, of)) if of > 0 => Err(format!("shards count from 1: 1/{of} to {of}/{of}")),
             _ => Err("expected I/N, I from 1 to N, for instance 3/10".into()),
         }
-    }
-}
-
-/// Hears of runs as they begin and end, from the threads that do them.
-pub trait Listener: Sync {
-    /// Run `run` of so many simulated seconds begins.
-    fn begin(&self, run: usize, duration_s: f64) -> Box<dyn RunListener + '_>;
-
-    /// So many runs were there before.
-    fn before(&self, runs: usize) {
-        let _ = runs;
-    }
-
-    /// Run `run` is on the disk; `failed` says why where it failed.
-    fn ended(&self, run: usize, failed: Option<&str>);
-}
-
-/// Hears of one run.
-pub trait RunListener {
-    /// The simulated time reached, s. Breaking stops this run, and no other begins.
-    fn at(&mut self, t: f64) -> ControlFlow<()>;
-}
-
-/// Hears nothing, and lets everything run to its end.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Silent;
-
-impl Listener for Silent {
-    fn begin(&self, _: usize, _: f64) -> Box<dyn RunListener + '_> {
-        Box::new(Silent)
-    }
-
-    fn ended(&self, _: usize, _: Option<&str>) {}
-}
-
-impl RunListener for Silent {
-    fn at(&mut self, _: f64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Hears a run: its signals as 32-bit floats, and what happened that no sensor tells. Allocates as rollers pass damage, never in a step.
 
-use crate::dataset::run::RunListener;
+use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::defect::{SIDES, Side};
 use brinell::observe::has_settled;

@@ -1,6 +1,6 @@
 //! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the results.
 
-use crate::campaign::{Task, Work};
+use super::{Task, Work};
 use brinell::result::finish;
 use brinell::scenario::Scenario;
 use brinell::simulate::{Observer, Simulation, SolverWork};
@@ -14,7 +14,7 @@ const TRIED: usize = 5;
 const MOMENT: Duration = Duration::from_millis(60);
 
 /// Wall time of all tasks, s; `None` where no trial ran.
-pub(crate) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
+pub fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
     let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
     let at_once = threads.get().min(tasks.len().max(1));
     let pace = mean_pace(tasks.len(), |k| work.scenario(&tasks[k]).ok())?;
@@ -22,7 +22,7 @@ pub(crate) fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) 
 }
 
 /// Wall time of a simulated second, s, of a few of `count` scenarios; `None` where no trial ran.
-pub(crate) fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> Option<f64> {
+pub fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> Option<f64> {
     let tried = count.min(TRIED);
     let chosen = (0..tried).map(|k| k * (count - 1) / (tried - 1).max(1));
     let paces: Vec<f64> = chosen.filter_map(|k| pace(scenario(k)?)).collect();

@@ -1,30 +1,27 @@
-//! What a run is heard with: rows to files, one filtered signal kept where it is asked for, time to the bar, Ctrl-C to the run.
+//! What a run is heard with: rows to files, one filtered signal kept where it is asked for, time to its listener.
 
-use crate::failure::Failure;
-use crate::progress::Progress;
+use crate::listener::RunListener;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Complete, IoError, Outcome, SignalWriter};
 use std::ops::ControlFlow;
-use std::sync::atomic::AtomicBool;
 
-pub(crate) struct Recorder<'a> {
+/// Hears a run for its files and its listener.
+pub struct Recorder<'a> {
     row: Vec<f64>,
     sample_rate: f64,
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
     hears: Option<usize>,
     heard: Vec<f64>,
-    progress: Progress,
-    stop: &'a AtomicBool,
+    listener: &'a mut dyn RunListener,
 }
 
 impl<'a> Recorder<'a> {
-    /// Rows go to every one of `writers`; `stop` breaks the run off.
-    pub(crate) fn new(
+    /// Rows go to every one of `writers`; `listener` may break the run off.
+    pub fn new(
         simulation: &Simulation,
         writers: Vec<Box<dyn SignalWriter>>,
-        progress: Progress,
-        stop: &'a AtomicBool,
+        listener: &'a mut dyn RunListener,
     ) -> Self {
         Self {
             row: vec![0.0; simulation.channels().len() + 1],
@@ -33,23 +30,24 @@ impl<'a> Recorder<'a> {
             failed: None,
             hears: None,
             heard: Vec::new(),
-            progress,
-            stop,
+            listener,
         }
     }
 
     /// Keeps that one of [`Simulation::filtered`] whole, in memory.
-    pub(crate) fn hearing(mut self, which: Option<usize>) -> Self {
+    pub fn hearing(mut self, which: Option<usize>) -> Self {
         self.hears = which;
         self
     }
 
     /// Ends the files as the run ended, up to their names. Gives them and what was heard. A run that was broken off leaves whole files of the
     /// part that was run, which say so, or none: `keep_stopped` decides.
-    pub(crate) fn close(self, end: &End, keep_stopped: bool) -> Result<Heard, Failure> {
-        self.progress.finish();
+    ///
+    /// # Errors
+    /// Where a file could not be written.
+    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Heard, IoError> {
         if let Some(error) = self.failed {
-            return Err(error.into());
+            return Err(error);
         }
         let outcome = match end {
             End::Complete => Outcome::Complete,
@@ -63,7 +61,6 @@ impl<'a> Recorder<'a> {
             }
         }
         Ok(Heard {
-            elapsed: self.progress.elapsed(),
             files,
             signal: self.heard,
         })
@@ -71,13 +68,11 @@ impl<'a> Recorder<'a> {
 }
 
 /// What is left of a run beside its findings.
-pub(crate) struct Heard {
-    /// Wall time, s.
-    pub(crate) elapsed: f64,
+pub struct Heard {
     /// Files of signals, to be published.
-    pub(crate) files: Vec<Complete>,
+    pub files: Vec<Complete>,
     /// The signal that was asked for, from t = 0.
-    pub(crate) signal: Vec<f64>,
+    pub signal: Vec<f64>,
 }
 
 impl Observer for Recorder<'_> {
@@ -100,7 +95,6 @@ impl Observer for Recorder<'_> {
     }
 
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        self.progress.at(t);
-        brinell::many::go_on(self.stop)
+        self.listener.at(t)
     }
 }
