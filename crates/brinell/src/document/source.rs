@@ -195,7 +195,7 @@ fn convert_table(table: &DeTable<'_>, placed: bool, depth: usize) -> Result<Tabl
 /// The parts of a key's dotted path.
 ///
 /// # Errors
-/// Where there are more than [`DEEPEST`].
+/// Where there are more than 32.
 pub fn path_parts(path: &str) -> Result<Vec<&str>, String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     match parts.len() {
