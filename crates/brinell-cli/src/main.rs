@@ -18,7 +18,6 @@ mod look_up;
 mod page;
 mod plan;
 mod progress;
-mod recorder;
 mod reproduce;
 mod results;
 mod run;

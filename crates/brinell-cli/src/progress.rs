@@ -1,9 +1,12 @@
 //! The progress bar: simulated time, speed relative to real time, time to go. Silent where no terminal listens.
 
 use crate::say::{say, short};
+use brinell_study::listener::RunListener;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Steps between looks at the clock.
@@ -52,17 +55,46 @@ impl Progress {
         ));
     }
 
-    /// Wall time since the start, s.
-    pub(crate) fn elapsed(&self) -> f64 {
+    fn elapsed(&self) -> f64 {
         self.begin.elapsed().as_secs_f64()
     }
 
     /// Takes the bar away; a common one stays for the others, with this run's share full.
-    pub(crate) fn finish(&self) {
+    fn finish(&self) {
         match self.shared {
             Some(told) => self.bar.inc(micros(self.duration).saturating_sub(told)),
             None => self.bar.finish_and_clear(),
         }
+    }
+}
+
+/// A run shown on a bar, and broken off by Ctrl-C.
+pub(crate) struct Shown<'a> {
+    progress: Progress,
+    stop: &'a AtomicBool,
+}
+
+impl<'a> Shown<'a> {
+    pub(crate) fn new(progress: Progress, stop: &'a AtomicBool) -> Self {
+        Self { progress, stop }
+    }
+
+    /// Wall time since the start, s.
+    pub(crate) fn elapsed(&self) -> f64 {
+        self.progress.elapsed()
+    }
+}
+
+impl RunListener for Shown<'_> {
+    fn at(&mut self, t: f64) -> ControlFlow<()> {
+        self.progress.at(t);
+        brinell::many::go_on(self.stop)
+    }
+}
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        self.progress.finish();
     }
 }
 

@@ -4,12 +4,12 @@
 //! `analysis.json` of an analysis, ... It lists the others under `files`. A new call removes what the earlier one listed, after its own files are
 //! complete, and nothing else is ever removed. Finished runs that a command resumes from are never removed.
 
-use crate::campaign::JOURNAL;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use brinell::document::{Loaded, read};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, Format, read_text};
+use brinell_study::runner::JOURNAL;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::File;

@@ -6,21 +6,21 @@ use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
 use crate::files::Source;
 use crate::inputs::Inputs;
-use crate::progress::Progress;
-use crate::recorder::Recorder;
+use crate::progress::{Progress, Shown};
 use crate::results::{
     Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
 use crate::say::{complain, one_line, say, short};
 use crate::{files, page};
-use brinell::campaign::{Finished, finish};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
 use brinell::plausibility::{self, Beforehand};
+use brinell::result::{Finished, finish};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
+use brinell_study::runner::Recorder;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -141,9 +141,13 @@ fn execute(
     let scenario = atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?;
     let mut ready = vec![scenario];
 
-    let mut recorder = Recorder::new(&simulation, writers, progress, stop);
+    let mut shown = Shown::new(progress, stop);
+    let mut recorder = Recorder::new(&simulation, writers, &mut shown);
     let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
-    let heard = recorder.close(&finished.outcome.end, true)?;
+    let heard = recorder.close(&finished.outcome.end, true);
+    let elapsed = shown.elapsed();
+    drop(shown);
+    let heard = heard?;
     ready.extend(heard.files);
     let Finished {
         simulation,
@@ -181,7 +185,7 @@ fn execute(
     ready.extend(ready_pictures(&pictures, &args.plots, folder)?);
     let written = earlier.give_way(ready)?;
     Ok(Done {
-        told: tell(&parts, heard.elapsed, &written),
+        told: tell(&parts, elapsed, &written),
         end: outcome.end,
         interrupted,
     })

@@ -4,7 +4,7 @@ use crate::verdict::Trend;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
-/// How a statement is checked. Names are those of [`brinell::campaign::quantities`].
+/// How a statement is checked. Names are those of [`brinell::result::quantities`].
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Check {

@@ -2,8 +2,8 @@
 
 use crate::curves::Curves;
 use crate::{Error, FromStart, Request, entry_drop};
-use brinell::campaign::{Finished, Quantity, Spread};
 use brinell::channel::Frame;
+use brinell::result::{Finished, Quantity, Spread};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::atomic_write;
 use std::collections::HashSet;

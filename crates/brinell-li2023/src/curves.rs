@@ -1,6 +1,6 @@
 //! What pictures need of a run: the end of its waveform, spectra, a pass over the damage, the mean entry and exit.
 
-use brinell::campaign::{Finished, impacts};
+use brinell::result::{Finished, impacts};
 use serde_json::{Value, json};
 
 /// Length of the waveform kept, s: the run's last.

@@ -1,9 +1,10 @@
 //! What the cases gave, by name.
 
 use crate::reading::{Reading, Record};
-use brinell::campaign::{Row, Spread};
 use brinell::observe::passes::PassPoint;
+use brinell::result::Spread;
 use brinell::signal::{Estimate, Interval};
+use brinell_study::campaign::Row;
 use std::collections::BTreeMap;
 
 /// Of a number that scatters, in a run too short to say how much: it decides nothing.
@@ -115,7 +116,7 @@ pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::verdict::{Verdict, greater, over};
-    use brinell::campaign::Quantity;
+    use brinell::result::Quantity;
 
     fn pass(stiffness: impl Fn(f64) -> f64) -> Vec<PassPoint> {
         let point = |k: i32| {

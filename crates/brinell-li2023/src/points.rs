@@ -1,9 +1,9 @@
 //! Cases as runs to be made.
 
 use crate::{BASE, Case, Error, Length, Numbers, Outline, Runs, length_of};
-use brinell::campaign::fingerprint;
 use brinell::document;
 use brinell::scenario::Scenario;
+use brinell_study::campaign::fingerprint;
 
 /// A case under assumptions, ready to run.
 #[derive(Debug, Clone, PartialEq)]

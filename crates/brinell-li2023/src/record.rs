@@ -2,11 +2,11 @@
 //! bearing.
 
 use crate::reading::{WINDOWS_MS, from_start_name};
-use brinell::campaign::{Quantity, Spread};
 use brinell::channel::Frame;
 use brinell::defect::wrap;
 use brinell::observe::Findings;
 use brinell::observe::load_zone::BINS;
+use brinell::result::{Quantity, Spread};
 use brinell::scenario::ModelKind;
 use brinell::simulate::{Observer, Simulation};
 use std::f64::consts::TAU;

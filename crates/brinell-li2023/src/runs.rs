@@ -1,7 +1,7 @@
 //! What makes the runs of a reproduction and keeps their numbers, from outside: this crate knows neither threads nor a journal.
 
 use crate::{Error, Point};
-use brinell::campaign::Row;
+use brinell_study::campaign::Row;
 use std::ops::ControlFlow;
 
 /// What a batch of runs is for.

@@ -1,4 +1,4 @@
-//! A search for one set of assumptions: a unit cube over [`crate::RANGES`], what [`brinell::calibrate::fit`] is to meet in it, and how far a set
+//! A search for one set of assumptions: a unit cube over [`crate::RANGES`], what [`brinell_study::calibrate::fit`] is to meet in it, and how far a set
 //! stays from the paper's figures.
 
 use crate::numbers::Numbers;
@@ -6,7 +6,7 @@ use crate::outline::Outline;
 use crate::ranges::{RANGES, READ_AS, RECORDS, Values};
 use crate::reading::{Reading, Record};
 use crate::{Verdict, claims, judge};
-use brinell::calibrate::{Answer, Target};
+use brinell_study::calibrate::{Answer, Target};
 
 /// Cases that every draw runs: the paper's three RMS values, at a seventh of the cost of all cases.
 pub const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];

@@ -2,7 +2,8 @@
 
 use crate::errors::{ReadError, bad_value, scenario_error, unreadable};
 use crate::run::threads;
-use brinell_dataset::{self as dataset, DatasetError, Listener, RunListener, Shard};
+use brinell_study::dataset::{self, DatasetError, Shard};
+use brinell_study::listener::{Listener, RunListener};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::ops::ControlFlow;

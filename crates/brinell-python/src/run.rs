@@ -3,9 +3,9 @@
 use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
-use brinell::campaign::{self, Finished};
 use brinell::many::go_on;
 use brinell::plausibility::Beforehand;
+use brinell::result::{self, Finished};
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
 use pyo3::exceptions::PyMemoryError;
@@ -77,7 +77,7 @@ fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ra
         rate: simulation.sample_rate(),
         go_on: &mut go_on,
     };
-    let finished = campaign::finish(scenario.clone(), simulation, &mut recorder);
+    let finished = result::finish(scenario.clone(), simulation, &mut recorder);
     Ran::Over(Box::new(finished), recorder.columns)
 }
 

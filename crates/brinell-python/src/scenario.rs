@@ -2,9 +2,9 @@
 
 use crate::convert::{document, json_to_python, overrides};
 use crate::errors::{bad_value, scenario_error, unreadable};
-use brinell::campaign::fingerprint;
 use brinell::document::{Loaded, Problem, read, read_bytes};
 use brinell_damage::resolve_loaded;
+use brinell_study::campaign::fingerprint;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::{Value, json};

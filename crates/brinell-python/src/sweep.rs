@@ -4,8 +4,9 @@ use crate::convert::{array, python_to_toml};
 use crate::errors::bad_value;
 use crate::run::over_threads;
 use crate::scenario::Scenario;
-use brinell::campaign::{self, Axis, Plan, Quantity, Unfinished, columns};
 use brinell::document::{on_one_line, one_line};
+use brinell::result::{self, Quantity, Unfinished};
+use brinell_study::campaign::{Axis, Plan, columns};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
@@ -47,7 +48,7 @@ pub(crate) fn sweep<'py>(
                 .with(&plan.settings(k))
                 .load()
                 .map_err(|problems| on_one_line(&problems))?;
-            let finished = campaign::run(loaded.scenario, |_| brinell::many::go_on(stop));
+            let finished = result::run(loaded.scenario, |_| brinell::many::go_on(stop));
             match finished {
                 Ok(finished) => Ok(finished.quantities()),
                 Err(Unfinished::Failed(error)) => Err(one_line(&error.to_string())),

@@ -4,12 +4,12 @@ use super::CalibrateArgs;
 use crate::analyze::measured::{Measured, Wanted, load};
 use crate::failure::Failure;
 use brinell::analysis::Quantity as Dimension;
-use brinell::calibrate::Target;
-use brinell::calibrate::signature::{Signature, decibels};
-use brinell::campaign::{Quantity, Spread};
+use brinell::result::{Quantity, Spread};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::{Band, Blocks, Indicator, Interval, LineSearch, line_frequency};
 use brinell::simulate::Simulation;
+use brinell_study::calibrate::Target;
+use brinell_study::calibrate::signature::{Signature, decibels};
 
 /// Share of a run that its statistics are of, at most; and periods of a line that are needed to time it.
 const ANALYSED: f64 = 0.75;
@@ -195,7 +195,7 @@ impl Pattern {
     pub(super) fn quantities(&self, x: &[f64]) -> Vec<Quantity> {
         // A run too short for a signature has none, and its row says so by their absence.
         let levels = self.signature.of(x).unwrap_or_default();
-        let one = |l: brinell::calibrate::signature::Level| Quantity {
+        let one = |l: brinell_study::calibrate::signature::Level| Quantity {
             name: l.name,
             unit: "dB".into(),
             value: Some(l.decibels),

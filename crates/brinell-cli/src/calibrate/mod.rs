@@ -8,22 +8,23 @@ mod runs;
 mod words;
 
 use crate::args::ScenarioArgs;
-use crate::campaign::{JOURNAL, Ledger, Task};
+use crate::campaign;
 use crate::failure::Failure;
 use crate::files::{Source, stem};
 use crate::progress::Joint;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag};
 use crate::say::{complain, say, short};
-use crate::sweep::{cost, duration, plural};
+use crate::sweep::{duration, plural};
 pub(crate) use args::CalibrateArgs;
-use brinell::calibrate::search::latin_hypercube;
-use brinell::calibrate::{
-    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
-};
-use brinell::campaign::fingerprint;
 use brinell::document::Loaded;
 use brinell::simulate::Simulation;
+use brinell_study::calibrate::search::latin_hypercube;
+use brinell_study::calibrate::{
+    CalibrateError, Key, Settings, Target, Unfit, check_keys, check_targets, fit, least_budget,
+};
+use brinell_study::campaign::fingerprint;
+use brinell_study::runner::{JOURNAL, Ledger, Task, estimate};
 use measured::Pattern;
 use outcome::Outcome;
 use runs::{FromPoints, Runs};
@@ -76,7 +77,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
     place.alone()?;
     make_folder(&folder)?;
     let words = |other: &Value| other_calibration(&folder, other);
-    let ledger = Ledger::open(&folder, &plan.header(), args.extend, words)?;
+    let ledger = campaign::ledger(&folder, &plan.header(), args.extend, words)?;
     if !args.quiet {
         plan.tell(&points, threads, Some(&ledger));
     }
@@ -171,7 +172,7 @@ impl Plan {
         });
         let units = units.collect();
         let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
-        let names = brinell::campaign::names(&middle.scenario, &simulation);
+        let names = brinell::result::names(&middle.scenario, &simulation);
         for target in &targets {
             known(&target.name, &names)?;
         }
@@ -262,7 +263,7 @@ impl Plan {
         let sample = latin_hypercube(self.settings.seed, self.keys.len(), budget.min(100));
         let tasks: Vec<Task> = sample.iter().filter_map(|p| points.task(p).ok()).collect();
         let scale = budget as f64 / tasks.len().max(1) as f64;
-        let cost = cost::estimate(&tasks, points, threads).map_or(String::new(), |seconds| {
+        let cost = estimate(&tasks, points, threads).map_or(String::new(), |seconds| {
             format!(", about {}", duration(scale * seconds))
         });
         let simulated = self.middle.scenario.simulation.duration_s * budget as f64;
@@ -341,7 +342,7 @@ fn tell_reasons(runs: &Runs, plan: &Plan) {
 }
 
 fn start(budget: usize, keys: usize) -> usize {
-    brinell::calibrate::start_size(keys, budget)
+    brinell_study::calibrate::start_size(keys, budget)
 }
 
 /// The files of a calibration.

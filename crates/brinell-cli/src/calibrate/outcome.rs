@@ -3,11 +3,11 @@
 use super::runs::{Runs, own_uncertainty};
 use super::{Plan, put};
 use crate::failure::Failure;
-use brinell::calibrate::identify::MOST;
-use brinell::calibrate::{Fit, MISSING};
 use brinell::document::Loaded;
 use brinell::signal::distribution::chi_square_tail;
 use brinell_io::{Cells, Column, Table};
+use brinell_study::calibrate::identify::MOST;
+use brinell_study::calibrate::{Fit, MISSING};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 

@@ -3,8 +3,8 @@
 use super::outcome::Outcome;
 use crate::say::short;
 use crate::sweep::plural;
-use brinell::calibrate::search::STEP;
 use brinell_report::{CalibrationReport, Fact, FittedKey, Table, Tried, Value};
+use brinell_study::calibrate::search::STEP;
 
 impl Outcome<'_> {
     pub(super) fn report(&self) -> CalibrationReport {
@@ -82,7 +82,7 @@ impl Outcome<'_> {
     }
 
     fn keys(&self) -> Vec<FittedKey> {
-        let one = |(f, key): (&super::outcome::Found, &brinell::calibrate::Key)| FittedKey {
+        let one = |(f, key): (&super::outcome::Found, &brinell_study::calibrate::Key)| FittedKey {
             name: f.name.clone(),
             unit: f.unit.into(),
             bounds: f.bounds,
@@ -95,7 +95,7 @@ impl Outcome<'_> {
 
     fn tried(&self) -> Vec<Tried> {
         let best = &self.fit.evaluations[self.fit.best].place;
-        let one = |e: &brinell::calibrate::Evaluation| Tried {
+        let one = |e: &brinell_study::calibrate::Evaluation| Tried {
             values: self
                 .plan
                 .keys

@@ -1,13 +1,15 @@
 //! The runs of a calibration: what a point of the unit cube means as a scenario, and what its run answers.
 
 use super::measured::Pattern;
-use crate::campaign::{self, Ledger, Task, Work};
+use crate::campaign;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::progress::Joint;
-use brinell::calibrate::{Answer, Key, Target, Unfit};
-use brinell::campaign::{Finished, Quantity, Row, digest, fingerprint};
+use brinell::result::{Finished, Quantity};
 use brinell::scenario::Scenario;
+use brinell_study::calibrate::{Answer, Key, Target, Unfit};
+use brinell_study::campaign::{Row, digest, fingerprint};
+use brinell_study::runner::{Ledger, Task, Work};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -42,6 +44,8 @@ impl FromPoints<'_> {
 }
 
 impl Work for FromPoints<'_> {
+    type Error = Failure;
+
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }
@@ -84,7 +88,7 @@ pub(super) struct Runs<'a> {
 }
 
 impl Runs<'_> {
-    /// For [`brinell::calibrate::fit`].
+    /// For [`brinell_study::calibrate::fit`].
     pub(super) fn ask(&mut self, places: &[Vec<f64>]) -> Result<Vec<Option<Vec<Answer>>>, Unfit> {
         let wanted: Vec<Result<Task, String>> =
             places.iter().map(|place| self.points.task(place)).collect();
@@ -107,7 +111,7 @@ impl Runs<'_> {
             self.stop,
         );
         match went {
-            Ok(went) if !went.interrupted => {}
+            Ok(flow) if flow.is_continue() => {}
             Ok(_) => return Err(Unfit::Interrupted),
             Err(failure) => {
                 self.failure = Some(failure);

@@ -3,7 +3,7 @@
 use super::outcome::{Found, Outcome};
 use crate::say::{say, short};
 use crate::sweep::plural;
-use brinell::calibrate::identify::{Direction, MOST};
+use brinell_study::calibrate::identify::{Direction, MOST};
 
 /// A residual worth naming, in standard uncertainties.
 const LARGE: f64 = 2.0;

@@ -1,9 +1,9 @@
 //! The curves of a comparison: signals, spectra, passes over damage, entries and exits.
 
 use super::sides::Side;
-use brinell::campaign::{Finished, Impacts, impacts};
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::observe::passes::{PassPoint, place};
+use brinell::result::{Finished, Impacts, impacts};
 use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
 
 /// Name of the acceleration that a run's curves show.

@@ -4,10 +4,11 @@ use super::curves::{called, entry_and_exit, envelope, over_defect, spectrum, wav
 use super::sides::Side;
 use crate::say::{bracketed, short};
 use crate::sweep::{told, words};
-use brinell::campaign::{Compared, Finished, Quantity};
 use brinell::observe::passes::place;
+use brinell::result::{Finished, Quantity};
 use brinell::signal::ratio::Ratio;
 use brinell_report::{Fact, Part, Piece, SideBySide, Table, Value};
+use brinell_study::campaign::Compared;
 
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;

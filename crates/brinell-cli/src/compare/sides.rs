@@ -5,8 +5,8 @@ use crate::args::ScenarioArgs;
 use crate::failure::Failure;
 use crate::files::{Source, setting, stem};
 use crate::inputs::Inputs;
-use brinell::campaign::split;
 use brinell::document::Loaded;
+use brinell_study::campaign::split;
 use std::path::Path;
 
 /// Runs that a page can show in colours that are told apart.

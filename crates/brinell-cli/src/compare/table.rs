@@ -1,9 +1,10 @@
 //! A comparison as a table and as JSON: every number of each run, and its ratio to the first run's.
 
 use super::sides::Side;
-use brinell::campaign::{Compared, Quantity};
+use brinell::result::Quantity;
 use brinell::signal::ratio::Ratio;
 use brinell_io::{Cells, Column, Table};
+use brinell_study::campaign::Compared;
 use serde_json::{Map, Value, json};
 
 /// The table's own columns.

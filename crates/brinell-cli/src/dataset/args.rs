@@ -1,6 +1,6 @@
 //! The command line of `brinell dataset`.
 
-use brinell_dataset::Shard;
+use brinell_study::dataset::Shard;
 use clap::{Args, Subcommand};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

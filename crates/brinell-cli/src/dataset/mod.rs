@@ -5,15 +5,15 @@ mod plan;
 
 use crate::failure::Failure;
 use crate::inputs::Inputs;
-use crate::progress::{Joint, Progress};
+use crate::progress::{Joint, Shown};
 use crate::results::{Place, Results};
 use crate::run::{safe_name, stop_flag};
 use crate::say::{complain, say};
 use crate::sweep::plural;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
-use brinell_dataset::{Campaign, DatasetError, Listener, RunListener, merge, run, verify};
-use std::ops::ControlFlow;
+use brinell_study::dataset::{Campaign, DatasetError, merge, run, verify};
+use brinell_study::listener::{Listener, RunListener};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -206,10 +206,7 @@ struct Terminal<'a> {
 impl Listener for Terminal<'_> {
     fn begin(&self, _: usize, duration_s: f64) -> Box<dyn RunListener + '_> {
         let joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
-        Box::new(Shown {
-            stop: self.stop,
-            progress: Joint::part(&joint.bar(), duration_s),
-        })
+        Box::new(Shown::new(Joint::part(&joint.bar(), duration_s), self.stop))
     }
 
     fn before(&self, runs: usize) {
@@ -224,23 +221,5 @@ impl Listener for Terminal<'_> {
         }
         let mut joint = self.joint.lock().unwrap_or_else(PoisonError::into_inner);
         joint.ended(&[], Path::new(""));
-    }
-}
-
-struct Shown<'a> {
-    stop: &'a AtomicBool,
-    progress: Progress,
-}
-
-impl RunListener for Shown<'_> {
-    fn at(&mut self, t: f64) -> ControlFlow<()> {
-        self.progress.at(t);
-        brinell::many::go_on(self.stop)
-    }
-}
-
-impl Drop for Shown<'_> {
-    fn drop(&mut self) {
-        self.progress.finish();
     }
 }

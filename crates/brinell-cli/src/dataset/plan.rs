@@ -2,11 +2,11 @@
 
 use super::DatasetArgs;
 use crate::say::{complain, say, short};
-use crate::sweep::cost::mean_pace;
 use crate::sweep::{duration, plural};
-use brinell::design::{Misses, OutOfRange, Survey};
 use brinell::document::on_one_line;
-use brinell_dataset::Campaign;
+use brinell_study::dataset::Campaign;
+use brinell_study::design::{Misses, OutOfRange, Survey};
+use brinell_study::runner::mean_pace;
 use std::num::NonZeroUsize;
 
 /// Share of a 32-bit float that is left after compression, about: the low mantissa bytes are noise.

@@ -2,7 +2,7 @@
 
 mod args;
 
-use crate::campaign::{self, Beside, Ledger, Task, Work};
+use crate::campaign;
 use crate::damage;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
@@ -11,13 +11,15 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
 pub(crate) use args::ReproduceArgs;
-use brinell::campaign::{Finished, Quantity, Row};
+use brinell::result::{Finished, Quantity};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_li2023::{
     BASE, CaseObserver, CurveFiles, Error, Length, Point, Reproduction, Request, Runs, Stage,
     scenario, write_page,
 };
+use brinell_study::campaign::Row;
+use brinell_study::runner::{Beside, Ledger, Task, Work};
 use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -55,7 +57,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
         )
     };
     let curves = CurveFiles::new(&args.output, &request);
-    let ledger = Ledger::open(&args.output, &header, false, words)?;
+    let ledger = campaign::ledger(&args.output, &header, false, words)?;
     let stop = stop_flag()?;
     let mut runner = Runner {
         args,
@@ -170,11 +172,7 @@ impl Runs for Runner<'_> {
             self.stop,
         )?;
         self.done += open_tasks.len();
-        Ok(if went.interrupted {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        })
+        Ok(went)
     }
 
     fn search_begins(&mut self, sets: usize) {
@@ -188,16 +186,18 @@ impl Runs for Runner<'_> {
 struct CaseWork<'a>(&'a CurveFiles);
 
 impl Work for CaseWork<'_> {
+    type Error = Failure;
+
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
         Ok(scenario(&task.settings)?)
     }
 
-    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside>> {
+    fn beside(&self, task: &Task, simulation: &Simulation) -> Option<Box<dyn Beside<Failure>>> {
         Some(Box::new(self.0.observer(&task.fingerprint, simulation)))
     }
 }
 
-impl Beside for CaseObserver {
+impl Beside<Failure> for CaseObserver {
     fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, Failure> {
         Ok(self.finish(finished)?)
     }

@@ -1,22 +1,22 @@
 //! `brinell sweep`: keys over lists and ranges, many runs, one table and its plots.
 
 mod args;
-pub(crate) mod cost;
 mod page;
 mod points;
 mod table;
 
-use crate::campaign::{self, JOURNAL, Kept, Ledger, Task};
+use crate::campaign;
 use crate::failure::Failure;
 use crate::files::stem;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
-use brinell::campaign::fingerprint;
 use brinell::document::read;
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
+use brinell_study::campaign::fingerprint;
+use brinell_study::runner::{JOURNAL, Kept, Task, estimate};
 
 use page::usual;
 pub(crate) use page::{plural, told, words};
@@ -58,7 +58,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     make_folder(&folder)?;
     let header = points.header();
     let words = |other: &Value| other_sweep(&folder, other);
-    let mut ledger = Ledger::open(&folder, &header, args.extend, words)?;
+    let mut ledger = campaign::ledger(&folder, &header, args.extend, words)?;
     let tasks = plan(&points, &ledger.kept, &work, threads, !args.quiet);
     let threads = threads(tasks.len());
     let stop = stop_flag()?;
@@ -81,13 +81,13 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         }
     }
     tell_failures(&points, &standings);
-    if went.interrupted {
+    if went.is_break() {
         complain!(
             "interrupted: {} kept, {missing} to go; the same command goes on where this one stopped",
             plural(standings.len() - missing, "finished point")
         );
     }
-    Ok(if failed > 0 || went.interrupted {
+    Ok(if failed > 0 || went.is_break() {
         ExitCode::from(NOT_WHOLE)
     } else {
         ExitCode::SUCCESS
@@ -153,7 +153,7 @@ fn plan(
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     // A point without a model is a row with its reason, and says nothing of the others' numbers.
     let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| {
-        brinell::campaign::names(&points.example, &simulation)
+        brinell::result::names(&points.example, &simulation)
     });
     for name in &args.plot {
         if names.is_empty() || names.contains(name) {
@@ -223,7 +223,7 @@ fn tell_plan(
         return;
     }
     let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
-    let cost = cost::estimate(tasks, work, threads).map_or(String::new(), |seconds| {
+    let cost = estimate(tasks, work, threads).map_or(String::new(), |seconds| {
         format!(", about {}", duration(seconds))
     });
     say!(

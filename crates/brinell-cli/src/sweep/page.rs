@@ -3,11 +3,12 @@
 use super::points::Points;
 use super::table::{Standing, number};
 use crate::say::{bracketed, short};
-use brinell::campaign::{Quantity, Row};
+use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
     Fact, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
 };
+use brinell_study::campaign::Row;
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, nobody reads them there.

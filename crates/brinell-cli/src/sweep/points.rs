@@ -2,15 +2,15 @@
 
 use super::SweepArgs;
 use crate::args::ScenarioArgs;
-use crate::campaign::{Task, Work};
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::run::{make_folder, signal_columns, signal_metadata};
-use brinell::campaign::{Axis, Plan, digest, fingerprint};
 use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
+use brinell_study::campaign::{Axis, Plan, digest, fingerprint};
+use brinell_study::runner::{Task, Work};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -32,7 +32,7 @@ pub(super) struct Points {
 
 /// The plan of the command line.
 fn plan(args: &SweepArgs) -> Result<Plan, Failure> {
-    let usage = |option: &str, error: brinell::campaign::PlanError| {
+    let usage = |option: &str, error: brinell_study::campaign::PlanError| {
         Failure::Usage(format!("{option}: {error}"))
     };
     let vary = args
@@ -199,6 +199,8 @@ impl FromSource<'_> {
 }
 
 impl Work for FromSource<'_> {
+    type Error = Failure;
+
     fn scenario(&self, task: &Task) -> Result<Scenario, Failure> {
         Ok(self.source.load(&task.settings, true)?.scenario)
     }

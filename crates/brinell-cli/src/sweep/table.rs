@@ -1,8 +1,10 @@
 //! The table of a sweep: a row a point, in the plan's order.
 
 use super::points::{Points, signal_file};
-use brinell::campaign::{Quantity, Row, columns};
+use brinell::result::Quantity;
 use brinell_io::{Cells, Column, Table};
+use brinell_study::campaign::{Row, columns};
+use brinell_study::runner::Task;
 
 /// How a point stands.
 pub(super) enum Standing<'a> {
@@ -26,7 +28,7 @@ pub(super) fn standings<'a>(
     points: &'a Points,
     row: impl Fn(&str) -> Option<&'a Row>,
 ) -> Vec<Standing<'a>> {
-    let one = |task: &'a Result<crate::campaign::Task, String>| match task {
+    let one = |task: &'a Result<Task, String>| match task {
         Err(reason) => Standing::Failed(reason),
         Ok(task) => match row(&task.fingerprint) {
             None => Standing::NotRun,

@@ -9,7 +9,7 @@ use crate::{
     Runs, SEARCHED, Stage, VARIANTS, Variant, Verdict, answers, axes, case, claims, distance, draw,
     held, judge, targets,
 };
-use brinell::calibrate::{Settings, Unfit, fit, least_budget};
+use brinell_study::calibrate::{Settings, Unfit, fit, least_budget};
 use std::ops::ControlFlow;
 
 /// The search is a fixed one.

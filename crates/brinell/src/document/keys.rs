@@ -10,7 +10,7 @@ use super::leaf::Leaf;
 
 /// Name, meaning, unit and range of one key.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Spec {
+pub struct Spec {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
     pub(crate) unit: &'static str,
@@ -18,7 +18,7 @@ pub(crate) struct Spec {
 }
 
 /// A key without a range; its unit is the one in its name.
-pub(crate) const fn key(name: &'static str, doc: &'static str) -> Spec {
+pub const fn key(name: &'static str, doc: &'static str) -> Spec {
     Spec {
         name,
         doc,
@@ -29,31 +29,31 @@ pub(crate) const fn key(name: &'static str, doc: &'static str) -> Spec {
 
 impl Spec {
     /// Another meaning.
-    pub(crate) const fn doc(mut self, doc: &'static str) -> Spec {
+    pub const fn doc(mut self, doc: &'static str) -> Spec {
         self.doc = doc;
         self
     }
 
     /// A unit that the name does not carry.
-    pub(crate) const fn unit(mut self, unit: &'static str) -> Spec {
+    pub const fn unit(mut self, unit: &'static str) -> Spec {
         self.unit = unit;
         self
     }
 
     /// Greater than `low`.
-    pub(crate) const fn above(mut self, low: f64) -> Spec {
+    pub const fn above(mut self, low: f64) -> Spec {
         self.range.low = Some((low, false));
         self
     }
 
     /// At least `low`.
-    pub(crate) const fn from(mut self, low: f64) -> Spec {
+    pub const fn from(mut self, low: f64) -> Spec {
         self.range.low = Some((low, true));
         self
     }
 
     /// At most `high`.
-    pub(crate) const fn to(mut self, high: f64) -> Spec {
+    pub const fn to(mut self, high: f64) -> Spec {
         self.range.high = Some((high, true));
         self
     }
@@ -114,7 +114,7 @@ const fn ends_with(name: &[u8], suffix: &[u8]) -> bool {
 
 /// Interval of finite numbers; each bound says whether it belongs to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Range {
+pub struct Range {
     pub(crate) low: Option<(f64, bool)>,
     pub(crate) high: Option<(f64, bool)>,
 }
@@ -166,7 +166,7 @@ impl fmt::Display for Range {
 
 /// What stands in for a key that the file leaves out.
 #[derive(Debug, Clone)]
-pub(crate) enum Fallback<T> {
+pub enum Fallback<T> {
     /// Nothing: the key must be given.
     Required,
     /// Only a catalogue bearing.
@@ -214,7 +214,7 @@ pub(crate) fn assumed<T>(value: T, why: &'static str) -> Fallback<T> {
 }
 
 /// A default that the source of the model states, or that is no statement about the bearing.
-pub(crate) fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
+pub fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
     Fallback::Fixed {
         value,
         why,
@@ -223,7 +223,7 @@ pub(crate) fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
 }
 
 /// One of the alternatives of [`Keys::one_of`].
-pub(crate) struct Variant<T> {
+pub struct Variant<T> {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
     pub(crate) blank: fn() -> T,
@@ -240,7 +240,7 @@ pub(crate) fn variant_of<T>(variants: &'static [Variant<T>], value: &T) -> &'sta
 }
 
 /// A walk over the keys of a scenario.
-pub(crate) trait Keys: Sized {
+pub trait Keys: Sized {
     /// A key with one value.
     fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T);
 

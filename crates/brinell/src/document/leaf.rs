@@ -8,17 +8,20 @@ use crate::scenario::Speed;
 
 /// A value that does not fit its key.
 #[derive(Debug)]
-pub(crate) struct Misfit {
-    pub(crate) message: String,
-    pub(crate) allowed: String,
+pub struct Misfit {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub allowed: String,
     /// The element at fault, where the value is a list.
-    pub(crate) element: Option<Box<Node>>,
+    pub element: Option<Box<Node>>,
     /// Path of the key at fault below the one that is read, where that holds keys of any name.
-    pub(crate) under: String,
+    pub under: String,
 }
 
 impl Misfit {
-    pub(crate) fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
+    /// Of the whole value.
+    pub fn new(message: impl Into<String>, allowed: impl Into<String>) -> Misfit {
         Misfit {
             message: message.into(),
             allowed: allowed.into(),
@@ -27,7 +30,8 @@ impl Misfit {
         }
     }
 
-    pub(crate) fn under(mut self, name: &str) -> Misfit {
+    /// Of a key below this one.
+    pub fn under(mut self, name: &str) -> Misfit {
         self.under = match self.under.as_str() {
             "" => name.to_owned(),
             rest => format!("{name}.{rest}"),
@@ -35,20 +39,27 @@ impl Misfit {
         self
     }
 
-    pub(crate) fn in_element(mut self, node: &Node) -> Misfit {
+    /// Of an element of a list.
+    pub fn in_element(mut self, node: &Node) -> Misfit {
         self.element.get_or_insert_with(|| Box::new(node.clone()));
         self
     }
 }
 
 /// The value of one key.
-pub(crate) trait Leaf: Sized + Clone {
+pub trait Leaf: Sized + Clone {
     /// Stands in for a value that could not be read; no check objects to it.
     fn blank() -> Self;
     /// What the key expects, with its article.
     fn expected(spec: &Spec) -> String;
+    /// The value of a node.
+    ///
+    /// # Errors
+    /// Where it does not fit.
     fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit>;
+    /// The value as TOML.
     fn write(&self) -> String;
+    /// The values accepted, as a JSON Schema.
     fn schema(spec: &Spec) -> Json;
     /// Values accepted, in the words of the template.
     fn range(spec: &Spec) -> String {
@@ -397,7 +408,7 @@ impl Leaf for Speed {
 }
 
 /// A closed set of words.
-pub(crate) trait Choice: Copy + PartialEq + 'static {
+pub trait Choice: Copy + PartialEq + 'static {
     /// Word, value, meaning; the first stands in where none could be read.
     const WORDS: &'static [(&'static str, Self, &'static str)];
 

@@ -36,14 +36,14 @@ pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
 pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
 
-/// What another document than the scenario is read with.
-pub(crate) mod reading {
-    pub(crate) use super::checks::Finder;
-    pub(crate) use super::keys::{Fallback, Keys, Spec, key, stated};
-    pub(crate) use super::leaf::{Choice, Leaf, Misfit};
-    pub(crate) use super::reader::Reader;
-    pub(crate) use super::source::{
-        Node, Value as Toml, brief_path, key_text, parse, path_parts, quote,
+/// What another document than the scenario is read with: the plan file of `brinell-study`. No promise to anybody else.
+#[doc(hidden)]
+pub mod reading {
+    pub use super::checks::Finder;
+    pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
+    pub use super::leaf::{Choice, Leaf, Misfit};
+    pub use super::reader::Reader;
+    pub use super::source::{
+        Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote,
     };
-    pub(crate) use super::words::words;
 }

@@ -94,7 +94,8 @@ impl Problem {
         }
     }
 
-    pub(crate) fn error(key: impl Into<String>, message: impl Into<String>) -> Problem {
+    /// That is wrong.
+    pub fn error(key: impl Into<String>, message: impl Into<String>) -> Problem {
         Problem::new(Severity::Error, key, message)
     }
 
@@ -109,12 +110,16 @@ impl Problem {
         self.at(place)
     }
 
-    pub(crate) fn value(mut self, value: impl Into<String>) -> Problem {
+    /// The value at fault.
+    #[must_use]
+    pub fn value(mut self, value: impl Into<String>) -> Problem {
         self.value = Some(value.into());
         self
     }
 
-    pub(crate) fn allowed(mut self, allowed: impl Into<String>) -> Problem {
+    /// What would be right; nothing where that is empty.
+    #[must_use]
+    pub fn allowed(mut self, allowed: impl Into<String>) -> Problem {
         self.allowed = Some(allowed.into()).filter(|text: &String| !text.is_empty());
         self
     }

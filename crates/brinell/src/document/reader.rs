@@ -29,7 +29,8 @@ struct Frame<'a> {
     broken: bool,
 }
 
-pub(crate) struct Reader<'a> {
+/// Fills a document from a tree of values.
+pub struct Reader<'a> {
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
     /// A preset was asked for and is unknown: what it would have filled is not worth a word.
@@ -40,10 +41,12 @@ pub(crate) struct Reader<'a> {
     recorded: HashMap<String, Assumed>,
     /// Those of them that tell how files of damage were read.
     recorded_of_files: Vec<Assumed>,
-    pub(crate) problems: Problems<'a>,
-    pub(crate) provenance: Vec<Provenance>,
+    /// What does not fit.
+    pub problems: Problems<'a>,
+    /// Where each value comes from.
+    pub provenance: Vec<Provenance>,
     /// What the file says of each key that the walk has named.
-    pub(crate) found: HashMap<String, &'a Node>,
+    pub found: HashMap<String, &'a Node>,
 }
 
 fn join(path: &str, name: &str) -> String {
@@ -61,7 +64,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Of another document.
-    pub(crate) fn with_vocabulary(
+    pub fn with_vocabulary(
         text: &'a str,
         root: &'a Table,
         vocabulary: &'a [(String, String)],
@@ -97,7 +100,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Ends the walk: what the file holds beyond the keys named is unknown.
-    pub(crate) fn finish(&mut self) {
+    pub fn finish(&mut self) {
         self.leave();
     }
 

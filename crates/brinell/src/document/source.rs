@@ -19,32 +19,43 @@ const MOST_RECOVERED: usize = 256 << 10;
 
 /// A value and where it stands in the file; an override stands nowhere.
 #[derive(Debug, Clone)]
-pub(crate) struct Node {
-    pub(crate) value: Value,
-    pub(crate) span: Option<Range<usize>>,
+pub struct Node {
+    /// The value.
+    pub value: Value,
+    /// Bytes of the text.
+    pub span: Option<Range<usize>>,
 }
 
 /// A TOML value.
 #[derive(Debug, Clone)]
-pub(crate) enum Value {
+pub enum Value {
+    /// A string.
     Text(String),
+    /// A whole number.
     Integer(i64),
     /// A whole number that no 64 bits hold.
     HugeInteger(String),
+    /// A decimal number.
     Float(f64),
+    /// True or false.
     Boolean(bool),
+    /// A date or time.
     Datetime(String),
+    /// A list.
     Array(Vec<Node>),
+    /// A table.
     Table(Table),
 }
 
-pub(crate) type Table = BTreeMap<String, Entry>;
+/// Keys of a table with their values.
+pub type Table = BTreeMap<String, Entry>;
 
 /// A key of a table.
 #[derive(Debug, Clone)]
-pub(crate) struct Entry {
+pub struct Entry {
     pub(crate) key_span: Option<Range<usize>>,
-    pub(crate) node: Node,
+    /// Its value.
+    pub node: Node,
 }
 
 impl Node {
@@ -96,7 +107,7 @@ impl Node {
     }
 
     /// The TOML type with its article.
-    pub(crate) fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> &'static str {
         match self.value {
             Value::Text(_) => "a string",
             Value::Integer(_) | Value::HugeInteger(_) => "a whole number",
@@ -109,12 +120,12 @@ impl Node {
     }
 
     /// A table without a place.
-    pub(crate) fn table(table: Table) -> Node {
+    pub fn table(table: Table) -> Node {
         Node::unplaced(Value::Table(table))
     }
 
     /// The whole value as TOML, on one line.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut text = String::new();
         self.render(&mut text, usize::MAX);
         text
@@ -184,8 +195,8 @@ fn convert_table(table: &DeTable<'_>, placed: bool, depth: usize) -> Result<Tabl
 /// The parts of a key's dotted path.
 ///
 /// # Errors
-/// Where there are more than [`DEEPEST`].
-pub(crate) fn path_parts(path: &str) -> Result<Vec<&str>, String> {
+/// Where there are more than 32.
+pub fn path_parts(path: &str) -> Result<Vec<&str>, String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     match parts.len() {
         0..=DEEPEST => Ok(parts),
@@ -196,7 +207,7 @@ pub(crate) fn path_parts(path: &str) -> Result<Vec<&str>, String> {
 }
 
 /// A path in a message.
-pub(crate) fn brief_path(path: &str) -> String {
+pub fn brief_path(path: &str) -> String {
     const LONGEST: usize = 80;
     match path.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}...", &path[..end]),
@@ -217,7 +228,7 @@ pub fn float(x: f64) -> String {
 }
 
 /// A key as TOML writes it.
-pub(crate) fn key_text(name: &str) -> String {
+pub fn key_text(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if !name.is_empty() && name.chars().all(bare) {
         name.to_owned()
@@ -245,7 +256,7 @@ pub fn quote(text: &str) -> String {
 }
 
 /// Parses `text` and lays `overrides` over it. Every syntax error is reported.
-pub(crate) fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Problem>> {
+pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Problem>> {
     let mut problems = Problems::of(text);
     let mut root = Node::unplaced(Value::Table(Table::new()));
     if let Some(message) = too_much(text) {

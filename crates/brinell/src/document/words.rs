@@ -13,7 +13,6 @@ macro_rules! words {
         }
     };
 }
-pub(crate) use words;
 
 words! { ClearanceClass:
     CN = "CN", "normal";

@@ -19,14 +19,15 @@ use super::source::{Node, float};
 use crate::scenario::Scenario;
 
 /// Finds what the file says of a key, and where.
-pub(crate) struct Finder<'a> {
+pub struct Finder<'a> {
     text: &'a str,
     found: &'a HashMap<String, &'a Node>,
     provenance: HashMap<&'a str, &'a Provenance>,
 }
 
 impl<'a> Finder<'a> {
-    pub(crate) fn new(
+    /// Of the keys that a reader found.
+    pub fn new(
         text: &'a str,
         found: &'a HashMap<String, &'a Node>,
         provenance: &'a [Provenance],
@@ -38,7 +39,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    pub(crate) fn place(&self, key: &str) -> Option<Place> {
+    /// Where the file gives a key.
+    pub fn place(&self, key: &str) -> Option<Place> {
         let span = self.found.get(key)?.span.clone()?;
         Some(Place::new(self.text, span))
     }

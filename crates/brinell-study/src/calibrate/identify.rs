@@ -1,0 +1,247 @@
+//! What a Jacobian says of the keys: intervals, correlations, and the directions along which the targets do not change.
+//!
+//! Everything is in the unit cube, and residuals are in standard uncertainties. With J = U S V^T, the variance along column i of V is
+//! 1/s_i^2 and the covariance V S^-2 V^T (linear least squares; Bates and Watts 1988, section 1.2). Where the residuals are larger than
+//! their uncertainties explain, with f degrees of freedom left, the covariance is multiplied by chi^2/f (Birge 1932).
+//!
+//! Differences of noisy runs give a Jacobian with noise in it, which on average adds its own square to each s^2. That share is taken
+//! off: a direction that shows no more than noise has no information.
+
+use brinell::signal::student_t_quantile;
+use nalgebra::{DMatrix, DVector};
+
+/// An interval that covers so much of a key's range says nothing.
+pub const MOST: f64 = 0.75;
+/// Two-sided 95 % of a normal distribution.
+const NORMAL: f64 = 1.959_963_984_540_054;
+/// Information along a direction, relative to the largest, below which it is round-off.
+const ROUND_OFF: f64 = 1e-10;
+
+/// One direction of the unit cube.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// Of length 1, a number for each key, the largest positive.
+    pub vector: Vec<f64>,
+    /// Singular value: residuals, in standard uncertainties, for the whole range.
+    pub singular_value: f64,
+    /// What noise alone would show on average.
+    pub noise: f64,
+    /// Half the 95 % interval along it, in ranges; infinite where there is no information.
+    pub half_width: f64,
+}
+
+impl Direction {
+    /// Whether the data tell: no key is moved by most of its range within the interval.
+    pub fn is_determined(&self) -> bool {
+        let largest = self.vector.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        2.0 * self.half_width * largest < MOST
+    }
+}
+
+/// What is known of the keys.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// From the best determined to the worst.
+    pub directions: Vec<Direction>,
+    /// Standard deviation of each key, in ranges; infinite where there is no information.
+    pub deviations: Vec<f64>,
+    /// Half the 95 % interval of each key, in ranges.
+    pub half_widths: Vec<f64>,
+    /// Correlation of the keys' estimates; directions without information count as very wide.
+    pub correlation: DMatrix<f64>,
+    /// Sum of squares of the residuals.
+    pub chi_square: f64,
+    /// Targets less keys.
+    pub freedom: i64,
+    /// What standard deviations were multiplied by, as the residuals are larger than their uncertainties explain; at least 1.
+    pub inflation: f64,
+}
+
+/// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a column's length that
+/// noise causes (see [`column_noise`]).
+pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Identified {
+    let keys = jacobian.ncols();
+    let chi_square: f64 = residuals.iter().map(|r| r * r).sum();
+    let freedom = residuals.len() as i64 - keys as i64;
+    let birge = match freedom {
+        1.. => (chi_square / freedom as f64).sqrt().max(1.0),
+        _ => 1.0,
+    };
+    let factor = if birge > 1.0 {
+        student_t_quantile(0.975, freedom.min(1_000_000) as u32) * birge
+    } else {
+        NORMAL
+    };
+    // Rows of zeros, so that V is whole where there are fewer targets than keys.
+    let tall = jacobian
+        .clone()
+        .resize_vertically(residuals.len().max(keys), 0.0);
+    let (values, vectors) = match tall.svd(false, true) {
+        nalgebra::SVD {
+            singular_values,
+            v_t: Some(v_t),
+            ..
+        } => (singular_values, v_t),
+        _ => (DVector::zeros(keys), DMatrix::identity(keys, keys)),
+    };
+    let mut information: Vec<(f64, Direction)> = (0..keys)
+        .map(|i| {
+            let mut vector: Vec<f64> = vectors.row(i).iter().copied().collect();
+            let largest = vector
+                .iter()
+                .copied()
+                .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+            if largest.is_some_and(|v| v < 0.0) {
+                vector.iter_mut().for_each(|v| *v = -*v);
+            }
+            let noise2: f64 = vector.iter().zip(noise).map(|(v, c)| (v * c).powi(2)).sum();
+            let known = (values[i] * values[i] - noise2).max(0.0);
+            let direction = Direction {
+                vector,
+                singular_value: values[i],
+                noise: noise2.sqrt(),
+                half_width: 0.0,
+            };
+            (known, direction)
+        })
+        .collect();
+    let largest = information.iter().map(|i| i.0).fold(0.0, f64::max);
+    for (known, direction) in &mut information {
+        if *known <= ROUND_OFF * largest {
+            *known = 0.0;
+        }
+        direction.half_width = factor / known.sqrt();
+    }
+    information.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let covariance = |least: f64| {
+        DMatrix::from_fn(keys, keys, |a, b| {
+            let part = |(known, d): &(f64, Direction)| {
+                let product = d.vector[a] * d.vector[b];
+                // What is not there at all does not become infinite.
+                if product.abs() < 1e-8 {
+                    return 0.0;
+                }
+                product / known.max(least)
+            };
+            information.iter().map(part).sum::<f64>()
+        })
+    };
+    let exact = covariance(0.0);
+    let wide = covariance(if largest > 0.0 {
+        ROUND_OFF * largest
+    } else {
+        1.0
+    });
+    let deviation = |k: usize| match exact[(k, k)] {
+        v if v.is_finite() => v.sqrt(),
+        _ => f64::INFINITY,
+    };
+    Identified {
+        deviations: (0..keys).map(|k| birge * deviation(k)).collect(),
+        half_widths: (0..keys).map(|k| factor * deviation(k)).collect(),
+        correlation: DMatrix::from_fn(keys, keys, |a, b| {
+            let scale = (wide[(a, a)] * wide[(b, b)]).sqrt();
+            if a == b || scale <= 0.0 {
+                return f64::from(u8::from(a == b));
+            }
+            (wide[(a, b)] / scale).clamp(-1.0, 1.0)
+        }),
+        directions: information.into_iter().map(|i| i.1).collect(),
+        chi_square,
+        freedom,
+        inflation: birge,
+    }
+}
+
+/// Standard deviation of a column's length from noise alone: `noise` is that of each residual in one run, `distance` the length of the
+/// difference.
+pub fn column_noise(noise: &[f64], distance: f64) -> f64 {
+    let sum: f64 = noise.iter().map(|n| 2.0 * n * n).sum();
+    sum.sqrt() / distance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line through points with known uncertainties: the covariance of slope and intercept has a formula.
+    #[test]
+    fn analytic_a_straight_line_has_the_covariance_of_the_textbook() {
+        let (x, sigma) = ([-1.0, 0.5, 2.0, 4.0, 7.0], 0.3);
+        let jacobian = DMatrix::from_fn(5, 2, |row, column| {
+            if column == 0 {
+                1.0 / sigma
+            } else {
+                x[row] / sigma
+            }
+        });
+        let found = identify(&[0.1, -0.2, 0.3, 0.1, -0.3], &jacobian, &[0.0, 0.0]);
+        let (n, sx): (f64, f64) = (5.0, x.iter().sum());
+        let sxx: f64 = x.iter().map(|x| x * x).sum();
+        let delta = n * sxx - sx * sx;
+        let expected = [sigma * (sxx / delta).sqrt(), sigma * (n / delta).sqrt()];
+        for (found, expected) in found.deviations.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        }
+        let correlation = -sx / (n * sxx).sqrt();
+        assert!((found.correlation[(0, 1)] - correlation).abs() < 1e-12);
+        assert_eq!((found.freedom, found.inflation), (3, 1.0));
+        let ratio = found.half_widths[0] / found.deviations[0];
+        assert!((ratio - 1.96).abs() < 1e-3);
+    }
+
+    #[test]
+    fn analytic_residuals_that_are_too_large_widen_the_intervals() {
+        let jacobian = DMatrix::from_fn(4, 1, |_, _| 10.0);
+        let found = identify(&[2.0, -2.0, 2.0, -2.0], &jacobian, &[0.0]);
+        // chi^2 = 16 with 3 degrees of freedom; t(0.975, 3) = 3.182.
+        let inflation = (16.0_f64 / 3.0).sqrt();
+        assert!((found.inflation - inflation).abs() < 1e-12);
+        assert!((found.half_widths[0] - 3.182_446 * inflation / 20.0).abs() < 1e-5);
+    }
+
+    /// r depends on a + 2 b alone: 2 a - b is free, and c stands by itself.
+    #[test]
+    fn analytic_a_combination_that_nothing_depends_on_is_found() {
+        let jacobian = DMatrix::from_row_slice(
+            4,
+            3,
+            &[
+                10.0, 20.0, 0.0, -5.0, -10.0, 0.0, 0.0, 0.0, 40.0, 3.0, 6.0, 0.0,
+            ],
+        );
+        let found = identify(&[0.0; 4], &jacobian, &[0.0; 3]);
+        let free = &found.directions[2];
+        assert!(!free.is_determined() && free.half_width.is_infinite());
+        let length = 5.0_f64.sqrt();
+        for (v, expected) in free.vector.iter().zip([2.0, -1.0, 0.0]) {
+            assert!((v - expected / length).abs() < 1e-9, "{:?}", free.vector);
+        }
+        assert!(found.deviations[0].is_infinite() && found.deviations[1].is_infinite());
+        assert!((found.deviations[2] - 1.0 / 40.0).abs() < 1e-12);
+        assert!(found.correlation[(0, 1)] < -0.99999);
+        assert!(found.correlation[(0, 2)].abs() < 1e-6);
+        assert!(found.directions[0].is_determined() && found.directions[1].is_determined());
+    }
+
+    #[test]
+    fn analytic_fewer_targets_than_keys_leave_directions_free() {
+        let jacobian = DMatrix::from_row_slice(1, 3, &[0.0, 30.0, 0.0]);
+        let found = identify(&[0.5], &jacobian, &[0.0; 3]);
+        assert!((found.deviations[1] - 1.0 / 30.0).abs() < 1e-12);
+        assert!(found.deviations[0].is_infinite() && found.deviations[2].is_infinite());
+        let free = found.directions.iter().filter(|d| !d.is_determined());
+        assert_eq!((free.count(), found.freedom), (2, -2));
+    }
+
+    /// Noise in a difference adds its square to a singular value's; a direction that shows nothing else is free.
+    #[test]
+    fn analytic_noise_is_not_information() {
+        let jacobian = DMatrix::from_row_slice(2, 2, &[50.0, 0.0, 0.0, 5.0]);
+        let found = identify(&[0.0; 2], &jacobian, &[3.0, 5.0]);
+        assert!((found.deviations[0] - 1.0 / (2500.0_f64 - 9.0).sqrt()).abs() < 1e-12);
+        assert!(found.deviations[1].is_infinite());
+        // Two runs with noise 0.1, 0.2 of a range apart.
+        assert!((column_noise(&[0.1], 0.2) - 0.1 * 2.0_f64.sqrt() / 0.2).abs() < 1e-15);
+    }
+}

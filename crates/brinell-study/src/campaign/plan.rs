@@ -1,0 +1,188 @@
+//! A grid of settings: every combination of the axes, in a fixed order.
+
+use super::axis::Axis;
+
+/// Points of a plan at most: beyond that, a plan is a slip of the keyboard.
+pub const MOST_POINTS: usize = 100_000;
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PlanError {
+    /// A text that is no axis.
+    #[error("`{text}`: expected {expected}")]
+    Syntax {
+        /// The text.
+        text: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// A value or a range that cannot be.
+    #[error("{key} = {value}: {why}\n  allowed: {allowed}")]
+    Value {
+        /// The key that varies.
+        key: String,
+        /// The value found.
+        value: String,
+        /// What is wrong with it.
+        why: String,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// Two keys that do not go together.
+    #[error("{first} and {second} {why}")]
+    Keys {
+        /// One key.
+        first: String,
+        /// The other.
+        second: String,
+        /// What is wrong with them.
+        why: String,
+    },
+    /// One key on two axes.
+    #[error("{0} varies twice; each key varies in one place")]
+    Twice(String),
+    /// More points than [`MOST_POINTS`].
+    #[error("{points} points\n  allowed: 1 to {MOST_POINTS} points")]
+    TooMany {
+        /// Points asked for.
+        points: u128,
+    },
+}
+
+/// Every combination of the settings of some axes. The last axis changes from point to point, the first one slowest.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Plan {
+    axes: Vec<Axis>,
+}
+
+impl Plan {
+    /// Of axes; without any it has one point, which changes nothing.
+    ///
+    /// # Errors
+    /// Where two axes set one key, or one inside the other, or there are more than [`MOST_POINTS`] points.
+    pub fn new(axes: Vec<Axis>) -> Result<Self, PlanError> {
+        let keys: Vec<&String> = axes.iter().flat_map(Axis::keys).collect();
+        for (k, key) in keys.iter().enumerate() {
+            for other in &keys[..k] {
+                if other == key {
+                    return Err(PlanError::Twice((*key).clone()));
+                }
+                let inside =
+                    |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('.'));
+                if inside(key, other) || inside(other, key) {
+                    return Err(PlanError::Keys {
+                        first: (*other).clone(),
+                        second: (*key).clone(),
+                        why: "lie one inside the other, and would overwrite each other".into(),
+                    });
+                }
+            }
+        }
+        // At most 100000^axes: a command line is too short to overflow this, and saturation would still refuse.
+        let points = axes.iter().fold(1_u128, |product, axis| {
+            product.saturating_mul(axis.settings().len() as u128)
+        });
+        if points > MOST_POINTS as u128 {
+            return Err(PlanError::TooMany { points });
+        }
+        Ok(Self { axes })
+    }
+
+    /// The axes.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// All keys that vary, in order.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.axes
+            .iter()
+            .flat_map(|axis| axis.keys().iter().map(String::as_str))
+    }
+
+    /// Points, at least one.
+    pub fn points(&self) -> usize {
+        self.axes.iter().map(|axis| axis.settings().len()).product()
+    }
+
+    /// Which setting of each axis a point has.
+    pub fn place(&self, point: usize) -> Vec<usize> {
+        let mut rest = point;
+        let mut place: Vec<usize> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| {
+                let here = rest % axis.settings().len();
+                rest /= axis.settings().len();
+                here
+            })
+            .collect();
+        place.reverse();
+        place
+    }
+
+    /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].
+    pub fn settings(&self, point: usize) -> Vec<(String, String)> {
+        let chosen = self.axes.iter().zip(self.place(point));
+        chosen
+            .flat_map(|(axis, k)| {
+                let pairs = axis.keys().iter().zip(&axis.settings()[k]);
+                pairs.map(|(key, value)| (key.clone(), value.clone()))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(axes: &[&str]) -> Result<Plan, PlanError> {
+        Plan::new(axes.iter().map(|text| Axis::vary(text).unwrap()).collect())
+    }
+
+    #[test]
+    fn prop_every_combination_comes_once_the_last_axis_first() {
+        let plan = plan(&["a=1,2,3", "b=x,y", "c=4:6:1"]).unwrap();
+        let mut expected = Vec::new();
+        for a in ["1", "2", "3"] {
+            for b in ["x", "y"] {
+                for c in ["4", "5", "6"] {
+                    expected
+                        .push([("a", a), ("b", b), ("c", c)].map(|(k, v)| (k.into(), v.into())));
+                }
+            }
+        }
+        assert_eq!(plan.points(), expected.len());
+        for (k, point) in expected.iter().enumerate() {
+            assert_eq!(plan.settings(k), point, "point {k}");
+        }
+        assert_eq!(plan.place(7), [1, 0, 1]);
+        assert_eq!(plan.keys().collect::<Vec<_>>(), ["a", "b", "c"]);
+    }
+
+    #[test]
+    fn regress_no_axis_is_one_point() {
+        let plan = plan(&[]).unwrap();
+        assert_eq!((plan.points(), plan.settings(0).len()), (1, 0));
+    }
+
+    #[test]
+    fn regress_plans_that_cannot_be() {
+        let say = |axes: &[&str]| plan(axes).unwrap_err().to_string();
+        assert_eq!(
+            say(&["a.b=1", "a.b=2"]),
+            "a.b varies twice; each key varies in one place"
+        );
+        assert_eq!(
+            say(&["defects.0=1", "defects.0.depth_um=2"]),
+            "defects.0 and defects.0.depth_um lie one inside the other, and would overwrite each other"
+        );
+        assert_eq!(
+            say(&["a=1:1000:1", "b=1:1000:1"]),
+            "1000000 points\n  allowed: 1 to 100000 points"
+        );
+        assert!(plan(&["defects.1.depth_um=1", "defects.10.depth_um=2"]).is_ok());
+    }
+}

@@ -1,0 +1,198 @@
+//! What is kept of a point: its settings, which scenario it was, and its numbers or why there are none.
+
+use brinell::result::{Quantity, Spread};
+use brinell::scenario::Scenario;
+use brinell::signal::Interval;
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+/// A point that is done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Key and value of what the point sets.
+    pub settings: Vec<(String, String)>,
+    /// [`fingerprint`] of its scenario.
+    pub scenario: String,
+    /// Version of the program that ran it.
+    pub version: String,
+    /// Its numbers, or why it failed.
+    pub result: Result<Vec<Quantity>, String>,
+}
+
+/// Which scenario it is: SHA-256 of its text with every key given, in hexadecimal. Scenarios that mean the same have the same, however
+/// their files were written; files of damage count by what was read from them.
+pub fn fingerprint(scenario: &Scenario) -> String {
+    digest(&scenario.to_toml())
+}
+
+/// SHA-256 of a text, in hexadecimal.
+pub fn digest(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl Row {
+    /// As one JSON object. Numbers come back bit for bit from a parser that rounds correctly.
+    pub fn to_json(&self) -> Value {
+        let settings: Map<String, Value> = self
+            .settings
+            .iter()
+            .map(|(key, value)| (key.clone(), value.as_str().into()))
+            .collect();
+        let mut object = json!({
+            "settings": settings, "scenario": self.scenario, "brinell": self.version,
+        });
+        match &self.result {
+            Ok(quantities) => {
+                let values: Map<String, Value> = quantities
+                    .iter()
+                    .map(|q| {
+                        let value = match q.spread {
+                            Spread::Without => json!([q.unit, q.value]),
+                            Spread::Unknown => json!([q.unit, q.value, null, null]),
+                            Spread::Interval(i) => {
+                                json!([q.unit, q.value, i.low, i.high, i.freedom])
+                            }
+                        };
+                        (q.name.clone(), value)
+                    })
+                    .collect();
+                object["values"] = values.into();
+            }
+            Err(reason) => object["failed"] = reason.as_str().into(),
+        }
+        object
+    }
+
+    /// From what [`Row::to_json`] gave; `None` where it is not that.
+    pub fn from_json(value: &Value) -> Option<Row> {
+        let text = |key: &str| Some(value.get(key)?.as_str()?.to_owned());
+        let settings = value.get("settings")?.as_object()?.iter();
+        let settings = settings.map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
+        let result = match value.get("failed") {
+            Some(reason) => Err(reason.as_str()?.to_owned()),
+            None => {
+                let values = value.get("values")?.as_object()?.iter();
+                Ok(values
+                    .map(|(name, parts)| quantity(name, parts.as_array()?))
+                    .collect::<Option<Vec<_>>>()?)
+            }
+        };
+        Some(Row {
+            settings: settings.collect::<Option<_>>()?,
+            scenario: text("scenario")?,
+            version: text("brinell")?,
+            result,
+        })
+    }
+
+    /// A number of the row by its name.
+    pub fn quantity(&self, name: &str) -> Option<&Quantity> {
+        let quantities = self.result.as_ref().ok()?;
+        quantities.iter().find(|q| q.name == name)
+    }
+}
+
+fn quantity(name: &str, parts: &[Value]) -> Option<Quantity> {
+    let number = |value: &Value| match value {
+        Value::Null => Some(None),
+        value => value.as_f64().map(Some),
+    };
+    let (unit, value, spread) = match parts {
+        [unit, value] => (unit, value, Spread::Without),
+        [unit, value, Value::Null, Value::Null] => (unit, value, Spread::Unknown),
+        [unit, value, low, high, freedom] => {
+            let interval = Interval {
+                low: low.as_f64()?,
+                high: high.as_f64()?,
+                freedom: u32::try_from(freedom.as_u64()?).ok().filter(|f| *f > 0)?,
+            };
+            (unit, value, Spread::Interval(interval))
+        }
+        _ => return None,
+    };
+    Some(Quantity {
+        name: name.to_owned(),
+        unit: unit.as_str()?.to_owned(),
+        value: number(value)?,
+        spread,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quantity(name: &str, value: Option<f64>, spread: Spread) -> Quantity {
+        Quantity {
+            name: name.into(),
+            unit: "m/s^2".into(),
+            value,
+            spread,
+        }
+    }
+
+    #[test]
+    fn prop_rows_come_back_from_json_bit_for_bit() {
+        let mut row = Row {
+            settings: vec![
+                ("b".into(), "[1, 0]".into()),
+                ("a".into(), "x \"y\"".into()),
+            ],
+            scenario: "ab12".into(),
+            version: "0.1.0".into(),
+            result: Err("the state stopped being finite\nat t = 1 s".into()),
+        };
+        let back = |row: &Row| {
+            let text = row.to_json().to_string();
+            assert!(!text.contains('\n'));
+            Row::from_json(&serde_json::from_str(&text).unwrap())
+        };
+        assert_eq!(back(&row), Some(row.clone()));
+        // Awkward numbers: every one a double that a careless parser misses by a digit.
+        let mut seed = 0x9E37_79B9_7F4A_7C15_u64;
+        let quantities = (0..2000).map(|k| {
+            seed = seed
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            let x = f64::from_bits(seed);
+            let x = if x.is_finite() { x } else { -0.0 };
+            let spread = match k % 3 {
+                0 => Spread::Without,
+                1 => Spread::Unknown,
+                _ => Spread::Interval(Interval {
+                    low: -x,
+                    high: 0.1 * x,
+                    freedom: 7,
+                }),
+            };
+            quantity(&format!("q{k}"), (k % 7 > 0).then_some(x), spread)
+        });
+        row.result = Ok(quantities.collect());
+        let again = back(&row).unwrap();
+        assert_eq!(again, row);
+        let bits = |row: &Row| -> Vec<u64> {
+            let values = row.result.as_ref().unwrap().iter().filter_map(|q| q.value);
+            values.map(f64::to_bits).collect()
+        };
+        assert_eq!(bits(&again), bits(&row));
+    }
+
+    #[test]
+    fn regress_what_is_no_row() {
+        for text in [
+            "{}",
+            "[]",
+            r#"{"settings":{},"scenario":"a","brinell":"1"}"#,
+            r#"{"settings":{"a":1},"scenario":"a","brinell":"1","failed":"x"}"#,
+            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":[1,2]}}"#,
+            r#"{"settings":{},"scenario":"a","brinell":"1","values":{"a":["m","2"]}}"#,
+        ] {
+            assert_eq!(
+                Row::from_json(&serde_json::from_str(text).unwrap()),
+                None,
+                "{text}"
+            );
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Scenarios from start to findings, side by side.
+
+use brinell::many;
+use brinell::result::{Finished, Unfinished, run};
+use brinell::scenario::Scenario;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` is told which scenario
+/// has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for bit.
+pub fn run_all(
+    scenarios: &[Scenario],
+    threads: NonZeroUsize,
+    progress: impl Fn(usize, f64) -> ControlFlow<()> + Sync,
+) -> Vec<Result<Finished, Unfinished>> {
+    let mut all: Vec<Option<Result<Finished, Unfinished>>> =
+        scenarios.iter().map(|_| None).collect();
+    many::each(
+        scenarios.len(),
+        threads,
+        |k| run(scenarios[k].clone(), |t| progress(k, t)),
+        |k, result| all[k] = Some(result),
+    );
+    all.into_iter()
+        .map(|result| result.unwrap_or(Err(Unfinished::Stopped)))
+        .collect()
+}

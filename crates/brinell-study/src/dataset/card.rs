@@ -1,0 +1,238 @@
+//! The data set's card: `README.md` with the splits for Hugging Face's `load_dataset`, and `croissant.json` for tools that read MLCommons' Croissant.
+
+use crate::campaign::digest;
+use crate::dataset::error::DatasetError;
+use crate::dataset::sidecar::{put, written};
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Licences that Hugging Face knows by the SPDX identifier in small letters.
+const KNOWN_LICENCES: [&str; 8] = [
+    "cc0-1.0",
+    "cc-by-4.0",
+    "cc-by-sa-4.0",
+    "cc-by-nc-4.0",
+    "cc-by-nc-sa-4.0",
+    "mit",
+    "apache-2.0",
+    "odbl",
+];
+
+/// The file that tools read.
+pub(crate) const CROISSANT: &str = "croissant.json";
+
+/// Writes both, and gives what `dataset.json` says of the one that is nobody's to change. A README.md that is there stays: its author may have
+/// gone on with it.
+pub(crate) fn write(folder: &Path, about: &Value) -> Result<Value, DatasetError> {
+    let readme = folder.join("README.md");
+    if !readme.exists() {
+        put(&readme, &card(about))?;
+    }
+    let text = written(&croissant(about));
+    put(&folder.join(CROISSANT), &text)?;
+    Ok(json!({ "path": CROISSANT, "sha256": digest(&text) }))
+}
+
+fn text<'a>(value: &'a Value, key: &str) -> &'a str {
+    value[key].as_str().unwrap_or("")
+}
+
+fn list<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
+    value[key].as_array().into_iter().flatten()
+}
+
+/// Name of a split where names are letters, digits and `_`. Data that are not divided are called `train` there.
+fn split_name(split: &str) -> String {
+    match split {
+        "open" => "train".into(),
+        other => other.replace('-', "_"),
+    }
+}
+
+/// Paths of the files of each split.
+fn paths(about: &Value) -> Vec<(String, Vec<&str>)> {
+    let mut splits: Vec<(String, Vec<&str>)> = Vec::new();
+    for file in list(about, "files") {
+        let split = split_name(text(file, "split"));
+        match splits.last_mut() {
+            Some((last, paths)) if *last == split => paths.push(text(file, "path")),
+            _ => splits.push((split, vec![text(file, "path")])),
+        }
+    }
+    splits
+}
+
+fn description(about: &Value) -> String {
+    format!(
+        "{} vibration signals of rolling bearings, simulated by brinell {} (rings, cages and every roller are moving bodies; damage changes each contact), \
+         with labels and ground truth.",
+        about["runs"]["total"],
+        text(about, "brinell")
+    )
+}
+
+fn card(about: &Value) -> String {
+    let quoted = |text: &str| Value::from(text).to_string();
+    let runs = about["runs"]["total"].as_u64().unwrap_or(0);
+    let size = match runs {
+        0..1000 => "n<1K",
+        1000..10_000 => "1K<n<10K",
+        10_000..100_000 => "10K<n<100K",
+        _ => "100K<n<1M",
+    };
+    let mut card = format!("---\npretty_name: {}\n", quoted(text(about, "name")));
+    let licence = text(about, "licence");
+    let small = licence.to_lowercase();
+    // Strings that were written to a String cannot fail.
+    let _ = match KNOWN_LICENCES.contains(&small.as_str()) {
+        _ if licence.is_empty() => Ok(()),
+        true => writeln!(card, "license: {small}"),
+        false => writeln!(card, "license: other\nlicense_name: {}", quoted(licence)),
+    };
+    let _ = write!(
+        card,
+        "tags:\n- vibration\n- rolling-bearing\n- fault-diagnosis\n- simulated\nsize_categories:\n- {size}\nconfigs:\n- config_name: default\n  data_files:\n"
+    );
+    for (split, paths) in paths(about) {
+        let _ = writeln!(card, "  - split: {split}\n    path:");
+        for path in paths {
+            let _ = writeln!(card, "    - {}", quoted(path));
+        }
+    }
+    let _ = write!(
+        card,
+        "---\n\n# {}\n\n{}\n\n| class | label |\n| --- | --- |\n",
+        text(about, "name"),
+        description(about)
+    );
+    for class in list(about, "classes") {
+        let _ = writeln!(
+            card,
+            "| {} | {} |",
+            text(class, "name").replace('|', "\\|"),
+            class["label"]
+        );
+    }
+    let _ = write!(card, "\n| split | runs |\n| --- | --- |\n");
+    for split in list(about, "splits") {
+        let _ = writeln!(
+            card,
+            "| {} | {} |",
+            split_name(text(split, "name")),
+            split["runs"]
+        );
+    }
+    let signals: Vec<String> = list(about, "columns")
+        .filter(|c| text(c, "type") == "list<float>")
+        .map(|c| format!("`{}` ({})", text(c, "name"), text(c, "unit")))
+        .collect();
+    let _ = write!(
+        card,
+        "\nOne row is one run. Signals: {}; sample k is at k / `sample_rate_hz`. `dataset.json` lists every column with its unit and meaning, the bearing's \
+         geometry, and what was assumed.\n\n```python\nfrom datasets import load_dataset\nruns = load_dataset(\"path/to/this/folder\")\n```\n",
+        signals.join(", ")
+    );
+    if list(about, "splits").any(|split| text(split, "name") == "held-out") {
+        card += "\nThe labels of the split `held_out` are not published. Its runs have signals, speed and load.\n";
+    }
+    card
+}
+
+/// The data set as JSON-LD, by the Croissant format specification 1.0 (MLCommons, 2024).
+fn croissant(about: &Value) -> Value {
+    let name = text(about, "name");
+    let file = |file: &Value| {
+        json!({
+            "@type": "cr:FileObject", "@id": file["path"], "name": file["path"], "contentUrl": file["path"],
+            "contentSize": format!("{} B", file["bytes"]), "encodingFormat": "application/x-parquet", "sha256": file["sha256"],
+        })
+    };
+    let mut distribution: Vec<Value> = list(about, "files").map(file).collect();
+    distribution.push(json!({
+        "@type": "cr:FileSet", "@id": "runs", "name": "runs", "encodingFormat": "application/x-parquet", "includes": "runs/*.parquet",
+    }));
+    let field = |column: &Value| {
+        let kind = text(column, "type");
+        let inner = kind.strip_prefix("list<").and_then(|k| k.strip_suffix('>'));
+        let data_type = match inner.unwrap_or(kind) {
+            "bool" => "sc:Boolean",
+            "int64" => "sc:Integer",
+            "double" | "float" => "sc:Float",
+            _ => "sc:Text",
+        };
+        let mut field = json!({
+            "@type": "cr:Field", "@id": format!("run/{}", text(column, "name")), "name": column["name"],
+            "description": format!("{} ({})", text(column, "description"), text(column, "unit")), "dataType": data_type,
+            "source": { "fileSet": { "@id": "runs" }, "extract": { "column": column["name"] } },
+        });
+        if inner.is_some() {
+            field["repeated"] = true.into();
+        }
+        field
+    };
+    let mut all = Map::new();
+    for (key, value) in [
+        ("@context", context()),
+        ("@type", "sc:Dataset".into()),
+        ("conformsTo", "http://mlcommons.org/croissant/1.0".into()),
+        ("name", name.into()),
+        ("description", description(about).into()),
+        ("license", about["licence"].clone()),
+        ("distribution", distribution.into()),
+        (
+            "recordSet",
+            json!([{
+                "@type": "cr:RecordSet", "@id": "run", "name": "run",
+                "field": list(about, "columns").map(field).collect::<Vec<_>>(),
+            }]),
+        ),
+    ] {
+        if !value.is_null() {
+            all.insert(key.into(), value);
+        }
+    }
+    all.into()
+}
+
+/// The words of the format, as its specification gives them.
+fn context() -> Value {
+    json!({
+        "@language": "en",
+        "@vocab": "https://schema.org/",
+        "sc": "https://schema.org/",
+        "cr": "http://mlcommons.org/croissant/",
+        "rai": "http://mlcommons.org/croissant/RAI/",
+        "dct": "http://purl.org/dc/terms/",
+        "equivalentProperty": "cr:equivalentProperty",
+        "samplingRate": "cr:samplingRate",
+        "conformsTo": "dct:conformsTo",
+        "citeAs": "cr:citeAs",
+        "column": "cr:column",
+        "data": { "@id": "cr:data", "@type": "@json" },
+        "dataType": { "@id": "cr:dataType", "@type": "@vocab" },
+        "examples": { "@id": "cr:examples", "@type": "@json" },
+        "extract": "cr:extract",
+        "field": "cr:field",
+        "fileObject": "cr:fileObject",
+        "fileProperty": "cr:fileProperty",
+        "fileSet": "cr:fileSet",
+        "format": "cr:format",
+        "includes": "cr:includes",
+        "isLiveDataset": "cr:isLiveDataset",
+        "jsonPath": "cr:jsonPath",
+        "key": "cr:key",
+        "md5": "cr:md5",
+        "parentField": "cr:parentField",
+        "path": "cr:path",
+        "recordSet": "cr:recordSet",
+        "references": "cr:references",
+        "regex": "cr:regex",
+        "repeated": "cr:repeated",
+        "replace": "cr:replace",
+        "separator": "cr:separator",
+        "source": "cr:source",
+        "subField": "cr:subField",
+        "transform": "cr:transform",
+    })
+}

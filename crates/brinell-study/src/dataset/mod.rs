@@ -1,0 +1,36 @@
+//! Data sets: a plan to Parquet files of labelled signals with ground truth.
+//!
+//! A [`Campaign`] is a plan with its base scenario. [`run`] does a [`Shard`] of it into a folder: each finished run goes to the disk whole, and as soon as
+//! all runs of a file are there, they become that file. The same files come out, byte for byte, whatever the threads, the shards and the
+//! interruptions; what is there already is not touched. [`merge`] joins folders in which shards ran apart, [`verify`] checks one.
+//!
+//! In a folder:
+//!
+//! | path | what |
+//! | --- | --- |
+//! | `runs/part-00000.parquet`, ... | one row a run, in their order |
+//! | `held_out/part-00000.parquet`, ... | labels of the runs whose labels the plan holds out |
+//! | `dataset.json` | geometry, units, rate, licence, columns, checksums; written when all files are there |
+//! | `README.md`, `croissant.json` | the data set's card, as Hugging Face and other tools read it |
+//! | `work/` | which campaign it is, a checksum for each file, finished runs of unfinished files |
+
+mod campaign;
+mod card;
+mod columns;
+mod error;
+mod folder;
+mod merge;
+mod part;
+mod refusal;
+mod row;
+mod run;
+mod sidecar;
+mod truth;
+mod verify;
+
+pub use campaign::Campaign;
+pub use columns::DataColumn;
+pub use error::DatasetError;
+pub use merge::{Merged, merge};
+pub use run::{Shard, Went, run};
+pub use verify::{Verified, verify};

@@ -1,0 +1,244 @@
+//! Runs of a shard, side by side, each on the disk as soon as it is done.
+
+use crate::dataset::campaign::Campaign;
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::{Folder, make};
+use crate::dataset::{part, row, sidecar};
+use crate::listener::Listener;
+use brinell::many;
+use brinell_io::write_row_file;
+use std::collections::HashMap;
+use std::fs::File;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// A share of a campaign: `i/n`, i from 1. Files are dealt out in turn, so that no file's bytes depend on n.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which one, from 1.
+    pub index: usize,
+    /// Of how many.
+    pub of: usize,
+}
+
+impl Shard {
+    /// The whole.
+    pub const WHOLE: Self = Self { index: 1, of: 1 };
+
+    /// Whether a file is this shard's.
+    pub fn has(self, part: usize) -> bool {
+        part % self.of == self.index - 1
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| text.trim().parse::<usize>().ok();
+        let parts = text
+            .split_once('/')
+            .and_then(|(i, n)| Some((number(i)?, number(n)?)));
+        match parts {
+            Some((index, of)) if (1..=of).contains(&index) => Ok(Self { index, of }),
+            Some((0, of)) if of > 0 => Err(format!("shards count from 1: 1/{of} to {of}/{of}")),
+            _ => Err("expected I/N, I from 1 to N, for instance 3/10".into()),
+        }
+    }
+}
+
+/// How a shard went.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Went {
+    /// Runs of the shard.
+    pub runs: usize,
+    /// Of them, done now.
+    pub done: usize,
+    /// Of them, there already.
+    pub before: usize,
+    /// Of the shard's finished files, runs that failed.
+    pub failed: u64,
+    /// Somebody stopped it.
+    pub interrupted: bool,
+    /// Whether every file of the whole campaign is there, and `dataset.json` with them.
+    pub whole: bool,
+}
+
+/// A file whose runs are being done.
+struct Open {
+    left: usize,
+    _lock: File,
+}
+
+struct Work<'a> {
+    campaign: &'a Campaign,
+    folder: &'a Folder,
+    listener: &'a dyn Listener,
+    stop: AtomicBool,
+    open: Mutex<HashMap<usize, Open>>,
+}
+
+/// What became of a run.
+enum Ended {
+    /// Done now.
+    Done,
+    /// There already.
+    Before,
+    /// Broken off, or not begun.
+    Stopped,
+}
+
+/// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to go on where it stopped.
+///
+/// # Errors
+/// Where the folder holds something else, another process is at work on the same runs, or files cannot be written: what was finished stays.
+pub fn run(
+    campaign: &Campaign,
+    folder: impl AsRef<Path>,
+    shard: Shard,
+    threads: NonZeroUsize,
+    listener: &dyn Listener,
+) -> Result<Went, DatasetError> {
+    let folder = Folder::new(folder.as_ref());
+    folder.claim(campaign)?;
+    let mut went = Went::default();
+    let mut jobs = Vec::new();
+    let parts: Vec<usize> = (0..campaign.parts())
+        .filter(|part| shard.has(*part))
+        .collect();
+    for part in &parts {
+        let runs = campaign.runs_of(*part);
+        went.runs += runs.len();
+        if folder.finished(*part)?.is_some() {
+            went.before += runs.len();
+            listener.before(runs.len());
+            clear(&folder, *part);
+        } else {
+            jobs.extend(runs.iter().map(|run| (*part, *run)));
+        }
+    }
+    let work = Work {
+        campaign,
+        folder: &folder,
+        listener,
+        stop: AtomicBool::new(false),
+        open: Mutex::new(HashMap::new()),
+    };
+    let mut failure = None;
+    many::each(
+        jobs.len(),
+        threads,
+        |k| work.one(jobs[k].0, jobs[k].1),
+        |_, ended| match ended {
+            Ok(Ended::Done) => went.done += 1,
+            Ok(Ended::Before) => went.before += 1,
+            Ok(Ended::Stopped) => went.interrupted = true,
+            Err(error) => {
+                failure.get_or_insert(error);
+            }
+        },
+    );
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    for part in parts {
+        if let Some(facts) = folder.finished(part)? {
+            went.failed += facts["runs"]["failed"].as_u64().unwrap_or(0);
+        }
+    }
+    went.whole = sidecar::write(&folder)?;
+    Ok(went)
+}
+
+impl Work<'_> {
+    fn one(&self, part: usize, run: usize) -> Result<Ended, DatasetError> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Ok(Ended::Stopped);
+        }
+        let ended = self.try_one(part, run);
+        // A full disk fails every run to come as well.
+        if matches!(ended, Err(_) | Ok(Ended::Stopped)) {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+        ended
+    }
+
+    fn try_one(&self, part: usize, run: usize) -> Result<Ended, DatasetError> {
+        self.begin(part)?;
+        let ended = if self.folder.row(part, run).exists() {
+            self.listener.before(1);
+            Ended::Before
+        } else if self.make(part, run)? {
+            Ended::Done
+        } else {
+            return Ok(Ended::Stopped);
+        };
+        if self.end(part) {
+            self.close(part)?;
+        }
+        Ok(ended)
+    }
+
+    /// Runs `run` and puts its row to the disk; false where it was broken off.
+    fn make(&self, part: usize, run: usize) -> Result<bool, DatasetError> {
+        let Some(made) = row::make(self.campaign, run, self.listener) else {
+            return Ok(false);
+        };
+        write_row_file(self.folder.row(part, run), &made.cells)?;
+        self.listener.ended(run, made.failed.as_deref());
+        Ok(true)
+    }
+
+    /// Takes a file's runs in hand.
+    fn begin(&self, part: usize) -> Result<(), DatasetError> {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        if let std::collections::hash_map::Entry::Vacant(entry) = open.entry(part) {
+            make(&self.folder.spool(part))?;
+            entry.insert(Open {
+                _lock: self.folder.lock(part)?,
+                left: self.campaign.runs_of(part).len(),
+            });
+        }
+        Ok(())
+    }
+
+    /// One run less; true where it was the last.
+    fn end(&self, part: usize) -> bool {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        open.get_mut(&part).is_some_and(|open| {
+            open.left -= 1;
+            open.left == 0
+        })
+    }
+
+    /// All runs of a file are there.
+    fn close(&self, part: usize) -> Result<(), DatasetError> {
+        while part::write(self.campaign, self.folder, part)?.is_none() {
+            // A row that a crashed machine left in pieces.
+            let broken = self
+                .campaign
+                .runs_of(part)
+                .iter()
+                .filter(|run| !self.folder.row(part, **run).exists());
+            for run in broken.collect::<Vec<_>>() {
+                if !self.make(part, *run)? {
+                    return Ok(());
+                }
+            }
+        }
+        clear(self.folder, part);
+        self.open
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .remove(&part);
+        Ok(())
+    }
+}
+
+/// Removes the single runs of a finished file. Where that fails they are in nobody's way.
+fn clear(folder: &Folder, part: usize) {
+    let _ = std::fs::remove_dir_all(folder.spool(part));
+}

@@ -1,0 +1,135 @@
+//! Hears a run: its signals as 32-bit floats, and what happened that no sensor tells. Allocates as rollers pass damage, never in a step.
+
+use crate::listener::RunListener;
+use brinell::channel::Frame;
+use brinell::defect::{SIDES, Side};
+use brinell::observe::has_settled;
+use brinell::observe::load_zone::LoadZone;
+use brinell::observe::passes::{Event, Passes};
+use brinell::observe::slip::Slip;
+use brinell::scenario::Scenario;
+use brinell::simulate::{Observer, Simulation, SolverWork};
+use brinell_io::Column;
+use std::ops::ControlFlow;
+
+/// An entry or exit, and the force of its contact then, N.
+pub(crate) struct Instant {
+    pub(crate) event: Event,
+    pub(crate) force: f64,
+}
+
+pub(crate) struct Truth<'a> {
+    listener: &'a mut dyn RunListener,
+    half_way: f64,
+    passes: Passes,
+    pub(crate) instants: Vec<Instant>,
+    /// The analysed time begins here, s.
+    pub(crate) from: Option<f64>,
+    pub(crate) load_zone: LoadZone,
+    pub(crate) slip: Slip,
+    /// Of each roller's outer contact: sum and largest force over samples, N.
+    pub(crate) outer: Vec<(f64, f64)>,
+    pub(crate) samples: u64,
+    pub(crate) largest: f64,
+    /// Samples of the signals: sample_rate_hz * duration_s, half a second at 25 600 Hz being 12 800. The sample at the end of the run would be the
+    /// first of what follows.
+    keep: u64,
+    pub(crate) kept: u64,
+    /// Of each signal: its place in a row, where the run has it.
+    places: Vec<Option<usize>>,
+    pub(crate) signals: Vec<Vec<f32>>,
+}
+
+impl<'a> Truth<'a> {
+    pub(crate) fn new(
+        scenario: &Scenario,
+        simulation: &Simulation,
+        signals: &[Column],
+        listener: &'a mut dyn RunListener,
+    ) -> Self {
+        let layout = &simulation.model().layout;
+        let place = |signal: &Column| {
+            simulation
+                .channels()
+                .iter()
+                .position(|c| c.name == signal.name)
+        };
+        let places: Vec<Option<usize>> = signals.iter().map(place).collect();
+        let whole = (scenario.simulation.duration_s * simulation.sample_rate()).round();
+        let keep = simulation.samples().min(whole.max(1.0) as u64);
+        let room = |place: &Option<usize>| match place {
+            Some(_) => Vec::with_capacity(keep as usize),
+            None => Vec::new(),
+        };
+        Self {
+            listener,
+            half_way: 0.5 * scenario.simulation.duration_s,
+            passes: Passes::new(simulation.model()),
+            instants: Vec::new(),
+            from: None,
+            load_zone: LoadZone::new(layout),
+            slip: Slip::new(layout),
+            outer: vec![(0.0, 0.0); layout.rollers()],
+            samples: 0,
+            largest: 0.0,
+            keep,
+            kept: 0,
+            signals: places.iter().map(room).collect(),
+            places,
+        }
+    }
+
+    /// A signal, where the run has it.
+    pub(crate) fn signal(&mut self, k: usize) -> Option<Vec<f32>> {
+        self.places[k].map(|_| std::mem::take(&mut self.signals[k]))
+    }
+}
+
+impl Observer for Truth<'_> {
+    fn step(&mut self, frame: &Frame) {
+        self.passes.take(frame, false);
+        while let Some(event) = self.passes.events.pop_front() {
+            let force = frame.ws.contacts[event.side as usize].force[event.slot];
+            self.instants.push(Instant { event, force });
+        }
+    }
+
+    fn sample(&mut self, _: u64, frame: &Frame) {
+        if self.from.is_none() && has_settled(frame, self.half_way) {
+            self.from = Some(frame.t);
+        }
+        if self.from.is_none() {
+            return;
+        }
+        self.load_zone.take(frame);
+        self.slip.take(frame);
+        self.samples += 1;
+        for side in SIDES {
+            let force = &frame.ws.contacts[side as usize].force;
+            for (slot, (sum, largest)) in self.outer.iter_mut().enumerate() {
+                self.largest = self.largest.max(force[slot]);
+                if side == Side::Outer {
+                    *sum += force[slot];
+                    *largest = largest.max(force[slot]);
+                }
+            }
+        }
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
+        if index >= self.keep {
+            return ControlFlow::Continue(());
+        }
+        self.kept += 1;
+        for (signal, place) in self.signals.iter_mut().zip(&self.places) {
+            if let Some(place) = place {
+                signal.push(row[*place] as f32);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.listener.at(t)
+    }
+}

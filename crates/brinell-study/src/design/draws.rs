@@ -1,0 +1,495 @@
+//! What each run of a plan draws.
+
+use super::distribution::{Distribution, KINDS, Value};
+use super::plan::{Design, OutOfRange, Plan};
+use super::sequence::{Sequence, Sobol};
+use super::split::{self, Part};
+use super::stream::{Secret, bits, seed, unit, word};
+use super::turns::{APART, Place, places};
+use brinell::document::reading::{Node, Toml, parse, quote};
+use brinell::document::{Loaded, Problem, read};
+
+/// Times that a run is drawn before its class counts as impossible.
+const MOST_ATTEMPTS: u64 = 1000;
+
+/// A seed that every run has one of its own of.
+struct Seeded {
+    /// The table that holds it; `*` is any element of a list. A run whose scenario has no such table has no such seed.
+    table: &'static str,
+    /// Its name there.
+    name: &'static str,
+    /// Keys of which the table has one where the seed means something; none where it always does.
+    with: &'static [&'static str],
+}
+
+/// Keys that are seeded per run, where the plan does not set them.
+const SEEDED_PER_RUN: [Seeded; 2] = [
+    Seeded {
+        table: "defects.*.shape.random",
+        name: "seed",
+        with: &[],
+    },
+    Seeded {
+        table: "sensor",
+        name: "noise_seed",
+        with: &["noise_rms_m_per_s2", "noise_snr_db"],
+    },
+];
+
+/// One run's settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draw {
+    /// Index of the class.
+    pub class: usize,
+    /// Overrides for [`brinell::document::read`], seeds included.
+    pub settings: Vec<(String, String)>,
+    /// What was drawn, a value for each of [`Draws::parameters`]; `None` where the class does not draw it.
+    pub values: Vec<Option<Value>>,
+    /// How often it was drawn before, because its values did not fit.
+    pub redrawn: u64,
+}
+
+/// A key that is drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its path; elements of lists by number.
+    pub key: String,
+    /// Whether every value is a number.
+    pub numeric: bool,
+    /// Whether all classes draw it from `[vary]`, so that it says nothing of the class.
+    pub common: bool,
+}
+
+struct Axis {
+    parameter: usize,
+    distribution: Distribution,
+}
+
+struct Drawn {
+    /// All of its runs, and those of them that the design spreads.
+    runs: usize,
+    open: usize,
+    axes: Vec<Axis>,
+    sequence: Sequence,
+    /// Settings of all grids together.
+    combinations: usize,
+}
+
+/// The runs of a plan.
+pub struct Draws {
+    plan: Plan,
+    /// Where labels are held out.
+    secret: Option<Secret>,
+    classes: Vec<Drawn>,
+    places: Vec<Place>,
+    parts: Vec<Part>,
+    parameters: Vec<Parameter>,
+}
+
+impl Draws {
+    /// Of a plan.
+    ///
+    /// # Errors
+    /// Where the plan cannot be: fewer runs than combinations of its grids, more distributions than a Sobol sequence has dimensions.
+    pub fn new(plan: Plan) -> Result<Self, Vec<Problem>> {
+        let secret = Secret::of(&plan.secret).filter(|_| plan.holds_out());
+        let places = places(&plan, secret.as_ref());
+        let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
+        for (c, class) in plan.classes.iter().enumerate() {
+            let mine = || places.iter().filter(|place| place.class as usize == c);
+            let (all, runs) = (
+                mine().count(),
+                mine().filter(|place| place.number != APART).count(),
+            );
+            let mut found = Vec::new();
+            plan.vary.distributions("", &mut found);
+            let common = found.len();
+            class.vary.distributions("", &mut found);
+            if let Some(defects) = &class.defects {
+                defects.distributions("defects", &mut found);
+            }
+            let axes: Vec<Axis> = found
+                .into_iter()
+                .enumerate()
+                .map(|(k, (key, distribution))| Axis {
+                    parameter: parameter(&mut parameters, &key, distribution, k < common),
+                    distribution: distribution.clone(),
+                })
+                .collect();
+            let combinations =
+                axes.iter()
+                    .fold(1_usize, |product, axis| match &axis.distribution {
+                        Distribution::Grid { values } => product.saturating_mul(values.len()),
+                        _ => product,
+                    });
+            if combinations > runs && runs > 0 {
+                let apart = if plan.holds_out() {
+                    " whose labels are not held out"
+                } else {
+                    ""
+                };
+                let message = format!(
+                    "class {:?} has {runs} of the plan's {} runs{apart}, and its grids have {combinations} combinations",
+                    class.name, plan.runs
+                );
+                problems.push(
+                    Problem::error("runs", message)
+                        .value(plan.runs.to_string())
+                        .allowed(format!(
+                            "a run for each combination: about {} runs, or shorter grids",
+                            combinations.saturating_mul(plan.runs).div_ceil(runs.max(1))
+                        )),
+                );
+            }
+            let dimensions = axes.len();
+            let own = bits(&[plan.seed, word("design"), c as u64]);
+            let sequence = match plan.design {
+                Design::Random => Sequence::Random,
+                Design::LatinHypercube => Sequence::latin(own, dimensions, runs),
+                Design::Sobol if dimensions > Sobol::MOST => {
+                    let message = format!("class {:?} draws {dimensions} keys", class.name);
+                    let allowed = format!(
+                        "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
+                        Sobol::MOST
+                    );
+                    problems.push(
+                        Problem::error("design", message)
+                            .value("\"sobol\"")
+                            .allowed(allowed),
+                    );
+                    Sequence::Random
+                }
+                Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
+            };
+            classes.push(Drawn {
+                runs: all,
+                open: runs,
+                axes,
+                sequence,
+                combinations,
+            });
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let mut draws = Self {
+            plan,
+            secret,
+            classes,
+            places,
+            parts: Vec::new(),
+            parameters,
+        };
+        draws.parts = split::parts(&draws)?;
+        Ok(draws)
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// How many runs.
+    pub fn runs(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Class of a run, from 0.
+    pub fn class(&self, run: usize) -> usize {
+        self.places[run].class as usize
+    }
+
+    /// Runs of a class.
+    pub fn runs_of(&self, class: usize) -> usize {
+        self.classes[class].runs
+    }
+
+    /// Every key that some class draws.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Runs of a class whose labels are not held out.
+    pub fn open_runs_of(&self, class: usize) -> usize {
+        self.classes[class].open
+    }
+
+    /// Whether a run's labels are held out.
+    pub fn is_held_out(&self, run: usize) -> bool {
+        self.places[run].number == APART
+    }
+
+    /// What a run is for.
+    pub fn part(&self, run: usize) -> Part {
+        self.parts[run]
+    }
+
+    /// Under which conditions run `run` runs: of each key its value, or in which of so many bands of equal probability it lies where it is drawn from a
+    /// continuous distribution.
+    pub(super) fn conditions(&self, run: usize, keys: &[String], bands: f64) -> Vec<String> {
+        let class = &self.classes[self.class(run)];
+        let of_grid = self.of_grid(run);
+        let axes = class.axes.iter().enumerate();
+        axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
+            .map(|(k, axis)| match axis.distribution {
+                Distribution::Uniform { .. }
+                | Distribution::Log { .. }
+                | Distribution::Normal { .. } => {
+                    format!("{:.0}", (bands * self.unit(run, k, 0)).floor())
+                }
+                Distribution::Whole { .. }
+                | Distribution::Choice { .. }
+                | Distribution::Grid { .. } => self.value(run, k, 0, of_grid.as_deref()).toml,
+            })
+            .collect()
+    }
+
+    /// What the author should know: grids whose combinations come unequally often.
+    pub fn notes(&self) -> Vec<String> {
+        let uneven = |(class, drawn): (&super::Class, &Drawn)| {
+            (drawn.open % drawn.combinations != 0).then(|| {
+                format!(
+                    "class {:?} has {} runs for {} combinations of its grids: some combinations come once more than others",
+                    class.name, drawn.open, drawn.combinations
+                )
+            })
+        };
+        let classes = self.plan.classes.iter().zip(&self.classes);
+        classes.filter_map(uneven).collect()
+    }
+
+    /// Bits that belong to a run and words: of the secret where its labels are held out, and of nothing else then.
+    fn own_bits(&self, run: usize, words: &[u64]) -> u64 {
+        let run_and: Vec<u64> = std::iter::once(run as u64)
+            .chain(words.iter().copied())
+            .collect();
+        match &self.secret {
+            Some(secret) if self.is_held_out(run) => secret.bits(&run_and),
+            _ => bits(&[&[self.plan.seed], &*run_and].concat()),
+        }
+    }
+
+    /// Place of a run's first draw along an axis of its class, in [0, 1).
+    fn unit(&self, run: usize, axis: usize, attempt: u64) -> f64 {
+        let Place { class, number } = self.places[run];
+        let class = &self.classes[class as usize];
+        let own = word(&self.parameters[class.axes[axis].parameter].key);
+        // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
+        if attempt == 0
+            && number != APART
+            && let Some(place) = class.sequence.place(number as usize, axis)
+        {
+            return place;
+        }
+        unit(self.own_bits(run, &[attempt, own]))
+    }
+
+    /// What run `run` draws at its `attempt`-th time, from 0, without the seeds that [`Draws::draw`] adds.
+    fn values(&self, run: usize, attempt: u64) -> Vec<Value> {
+        let class = &self.classes[self.class(run)];
+        let of_grid = self.of_grid(run);
+        let axes = 0..class.axes.len();
+        axes.map(|k| self.value(run, k, attempt, of_grid.as_deref()))
+            .collect()
+    }
+
+    /// The same along one axis of its class.
+    fn value(&self, run: usize, axis: usize, attempt: u64, of_grid: Option<&[usize]>) -> Value {
+        match (
+            &self.classes[self.class(run)].axes[axis].distribution,
+            of_grid,
+        ) {
+            (Distribution::Grid { values }, Some(of_grid)) => values[of_grid[axis]].clone(),
+            (distribution, _) => distribution.value(self.unit(run, axis, attempt)),
+        }
+    }
+
+    /// Which value of each grid a run takes: they are walked through in order, the last one changing from run to run, whatever the attempt.
+    /// `None` where its labels are held out.
+    fn of_grid(&self, run: usize) -> Option<Vec<usize>> {
+        let Place { class, number } = self.places[run];
+        let class = &self.classes[class as usize];
+        let mut rest = number as usize % class.combinations;
+        let mut of_grid = vec![0; class.axes.len()];
+        for (k, axis) in class.axes.iter().enumerate().rev() {
+            if let Distribution::Grid { values } = &axis.distribution {
+                of_grid[k] = rest % values.len();
+                rest /= values.len();
+            }
+        }
+        (number != APART).then_some(of_grid)
+    }
+
+    /// What run `run` draws at its `attempt`-th time, over the base scenario's text.
+    fn draw(&self, base: &str, run: usize, attempt: u64) -> Result<Draw, Vec<Problem>> {
+        let c = self.class(run);
+        let class = &self.plan.classes[c];
+        let drawn = self.values(run, attempt);
+        let mut next = drawn.iter();
+        let record: Vec<String> = self.plan.signals.iter().map(|name| quote(name)).collect();
+        let record = format!("[{}]", record.join(", "));
+        let mut settings = vec![("simulation.record".to_owned(), record)];
+        for template in [&self.plan.vary, &class.vary] {
+            for (path, template) in template.settings() {
+                settings.push((path, template.toml(&mut next)));
+            }
+        }
+        if let Some(defects) = &class.defects {
+            settings.push(("defects".into(), defects.toml(&mut next)));
+        }
+        let seeds = self.seeds(base, &settings, run).map_err(no_place)?;
+        settings.extend(seeds);
+        let mut values = vec![None; self.parameters.len()];
+        for (axis, value) in self.classes[c].axes.iter().zip(drawn) {
+            values[axis.parameter] = Some(value);
+        }
+        Ok(Draw {
+            class: c,
+            settings,
+            values,
+            redrawn: attempt,
+        })
+    }
+
+    /// Seeds of the keys in [`SEEDED_PER_RUN`].
+    fn seeds(
+        &self,
+        base: &str,
+        settings: &[(String, String)],
+        run: usize,
+    ) -> Result<Vec<(String, String)>, Vec<Problem>> {
+        let root = Node::table(parse(base, settings)?);
+        let mut seeds = Vec::new();
+        for Seeded { table, name, with } in &SEEDED_PER_RUN {
+            let mut holders = Vec::new();
+            holding(&root, table, with, "", &mut holders);
+            for holder in holders {
+                let key = format!("{holder}.{name}");
+                if !self.sets(self.class(run), &key) {
+                    let own = seed(self.own_bits(run, &[word(&key)]));
+                    seeds.push((key, own.to_string()));
+                }
+            }
+        }
+        Ok(seeds)
+    }
+
+    /// Whether the plan sets a key in a class.
+    fn sets(&self, class: usize, key: &str) -> bool {
+        let class = &self.plan.classes[class];
+        let in_class = key.strip_prefix("defects.").zip(class.defects.as_ref());
+        self.plan.vary.sets(key)
+            || class.vary.sets(key)
+            || in_class.is_some_and(|(rest, defects)| defects.sets(rest))
+    }
+
+    /// Whether runs have a seed of their own under this key, which is no parameter and differs all the same.
+    pub fn is_seed(&self, key: &str) -> bool {
+        let is = |seeded: &Seeded| {
+            let (pattern, words) = (seeded.table.split('.').chain([seeded.name]), key.split('.'));
+            pattern.clone().count() == words.clone().count()
+                && pattern.zip(words).all(|(p, w)| p == "*" || p == w)
+        };
+        SEEDED_PER_RUN.iter().any(is) && (0..self.classes.len()).any(|c| !self.sets(c, key))
+    }
+
+    /// A run's scenario, read from the base scenario's text with what the run draws; drawn again where the plan says so.
+    ///
+    /// # Errors
+    /// Every problem of the first draw: of the one and only, or where no other fitted either. With the draw, where there is one.
+    pub fn scenario(
+        &self,
+        base: &str,
+        run: usize,
+    ) -> Result<(Loaded, Draw), (Vec<Problem>, Option<Draw>)> {
+        let attempts = match self.plan.out_of_range {
+            OutOfRange::Redraw => MOST_ATTEMPTS,
+            OutOfRange::Refuse | OutOfRange::Fail => 1,
+        };
+        let mut first = None;
+        for attempt in 0..attempts {
+            let draw = self
+                .draw(base, run, attempt)
+                .map_err(|problems| (problems, None))?;
+            match read(base, &draw.settings) {
+                Ok(loaded) => return Ok((loaded, draw)),
+                Err(problems) => {
+                    first.get_or_insert((problems, Some(draw)));
+                }
+            }
+        }
+        Err(first.unwrap_or_default())
+    }
+
+    /// The first draw of a run, whether or not it fits.
+    ///
+    /// # Errors
+    /// Where the base is no TOML, or has no place for what the plan sets.
+    pub fn first(&self, base: &str, run: usize) -> Result<Draw, Vec<Problem>> {
+        self.draw(base, run, 0)
+    }
+}
+
+/// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key below a number.
+fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
+    let hinted = |problem: Problem| match problem.allowed {
+        None => problem.allowed(format!("a value, or {{ {} = ... }}", KINDS.join(" | "))),
+        Some(_) => problem,
+    };
+    problems.into_iter().map(hinted).collect()
+}
+
+/// The parameter of that key, made where there is none yet.
+fn parameter(
+    all: &mut Vec<Parameter>,
+    key: &str,
+    distribution: &Distribution,
+    common: bool,
+) -> usize {
+    let numeric = distribution.is_numeric();
+    if let Some(k) = all.iter().position(|p| p.key == key) {
+        all[k].numeric &= numeric;
+        return k;
+    }
+    all.push(Parameter {
+        key: key.into(),
+        numeric,
+        common,
+    });
+    all.len() - 1
+}
+
+/// Paths of the tables that a pattern names and that have one of the keys `with`.
+fn holding(node: &Node, pattern: &str, with: &[&str], path: &str, all: &mut Vec<String>) {
+    let join = |name: &str| {
+        if path.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{path}.{name}")
+        }
+    };
+    let Some((head, rest)) = pattern
+        .split_once('.')
+        .or((!pattern.is_empty()).then_some((pattern, "")))
+    else {
+        if let Toml::Table(table) = &node.value
+            && (with.is_empty() || with.iter().any(|key| table.contains_key(*key)))
+        {
+            all.push(path.to_owned());
+        }
+        return;
+    };
+    match &node.value {
+        Toml::Array(items) if head == "*" => {
+            for (k, item) in items.iter().enumerate() {
+                holding(item, rest, with, &join(&k.to_string()), all);
+            }
+        }
+        Toml::Table(table) => {
+            if let Some(entry) = table.get(head) {
+                holding(&entry.node, rest, with, &join(head), all);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,22 @@
+//! Which runs a data set has: a plan file, its distributions, and what each run draws from them. Knows no other files.
+//!
+//! A [`Plan`] says which keys of a base scenario vary and how, which classes of damage there are, and how many runs. [`Draws`] makes
+//! of it the overrides of each run for [`brinell::document::read`]. What run k draws depends on the plan, its seed and k, and on nothing
+//! else: neither on threads, nor on which runs were done before.
+
+mod distribution;
+mod draws;
+mod plan;
+mod sequence;
+mod split;
+mod stream;
+mod survey;
+mod template;
+mod turns;
+
+pub use distribution::{Distribution, Value};
+pub use draws::{Draw, Draws, Parameter};
+pub use plan::{Class, Design, OutOfRange, Plan, Split};
+pub use sequence::Sobol;
+pub use split::Part;
+pub use survey::{Misses, Survey, place_in_plan, unsaid};

@@ -1,0 +1,149 @@
+//! Which runs are for training, validation and test: whole groups of runs under like conditions, so that no test repeats what was trained on.
+
+use super::draws::Draws;
+use super::plan::Split;
+use super::stream::{bits, word};
+use brinell::document::Problem;
+use std::collections::BTreeMap;
+
+/// Bands of equal probability that a continuous distribution is cut into.
+const BANDS: f64 = 8.0;
+
+/// What a run is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// Not divided: every run whose labels are open.
+    Open,
+    /// To train with.
+    Train,
+    /// To choose with.
+    Validation,
+    /// To judge with.
+    Test,
+    /// Its labels lie apart.
+    HeldOut,
+}
+
+impl Part {
+    /// All, in the order of the files.
+    pub const ALL: [Part; 5] = [
+        Part::Open,
+        Part::Train,
+        Part::Validation,
+        Part::Test,
+        Part::HeldOut,
+    ];
+
+    /// As the column `split` says it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Part::Open => "open",
+            Part::Train => "train",
+            Part::Validation => "validation",
+            Part::Test => "test",
+            Part::HeldOut => "held-out",
+        }
+    }
+}
+
+/// What each run is for.
+///
+/// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to validation, the rest to
+/// training; each of these has one group at least.
+///
+/// # Errors
+/// Where a key of `by` is not drawn by all classes, or there are fewer groups than parts.
+pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
+    let plan = draws.plan();
+    let mut parts: Vec<Part> = (0..draws.runs())
+        .map(|run| match (draws.is_held_out(run), &plan.split) {
+            (true, _) => Part::HeldOut,
+            (false, None) => Part::Open,
+            (false, Some(_)) => Part::Train,
+        })
+        .collect();
+    let Some(split) = &plan.split else {
+        return Ok(parts);
+    };
+    let keys = keys(draws, split)?;
+    let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    let open = (0..draws.runs()).filter(|run| !draws.is_held_out(*run));
+    for run in open {
+        let conditions = match keys.is_empty() {
+            true => run.to_string(),
+            false => draws.conditions(run, &keys, BANDS).join("; "),
+        };
+        groups.entry(conditions).or_default().push(run);
+    }
+    let runs: usize = groups.values().map(Vec::len).sum();
+    let shares = [
+        (Part::Test, split.test),
+        (Part::Validation, split.validation),
+    ];
+    let wanted = 1 + shares.iter().filter(|(_, share)| *share > 0.0).count();
+    if groups.len() < wanted {
+        let message = format!(
+            "the runs have {} group{} of conditions by {}, and {wanted} parts are wanted",
+            groups.len(),
+            if groups.len() == 1 { "" } else { "s" },
+            if keys.is_empty() {
+                "run".into()
+            } else {
+                keys.join(", ")
+            },
+        );
+        let problem = Problem::error("split.by", message);
+        return Err(vec![problem.allowed(
+            "keys that take more values, or [] for each run by itself",
+        )]);
+    }
+    let mut order: Vec<(u64, Vec<usize>)> = groups
+        .into_iter()
+        .map(|(conditions, runs)| (bits(&[plan.seed, word("split"), word(&conditions)]), runs))
+        .collect();
+    order.sort();
+    let (mut order, mut left) = (order.into_iter(), wanted - 1);
+    for (part, share) in shares.into_iter().filter(|(_, share)| *share > 0.0) {
+        let (aim, mut has) = (share * runs as f64, 0);
+        // To the nearest group, and one for each part that follows.
+        while order.len() > left {
+            let next = order.as_slice()[0].1.len();
+            if has > 0 && has as f64 + 0.5 * next as f64 > aim {
+                break;
+            }
+            for run in order.next().into_iter().flat_map(|(_, runs)| runs) {
+                parts[run] = part;
+                has += 1;
+            }
+        }
+        left -= 1;
+    }
+    Ok(parts)
+}
+
+/// The keys that make groups.
+fn keys(draws: &Draws, split: &Split) -> Result<Vec<String>, Vec<Problem>> {
+    let common = || draws.parameters().iter().filter(|p| p.common);
+    let Some(by) = &split.by else {
+        let is_condition = |key: &str| {
+            ["bearing.", "operation."]
+                .iter()
+                .any(|s| key.starts_with(s))
+        };
+        let keys = common().filter(|p| is_condition(&p.key));
+        return Ok(keys.map(|p| p.key.clone()).collect());
+    };
+    let unknown = by.iter().filter(|key| common().all(|p| p.key != **key));
+    let names: Vec<&str> = common().map(|p| p.key.as_str()).collect();
+    let problems: Vec<Problem> = unknown
+        .map(|key| {
+            Problem::error("split.by", "[vary] draws no such key".to_owned())
+                .value(format!("{key:?}"))
+                .allowed(names.join(", "))
+        })
+        .collect();
+    match problems.is_empty() {
+        true => Ok(by.clone()),
+        false => Err(problems),
+    }
+}

@@ -1,0 +1,178 @@
+//! A plan looked over before any of its runs: which drawn values do not make a scenario, and how often.
+
+use super::draws::Draws;
+use super::plan::OutOfRange;
+use brinell::document::{Place, Problem, Severity, locate, numberless};
+use brinell::many;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Runs looked at as one job.
+const CHUNK: usize = 64;
+
+/// A problem that some runs have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Misses {
+    /// As the first of these runs has it.
+    pub problem: Problem,
+    /// Index of that run.
+    pub run: usize,
+    /// How many of the runs looked at.
+    pub count: usize,
+}
+
+/// What came of looking.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Survey {
+    /// Runs looked at.
+    pub runs: usize,
+    /// Of them, those whose first draw makes no scenario.
+    pub unfit: usize,
+    /// Of those, the ones that no further draw mended.
+    pub hopeless: usize,
+    /// What was wrong with first draws, errors first, each kind once.
+    pub errors: Vec<Misses>,
+    /// What authors of the scenarios should know.
+    pub warnings: Vec<Misses>,
+    /// Simulated time of the runs looked at, s.
+    pub simulated: f64,
+    /// Samples of the runs looked at.
+    pub samples: f64,
+}
+
+impl Survey {
+    /// Looks at every `step`-th run; once `stop` is set, at no further ones.
+    pub fn of(
+        draws: &Draws,
+        base: &str,
+        step: NonZeroUsize,
+        threads: NonZeroUsize,
+        stop: &AtomicBool,
+    ) -> Self {
+        let looked = draws.runs().div_ceil(step.get());
+        let chunks = looked.div_ceil(CHUNK);
+        let mut parts: Vec<Option<Self>> = vec![None; chunks];
+        many::each(
+            chunks,
+            threads,
+            |k| {
+                let mut part = Self::default();
+                if stop.load(Ordering::Relaxed) {
+                    return part;
+                }
+                for n in k * CHUNK..((k + 1) * CHUNK).min(looked) {
+                    part.look(draws, base, n * step.get());
+                }
+                part
+            },
+            |k, part| parts[k] = Some(part),
+        );
+        // In the runs' order, whatever the threads did.
+        let mut all = Self::default();
+        parts.into_iter().flatten().for_each(|part| all.join(part));
+        all
+    }
+
+    /// Whether the plan can be carried out as it stands.
+    pub fn is_sound(&self, out_of_range: OutOfRange) -> bool {
+        match out_of_range {
+            OutOfRange::Refuse => self.unfit == 0,
+            OutOfRange::Redraw => self.hopeless == 0,
+            OutOfRange::Fail => self.unfit < self.runs,
+        }
+    }
+
+    fn look(&mut self, draws: &Draws, base: &str, run: usize) {
+        self.runs += 1;
+        let (problems, loaded) = match draws.scenario(base, run) {
+            Ok((loaded, draw)) => {
+                let again = draw.redrawn > 0;
+                let problems = match draws.first(base, run) {
+                    Ok(first) if again => brinell::document::read(base, &first.settings).err(),
+                    _ => None,
+                };
+                (problems.unwrap_or_default(), Some(loaded))
+            }
+            Err((problems, _)) => {
+                self.hopeless += 1;
+                (problems, None)
+            }
+        };
+        let is_error = |p: &Problem| p.severity == Severity::Error;
+        self.unfit += usize::from(problems.iter().any(is_error));
+        for problem in problems.into_iter().filter(is_error) {
+            count(&mut self.errors, problem, run, 1);
+        }
+        if let Some(loaded) = loaded {
+            let simulation = &loaded.scenario.simulation;
+            self.simulated += simulation.duration_s;
+            self.samples += simulation.duration_s * simulation.sample_rate_hz;
+            for warning in loaded.warnings {
+                count(&mut self.warnings, warning, run, 1);
+            }
+        }
+    }
+
+    fn join(&mut self, other: Self) {
+        self.runs += other.runs;
+        self.unfit += other.unfit;
+        self.hopeless += other.hopeless;
+        self.simulated += other.simulated;
+        self.samples += other.samples;
+        for (mine, theirs) in [
+            (&mut self.errors, other.errors),
+            (&mut self.warnings, other.warnings),
+        ] {
+            for miss in theirs {
+                count(mine, miss.problem, miss.run, miss.count);
+            }
+        }
+    }
+}
+
+/// Adds to those that differ in numbers alone.
+fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) {
+    let same = |m: &&mut Misses| {
+        m.problem.key == problem.key
+            && numberless(&m.problem.message) == numberless(&problem.message)
+    };
+    if let Some(miss) = all.iter_mut().find(same) {
+        miss.count += times;
+        return;
+    }
+    problem.message = unsaid(&problem.message);
+    all.push(Misses {
+        problem,
+        run,
+        count: times,
+    });
+}
+
+/// A message without the word that its value is an override's: in a plan every drawn value is.
+pub fn unsaid(message: &str) -> String {
+    message.replace(" (given as an override)", "")
+}
+
+/// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not: the base does.
+pub fn place_in_plan(
+    draws: &Draws,
+    plan_text: &str,
+    run: usize,
+    problem: &Problem,
+) -> Option<Place> {
+    let class = draws.class(run);
+    let mut key = problem.key.as_str();
+    loop {
+        for at in [
+            format!("vary.{key}"),
+            format!("classes.{class}.vary.{key}"),
+            format!("classes.{class}.{key}"),
+        ] {
+            if let Some(place) = locate(plan_text, &at) {
+                return Some(place);
+            }
+        }
+        // What holds the key may be what the plan sets.
+        key = key.rsplit_once('.')?.0;
+    }
+}

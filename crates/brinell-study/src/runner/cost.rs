@@ -1,0 +1,62 @@
+//! What a campaign will cost: some of its runs are made for a moment, and the clock is read. Nothing of that enters the results.
+
+use super::{Task, Work};
+use brinell::result::finish;
+use brinell::scenario::Scenario;
+use brinell::simulate::{Observer, Simulation, SolverWork};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// Runs that are tried: the first, the last, and some between.
+const TRIED: usize = 5;
+/// Wall time of one trial.
+const MOMENT: Duration = Duration::from_millis(60);
+
+/// Wall time of all tasks, s; `None` where no trial ran.
+pub fn estimate(tasks: &[Task], work: &impl Work, threads: NonZeroUsize) -> Option<f64> {
+    let simulated: f64 = tasks.iter().map(|task| task.duration_s).sum();
+    let at_once = threads.get().min(tasks.len().max(1));
+    let pace = mean_pace(tasks.len(), |k| work.scenario(&tasks[k]).ok())?;
+    Some(pace * simulated / at_once as f64)
+}
+
+/// Wall time of a simulated second, s, of a few of `count` scenarios; `None` where no trial ran.
+pub fn mean_pace(count: usize, scenario: impl Fn(usize) -> Option<Scenario>) -> Option<f64> {
+    let tried = count.min(TRIED);
+    let chosen = (0..tried).map(|k| k * (count - 1) / (tried - 1).max(1));
+    let paces: Vec<f64> = chosen.filter_map(|k| pace(scenario(k)?)).collect();
+    (!paces.is_empty()).then(|| paces.iter().sum::<f64>() / paces.len() as f64)
+}
+
+/// Wall time of a simulated second, s; `None` where the scenario does not run.
+fn pace(scenario: Scenario) -> Option<f64> {
+    let simulation = Simulation::new(&scenario).ok()?;
+    let mut trial = Trial {
+        begin: Instant::now(),
+        reached: 0.0,
+    };
+    let duration = scenario.simulation.duration_s;
+    finish(scenario, simulation, &mut trial);
+    let reached = trial.reached.min(duration);
+    (reached > 0.0).then(|| trial.begin.elapsed().as_secs_f64() / reached)
+}
+
+struct Trial {
+    begin: Instant,
+    reached: f64,
+}
+
+impl Observer for Trial {
+    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.reached = t;
+        if self.begin.elapsed() > MOMENT {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}

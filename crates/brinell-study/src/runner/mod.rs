@@ -1,0 +1,33 @@
+//! Many runs with a journal: what is finished is on the disk, and is not run again.
+//!
+//! A [`Ledger`] is the journal of a folder. [`run()`] makes the runs of [`Task`]s; a [`Work`] says what their scenarios are and what
+//! is kept of them. [`estimate`] tries a few for what they will cost.
+
+mod cost;
+mod ledger;
+mod recorder;
+mod run;
+
+pub use cost::{estimate, mean_pace};
+pub use ledger::{JOURNAL, Kept, Ledger};
+pub use recorder::{Heard, Recorder};
+pub use run::{Beside, Task, Work, run};
+
+use brinell_io::IoError;
+use serde_json::Value;
+
+/// Why runs cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum RunnerError {
+    /// The folder's journal is of something else: what its head says, or null.
+    #[error("the folder holds the journal of something else")]
+    OtherCampaign(Value),
+    /// A scenario is no longer what it was.
+    #[error(
+        "a file of the scenario changed since the campaign began; the same command begins anew with what it holds now"
+    )]
+    Changed,
+    /// A file cannot be written or read.
+    #[error(transparent)]
+    Io(#[from] IoError),
+}

@@ -1,0 +1,100 @@
+//! What a run is heard with: rows to files, one filtered signal kept where it is asked for, time to its listener.
+
+use crate::listener::RunListener;
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell_io::{Complete, IoError, Outcome, SignalWriter};
+use std::ops::ControlFlow;
+
+/// Hears a run for its files and its listener.
+pub struct Recorder<'a> {
+    row: Vec<f64>,
+    sample_rate: f64,
+    writers: Vec<Box<dyn SignalWriter>>,
+    failed: Option<IoError>,
+    hears: Option<usize>,
+    heard: Vec<f64>,
+    listener: &'a mut dyn RunListener,
+}
+
+impl<'a> Recorder<'a> {
+    /// Rows go to every one of `writers`; `listener` may break the run off.
+    pub fn new(
+        simulation: &Simulation,
+        writers: Vec<Box<dyn SignalWriter>>,
+        listener: &'a mut dyn RunListener,
+    ) -> Self {
+        Self {
+            row: vec![0.0; simulation.channels().len() + 1],
+            sample_rate: simulation.sample_rate(),
+            writers,
+            failed: None,
+            hears: None,
+            heard: Vec::new(),
+            listener,
+        }
+    }
+
+    /// Keeps that one of [`Simulation::filtered`] whole, in memory.
+    pub fn hearing(mut self, which: Option<usize>) -> Self {
+        self.hears = which;
+        self
+    }
+
+    /// Ends the files as the run ended, up to their names. Gives them and what was heard. A run that was broken off leaves whole files of the
+    /// part that was run, which say so, or none: `keep_stopped` decides.
+    ///
+    /// # Errors
+    /// Where a file could not be written.
+    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Heard, IoError> {
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        let outcome = match end {
+            End::Complete => Outcome::Complete,
+            End::Stopped => Outcome::Partial("interrupted".into()),
+            End::Failed(error) => Outcome::Partial(error.to_string()),
+        };
+        let mut files = Vec::new();
+        if keep_stopped || *end != End::Stopped {
+            for writer in self.writers {
+                files.push(writer.complete(outcome.clone())?);
+            }
+        }
+        Ok(Heard {
+            files,
+            signal: self.heard,
+        })
+    }
+}
+
+/// What is left of a run beside its findings.
+pub struct Heard {
+    /// Files of signals, to be published.
+    pub files: Vec<Complete>,
+    /// The signal that was asked for, from t = 0.
+    pub signal: Vec<f64>,
+}
+
+impl Observer for Recorder<'_> {
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
+            self.heard.push(*x);
+        }
+        if self.writers.is_empty() {
+            return ControlFlow::Continue(());
+        }
+        self.row[0] = index as f64 / self.sample_rate;
+        self.row[1..].copy_from_slice(row);
+        for writer in &mut self.writers {
+            if let Err(error) = writer.write_row(&self.row) {
+                self.failed = Some(error);
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        self.listener.at(t)
+    }
+}

@@ -1,0 +1,216 @@
+//! Tasks made side by side.
+
+use super::{Ledger, Recorder, RunnerError};
+use crate::campaign::{Row, fingerprint};
+use crate::listener::Listener;
+use brinell::channel::Frame;
+use brinell::result::{Finished, Quantity, finish};
+use brinell::scenario::Scenario;
+use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell_io::SignalWriter;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A point to be run.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// Key and value of what it sets.
+    pub settings: Vec<(String, String)>,
+    /// Of its scenario.
+    pub fingerprint: String,
+    /// Simulated time, s.
+    pub duration_s: f64,
+}
+
+/// Observes a run beside its findings.
+pub trait Beside<E>: Observer {
+    /// Keeps what its row does not hold, and gives numbers of its own for the row. The run came to its end.
+    ///
+    /// # Errors
+    /// Where that cannot be kept.
+    fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, E>;
+}
+
+/// What makes runs of tasks.
+pub trait Work: Sync {
+    /// Why it cannot go on.
+    type Error: From<RunnerError> + Send;
+
+    /// The scenario of a task. It is made by the thread that runs it, so that memory goes with the runs in progress.
+    ///
+    /// # Errors
+    /// Where there is none any more.
+    fn scenario(&self, task: &Task) -> Result<Scenario, Self::Error>;
+
+    /// What a row of that scenario is filed under: everything that its numbers depend on.
+    fn fingerprint(&self, scenario: &Scenario) -> String {
+        fingerprint(scenario)
+    }
+
+    /// Where the task's signals go, if anywhere.
+    ///
+    /// # Errors
+    /// Where they cannot go there.
+    fn signals(
+        &self,
+        _: &Task,
+        _: &Simulation,
+    ) -> Result<Option<Box<dyn SignalWriter>>, Self::Error> {
+        Ok(None)
+    }
+
+    /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
+    fn hears(&self) -> Option<usize> {
+        None
+    }
+
+    /// What else observes the task's run, if anything.
+    fn beside(&self, _: &Task, _: &Simulation) -> Option<Box<dyn Beside<Self::Error>>> {
+        None
+    }
+
+    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row. `heard` is what was asked
+    /// for, from when the run had settled.
+    ///
+    /// # Errors
+    /// Where that cannot be kept.
+    fn finished(
+        &self,
+        _: &Task,
+        _: &Finished,
+        _heard: &[f64],
+    ) -> Result<Vec<Quantity>, Self::Error> {
+        Ok(Vec::new())
+    }
+}
+
+/// Runs tasks side by side, up to `threads` at a time, each on the disk as soon as it is done. A run that fails is a row like
+/// another; only files that cannot be read or written end the campaign. Breaks where `listener` broke a run off.
+///
+/// # Errors
+/// Where files cannot be read or written: what was finished stays.
+pub fn run<W: Work>(
+    tasks: &[Task],
+    work: &W,
+    ledger: &mut Ledger,
+    threads: NonZeroUsize,
+    listener: &dyn Listener,
+) -> Result<ControlFlow<()>, W::Error> {
+    let (mut flow, mut failure) = (ControlFlow::Continue(()), None);
+    let stop = AtomicBool::new(false);
+    brinell::many::each(
+        tasks.len(),
+        threads,
+        |k| one(k, &tasks[k], work, listener, &stop),
+        |k, result| {
+            let kept = match result {
+                Ok(Some(row)) if failure.is_none() => {
+                    let failed = row.result.as_ref().err().cloned();
+                    let kept = ledger.add(row).map_err(W::Error::from);
+                    if kept.is_ok() {
+                        listener.ended(k, failed.as_deref());
+                    }
+                    kept
+                }
+                Ok(Some(_)) => Ok(()),
+                Ok(None) => {
+                    flow = ControlFlow::Break(());
+                    Ok(())
+                }
+                Err(error) => Err(error),
+            };
+            failure = failure.take().or(kept.err());
+            if failure.is_some() {
+                stop.store(true, Ordering::Relaxed);
+            }
+        },
+    );
+    match failure {
+        Some(failure) => Err(failure),
+        None => Ok(flow),
+    }
+}
+
+/// One task; `None` where it was broken off.
+fn one<W: Work>(
+    k: usize,
+    task: &Task,
+    work: &W,
+    listener: &dyn Listener,
+    stop: &AtomicBool,
+) -> Result<Option<Row>, W::Error> {
+    if stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let row = |result| Row {
+        settings: task.settings.clone(),
+        scenario: task.fingerprint.clone(),
+        version: brinell::VERSION.to_owned(),
+        result,
+    };
+    let scenario = work.scenario(task)?;
+    if work.fingerprint(&scenario) != task.fingerprint {
+        return Err(RunnerError::Changed.into());
+    }
+    let simulation = match Simulation::new(&scenario) {
+        Ok(simulation) => simulation,
+        Err(error) => return Ok(Some(row(Err(error.to_string())))),
+    };
+    let writers = work.signals(task, &simulation)?;
+    let mut hearer = listener.begin(k, task.duration_s);
+    let writers = writers.into_iter().collect();
+    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut()).hearing(work.hears());
+    let mut beside = work.beside(task, &simulation);
+    let finished = match &mut beside {
+        Some(other) => {
+            let mut both = Both(&mut recorder, other.as_mut());
+            finish(scenario, simulation, &mut both)
+        }
+        None => finish(scenario, simulation, &mut recorder),
+    };
+    let heard = recorder.close(&finished.outcome.end, false);
+    let heard = heard.map_err(RunnerError::from)?;
+    for file in heard.files {
+        file.publish().map_err(RunnerError::from)?;
+    }
+    let numbers = match &finished.outcome.end {
+        End::Stopped => {
+            stop.store(true, Ordering::Relaxed);
+            return Ok(None);
+        }
+        End::Failed(error) => Err(error.to_string()),
+        End::Complete => {
+            let settled = finished.findings.from * finished.simulation.sample_rate();
+            let settled = heard.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
+            let more = work.finished(task, &finished, settled)?;
+            let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
+            Ok([finished.quantities(), more, besides].concat())
+        }
+    };
+    Ok(Some(row(numbers)))
+}
+
+/// Two observers of one run; the first alone is told the time.
+struct Both<'a>(&'a mut dyn Observer, &'a mut dyn Observer);
+
+impl Observer for Both<'_> {
+    fn step(&mut self, frame: &Frame) {
+        self.0.step(frame);
+        self.1.step(frame);
+    }
+
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        self.0.sample(index, frame);
+        self.1.sample(index, frame);
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.1.row(index, row, filtered)?;
+        self.0.row(index, row, filtered)
+    }
+
+    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
+        self.0.progress(t, work)
+    }
+}
