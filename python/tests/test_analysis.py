@@ -147,8 +147,8 @@ def test_regress_sweeps_of_keys_in_step_and_across(base):
         np.testing.assert_array_equal(table[name][1], value, err_msg=name)
     pytest.importorskip("xarray")
     grid = table.to_xarray()
-    assert grid["measured_ax.rms"].dims == ("simulation.model", "operation.speed_rpm")
-    assert float(grid["measured_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["measured_ax.rms"]
+    assert grid["sensor_ax.rms"].dims == ("simulation.model", "operation.speed_rpm")
+    assert float(grid["sensor_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["sensor_ax.rms"]
     pytest.importorskip("pandas")
     assert len(table.to_pandas()) == 4
 
@@ -172,7 +172,7 @@ def test_prop_plans_that_cannot_be(base, vary, together):
 def test_regress_pictures(result, base, tmp_path):
     pytest.importorskip("matplotlib")
     table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
-    x = result["measured_ax"]
+    x = result["sensor_ax"]
     settings = {"rate_hz": result.rate_hz, "unit": "m/s^2", "speed_rpm": 1800.0, "bearing": result.scenario}
     longer = brinell.simulate(base, settings={"simulation.duration_s": 0.5})
     pictures = {
@@ -182,14 +182,14 @@ def test_regress_pictures(result, base, tmp_path):
         "load_zone": longer.plot_load_zone(),
         "pass": result.plot_pass(),
         "statics": brinell.static_analysis(base).plot(),
-        "sweep": table.plot("measured_ax.rms"),
-        "analysis": brinell.analyze(longer["measured_ax"], **settings).plot(),
+        "sweep": table.plot("sensor_ax.rms"),
+        "analysis": brinell.analyze(longer["sensor_ax"], **settings).plot(),
         "psd": brinell.psd(x, rate_hz=result.rate_hz, unit="m/s^2").plot(),
     }
     for name, ax in pictures.items():
         ax.figure.savefig(tmp_path / f"{name}.png", dpi=110)
         assert (tmp_path / f"{name}.png").stat().st_size > 5000
-    with pytest.raises(ValueError, match="measured_ax.rms"):
+    with pytest.raises(ValueError, match="sensor_ax.rms"):
         table.plot("x.rms")
     with pytest.raises(ValueError, match="1 to 1"):
         result.plot_pass(2)

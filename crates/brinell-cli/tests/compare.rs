@@ -37,7 +37,7 @@ fn regress_files_and_variants_come_side_by_side() {
     .says(&[
         "simple over actual, ratios:",
         "lumped over actual, ratios:",
-        "measured_ax.rms: ",
+        "sensor_ax.rms: ",
         "(95 %: ",
     ])
     .keeps_quiet();
@@ -57,7 +57,7 @@ fn regress_files_and_variants_come_side_by_side() {
         assert!(names.contains(&format!("plots/{name}.svg")), "{names:?}");
     }
     let json = json(&out.join("compare.json"));
-    let rms = &json["quantities"]["measured_ax.rms"];
+    let rms = &json["quantities"]["sensor_ax.rms"];
     let value = |label: &str| rms["runs"][label]["value"].as_f64().unwrap();
     assert!(value("actual") > 0.0 && value("simple") > 0.0 && value("lumped") > 0.0);
     let ratio = &rms["ratios"]["simple"];

@@ -37,8 +37,8 @@ const CHANNELS: [&str; 20] = [
     "cage1_ax",
     "cage1_ay",
     "cage1_speed",
-    "measured_ax",
-    "measured_ay",
+    "sensor_ax",
+    "sensor_ay",
 ];
 
 #[test]
@@ -185,10 +185,7 @@ fn regress_summary_has_the_documented_members() {
         assert!(channel["unit"].is_string(), "{channel}");
     }
     // What the outer ring does at the samples, and what a data logger would hold of it.
-    for (channel, kind) in [
-        ("outer_ax", "instantaneous"),
-        ("measured_ax", "anti-aliased"),
-    ] {
+    for (channel, kind) in [("outer_ax", "instantaneous"), ("sensor_ax", "anti-aliased")] {
         for indicator in ["rms", "peak_to_peak", "kurtosis", "crest_factor"] {
             let e = &s["indicators"]["channels"][channel][kind][indicator];
             for member in ["value", "low", "high"] {

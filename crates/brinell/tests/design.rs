@@ -74,7 +74,7 @@ fn prop_every_run_makes_a_scenario_of_its_class_with_a_seed_of_its_own() {
         assert_eq!(draws.class(run), draw.class);
         let s = loaded.scenario;
         assert_eq!(s.defects.len(), draw.class);
-        assert_eq!(s.simulation.record, ["measured_ax", "measured_ay"]);
+        assert_eq!(s.simulation.record, ["sensor_ax", "sensor_ay"]);
         assert!((300.0..=700.0).contains(&s.operation.load_n[0]));
         for defect in s.defects {
             let brinell::scenario::Shape::Random { seed, width_mm, .. } = defect.shape else {

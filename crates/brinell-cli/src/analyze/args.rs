@@ -125,7 +125,7 @@ pub(crate) struct AnalyzeArgs {
     /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is told
     #[arg(long, requires = "against")]
     pub(crate) healthy: bool,
-    /// Channel of the other [default: measured_ay or measured_ax of a run, whichever the load points along]
+    /// Channel of the other [default: sensor_ay or sensor_ax of a run, whichever the load points along]
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,
     /// Sample rate of the other, where its file does not state it

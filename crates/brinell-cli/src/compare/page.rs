@@ -16,10 +16,7 @@ pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) 
     let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
     let mut parts = vec![
         part("What differs", vec![Piece::Table(differing(sides))]),
-        part(
-            "Measured acceleration",
-            vec![Piece::Overlay(waveform(runs))],
-        ),
+        part("Sensor acceleration", vec![Piece::Overlay(waveform(runs))]),
         part("Spectrum", vec![spectrum(runs)]),
         part("Envelope spectrum", vec![envelope(sides, runs)]),
     ];
@@ -59,7 +56,7 @@ type Wanted = (&'static str, fn(&str) -> bool);
 
 const TABLES: [Wanted; 3] = [
     ("Indicators", |name| {
-        let of = ["measured_a", "inner_a", "outer_a", "cage1_a"];
+        let of = ["sensor_a", "inner_a", "outer_a", "cage1_a"];
         let which = [".rms", ".peak_to_peak", ".kurtosis", ".crest_factor"];
         of.iter().any(|o| name.starts_with(o))
             && which.iter().any(|w| name.ends_with(w))
@@ -79,7 +76,7 @@ const TABLES: [Wanted; 3] = [
 pub(super) fn headline(compared: &[Compared]) -> Vec<&str> {
     let names = compared.iter().map(|c| c.name.as_str());
     let wanted = |name: &&str| {
-        let of_acceleration = name.starts_with("measured_a")
+        let of_acceleration = name.starts_with("sensor_a")
             && [".rms", ".peak_to_peak", ".kurtosis"]
                 .iter()
                 .any(|w| name.ends_with(w));

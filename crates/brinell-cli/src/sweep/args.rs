@@ -42,7 +42,7 @@ pub(crate) struct SweepArgs {
     /// Runs at a time [default: one a core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Indicators to plot, such as measured_ax.rms or envelope.bpfo [default: RMS and peak to peak of the measured acceleration, both
+    /// Indicators to plot, such as sensor_ax.rms or envelope.bpfo [default: RMS and peak to peak of the sensor acceleration, both
     /// rings and a cage, along the load]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) plot: Vec<String>,

@@ -12,8 +12,8 @@ fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
 
 fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
     IndicatorPlot {
-        name: "measured_ax.rms".into(),
-        label: "RMS of measured_ax".into(),
+        name: "sensor_ax.rms".into(),
+        label: "RMS of sensor_ax".into(),
         unit: "m/s^2".into(),
         x_label: "operation.speed_rpm".into(),
         x_unit: "r/min".into(),
