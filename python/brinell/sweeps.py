@@ -131,9 +131,9 @@ def sweep(
     --------
     >>> import brinell
     >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
-    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
+    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "lumped"]})
     >>> table.shape, list(table["simulation.model"])
-    ((2, 2), ['full', 'reference', 'full', 'reference'])
+    ((2, 2), ['full', 'lumped', 'full', 'lumped'])
     >>> table.units["sensor_ax.rms"]
     'm/s^2'
     """

@@ -136,11 +136,11 @@ def test_analytic_static_forces_hold_the_load(base):
 def test_regress_sweeps_of_keys_in_step_and_across(base):
     table = brinell.sweep(
         base,
-        {"simulation.model": ["full", "reference"]},
+        {"simulation.model": ["full", "lumped"]},
         together=[{"operation.speed_rpm": np.array([900.0, 1800.0]), "operation.load_n": [[200.0, 0.0], [400.0, 0.0]]}],
     )
     assert table.shape == (2, 2) and not table.failed
-    assert list(table["simulation.model"]) == ["full", "full", "reference", "reference"]
+    assert list(table["simulation.model"]) == ["full", "full", "lumped", "lumped"]
     assert table["operation.load_n"][1] == [400.0, 0.0]
     alone = brinell.simulate(base, settings={"operation.speed_rpm": 1800.0, "operation.load_n": [400.0, 0.0]})
     for name, value in alone.quantities.items():
@@ -171,7 +171,7 @@ def test_prop_plans_that_cannot_be(base, vary, together):
 
 def test_regress_pictures(result, base, tmp_path):
     pytest.importorskip("matplotlib")
-    table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
+    table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "lumped"]})
     x = result["sensor_ax"]
     settings = {"rate_hz": result.rate_hz, "unit": "m/s^2", "speed_rpm": 1800.0, "bearing": result.scenario}
     longer = brinell.simulate(base, settings={"simulation.duration_s": 0.5})

@@ -26,7 +26,7 @@ fn regress_files_and_variants_come_side_by_side() {
             "actual.toml",
             "simple.toml",
             "--variant",
-            "lumped:simulation.model=reference; defects.0.depth_um=10",
+            "lumped:simulation.model=lumped; defects.0.depth_um=10",
             "-o",
             "out",
             "--plots",
@@ -68,7 +68,7 @@ fn regress_files_and_variants_come_side_by_side() {
         json["scenarios"]["lumped"]
             .as_str()
             .unwrap()
-            .contains("model = \"reference\"")
+            .contains("model = \"lumped\"")
     );
     let page = fs::read_to_string(out.join("compare.html")).unwrap();
     for part in [

@@ -18,7 +18,7 @@ const GRID: [&str; 6] = [
     "--vary",
     "operation.speed_rpm=2900,3100",
     "--vary",
-    "simulation.model=reference,full",
+    "simulation.model=lumped,full",
 ];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -158,7 +158,7 @@ fn regress_a_bad_point_is_a_row_and_the_others_run() {
         "--vary",
         "defects.0.depth_um=10,-1,20",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
     ];
@@ -228,7 +228,7 @@ fn regress_another_sweep_is_refused_unless_extended() {
     let sweep = |values: &str, more: &[&str]| {
         let vary = format!("operation.speed_rpm={values}");
         let mut args = vec!["sweep", "base.toml", "--vary", &vary, "-o", "out"];
-        args.extend(["--set", "simulation.model=reference"]);
+        args.extend(["--set", "simulation.model=lumped"]);
         args.extend(more);
         brinell(folder.path(), &args)
     };
@@ -276,7 +276,7 @@ fn regress_points_of_another_version_are_run_again() {
         "--vary",
         "operation.speed_rpm=2900,3000",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
     ];
@@ -300,7 +300,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     let args = |more: &[&'static str]| {
         let mut args = vec!["sweep", "base.toml", "--together"];
         args.push("operation.speed_rpm=2900,3000; operation.load_n=[300,0],[0,400]");
-        args.extend(["--set", "simulation.model=reference", "-o", "out"]);
+        args.extend(["--set", "simulation.model=lumped", "-o", "out"]);
         args.extend(more);
         args
     };
@@ -364,7 +364,7 @@ fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
         "--vary",
         "operation.speed_rpm=2000:3000:10",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
         "-j",

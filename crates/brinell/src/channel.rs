@@ -30,7 +30,7 @@ enum Quantity {
     State(usize),
     /// Entry of the accelerations.
     Acceleration(usize),
-    /// x or y of a cage or its speed, where the reference model prescribes them.
+    /// x or y of a cage or its speed, where the lumped model prescribes them.
     CageSpeed(usize),
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
@@ -99,7 +99,7 @@ impl Channel {
             Quantity::Acceleration(k) => f.a[k],
             Quantity::CageSpeed(k) => match f.model.kind {
                 ModelKind::Full => f.y[k],
-                ModelKind::Reference => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
+                ModelKind::Lumped => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
             },
             Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
@@ -123,7 +123,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
             f.y[l.phi() + slot],
             f.y[dof + l.phi() + slot],
         ),
-        ModelKind::Reference => {
+        ModelKind::Lumped => {
             let (w, _) = f.model.rotation.at(f.t);
             (
                 f.ws.kinematic_orbit[slot],
@@ -175,12 +175,12 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     if !c.on_damage[slot] {
         return law.stiffness;
     }
-    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Reference && share > 0.0) {
+    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
         return law.stiffness * share;
     }
     let healthy = match model.kind {
         ModelKind::Full => law.stiffness * c.power[slot],
-        ModelKind::Reference => model.series_contact.healthy(c.approach[slot]),
+        ModelKind::Lumped => model.series_contact.healthy(c.approach[slot]),
     };
     // Equal forces must give the healthy stiffness to the bit.
     law.stiffness * (c.elastic[slot] / healthy)

@@ -437,7 +437,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         ModelKind::Full => {
             "Energy is conserved with contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\""
         }
-        ModelKind::Reference => {
+        ModelKind::Lumped => {
             "Energy is conserved in simulation.model = \"full\" alone, with contact.law = \"sliced\", contact.roller_path = \"envelope\" and \
              contact.edge_reaction = \"conservative\""
         }

@@ -44,7 +44,7 @@ pub fn to_json(parts: &Parts) -> Value {
         "name": scenario.name,
         "status": status(&outcome.end),
         "simulated": {
-            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Reference => "reference" },
+            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped" },
             "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
             "duration_s": scenario.simulation.duration_s,
             "reached_s": outcome.rows.saturating_sub(1) as f64 / simulation.sample_rate(),

@@ -27,7 +27,7 @@ fn go_on(_: usize, _: f64) -> ControlFlow<()> {
 fn prop_runs_side_by_side_are_those_of_each_alone() {
     let list = [
         scenario(&[]),
-        scenario(&[("simulation.model", "reference")]),
+        scenario(&[("simulation.model", "lumped")]),
         scenario(&[("defects", "[]")]),
     ];
     let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), go_on);

@@ -201,7 +201,7 @@ fn prop_designs_fill_each_distribution_evenly() {
 
 #[test]
 fn prop_grids_are_crossed_and_come_equally_often() {
-    let plan = "base = 'b'\nruns = 24\n[vary]\noperation.speed_rpm = { grid = '1000:3000:1000' }\nsimulation.model = { grid = ['full', 'reference'] }\n\
+    let plan = "base = 'b'\nruns = 24\n[vary]\noperation.speed_rpm = { grid = '1000:3000:1000' }\nsimulation.model = { grid = ['full', 'lumped'] }\n\
                 bearing.radial_clearance_um = { uniform = [1, 2] }\n";
     let uneven = draws(&plan.replace("24", "25"));
     let draws = draws(plan);

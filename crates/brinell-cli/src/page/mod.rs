@@ -106,7 +106,7 @@ fn subtitle(scenario: &Scenario) -> String {
     let load = scenario.operation.load_n;
     let model = match scenario.simulation.model {
         ModelKind::Full => "full model",
-        ModelKind::Reference => "reference model",
+        ModelKind::Lumped => "lumped model",
     };
     format!(
         "{bearing}, {damage}, {}, load {} N, {model}",

@@ -2,7 +2,7 @@
 //!
 //! Names are channel and indicator, `sensor_ax.rms`; SI units. A channel's values are instantaneous; what passed the anti-alias
 //! filter, and does not say so in its name as `sensor_*` does, is `outer_ax.anti_aliased.rms`. A scenario fixes the list of
-//! names; what a run does not have (slip in the reference model, a defect's frequency in a short run) is there without a value.
+//! names; what a run does not have (slip in the lumped model, a defect's frequency in a short run) is there without a value.
 //! No wall time is among them: the same scenario gives the same numbers.
 
 use super::impacts::{Impacts, impacts};
