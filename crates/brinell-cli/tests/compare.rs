@@ -35,8 +35,8 @@ fn regress_files_and_variants_come_side_by_side() {
     )
     .exits(0)
     .says(&[
-        "simple over actual, ratios:",
-        "lumped over actual, ratios:",
+        "simple over actual (the baseline), ratios:",
+        "lumped over actual (the baseline), ratios:",
         "sensor_ax.rms: ",
         "(95 %: ",
     ])
@@ -57,6 +57,7 @@ fn regress_files_and_variants_come_side_by_side() {
         assert!(names.contains(&format!("plots/{name}.svg")), "{names:?}");
     }
     let json = json(&out.join("compare.json"));
+    assert_eq!(json["baseline"], "actual");
     let rms = &json["quantities"]["sensor_ax.rms"];
     let value = |label: &str| rms["runs"][label]["value"].as_f64().unwrap();
     assert!(value("actual") > 0.0 && value("simple") > 0.0 && value("lumped") > 0.0);

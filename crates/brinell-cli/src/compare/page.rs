@@ -42,7 +42,7 @@ pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) 
     }
     SideBySide {
         title: names.join(", "),
-        subtitle: format!("{} runs, each held against {}", names.len(), names[0]),
+        subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
         version: brinell::VERSION.into(),
         warnings: warnings(sides, runs),
         facts: facts(&names, compared),
@@ -244,7 +244,7 @@ fn unit(unit: &str) -> String {
     }
 }
 
-/// Values of each run, and ratios to the first.
+/// Values of each run, and ratios to the baseline's.
 fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
     let mut columns = vec!["Quantity".to_owned(), "Unit".to_owned()];
     columns.extend(names.iter().map(|name| format!("#{name}")));

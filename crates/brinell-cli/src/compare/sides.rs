@@ -1,4 +1,4 @@
-//! What is compared: scenario files, and variants of the first one.
+//! What is compared: scenario files, and variants of the baseline: the first one.
 
 use super::{CompareArgs, table};
 use crate::args::ScenarioArgs;
