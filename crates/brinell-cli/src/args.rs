@@ -66,7 +66,8 @@ pub(crate) enum Command {
 pub(crate) struct ScenarioArgs {
     /// The scenario (TOML); `-` reads standard input
     pub(crate) scenario: PathBuf,
-    /// Override any key: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40`; a bare word is a string
+    /// Override any key: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect 1: keys count list
+    /// elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
 }
@@ -89,7 +90,8 @@ pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40`; a bare word is a string
+    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect 1: keys count list
+    /// elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Runs at a time, of several scenarios [default: one a core]

@@ -138,7 +138,7 @@ fn regress_bad_input_is_told() {
             "\"outer-raceway\"",
             "\"outer\"",
             vec![
-                "defects.0.on = \"outer\": unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
+                "defects.0.on = \"outer\" (defect 1): unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
                 "plan.toml:18:",
             ],
         ),

@@ -326,7 +326,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "defects.0.shape.depth_map.depth_um",
             "what lies beyond is left out",
         ),
-        ("defects.1", second, "defects.1", "overlaps defects.0"),
+        ("defects.1", second, "defects.1", "overlaps defect 1"),
         (
             "defects.0.shape",
             bow.as_str(),
