@@ -33,12 +33,12 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Write a commented scenario to start from (the paper's NN3007 with a rectangular defect)
     Init(InitArgs),
-    /// List the catalogue's bearings, or show one with the source of every number
+    /// List the bearings known by name, or show one with the source of every number
     Bearing {
         #[command(subcommand)]
         command: BearingCommand,
     },
-    /// Print the defect frequencies of a catalogue bearing, a geometry or a scenario
+    /// Print the defect frequencies of a bearing by name, a geometry or a scenario
     Frequencies(FrequenciesArgs),
     /// See damage before it is simulated; convert, simplify, fit or draw it at random
     Defect {
@@ -170,11 +170,11 @@ pub(crate) struct InitArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BearingCommand {
-    /// List the catalogue
+    /// List the catalogue, and the bearings of public data sets
     List,
     /// Show one bearing with the source of every number
     Show {
-        /// Catalogue name, such as NN3007
+        /// A name of the list, such as NN3007
         name: String,
     },
 }
@@ -183,9 +183,9 @@ pub(crate) enum BearingCommand {
 #[command(after_help = "Examples:\n  \
     brinell frequencies NN3007 --speed 1800\n  \
     brinell frequencies scenario.toml\n  \
-    brinell frequencies --pitch 39 --roller 7.5 --rollers 13 --speed 1500")]
+    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --speed 1500")]
 pub(crate) struct FrequenciesArgs {
-    /// A catalogue name or a scenario file (`-` reads standard input)
+    /// A bearing by name (`brinell bearing list`) or a scenario file (`-` reads standard input)
     pub(crate) bearing: Option<String>,
     /// Shaft speed, r/min [default: the scenario's, or 60 so that Hz are orders]
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
@@ -198,14 +198,15 @@ pub(crate) struct FrequenciesArgs {
         allow_negative_numbers = true
     )]
     pub(crate) pitch: Option<f64>,
-    /// Roller diameter, mm
+    /// Diameter of a rolling element, mm
     #[arg(
         long,
+        alias = "roller",
         value_name = "MM",
         conflicts_with = "bearing",
         allow_negative_numbers = true
     )]
-    pub(crate) roller: Option<f64>,
+    pub(crate) diameter: Option<f64>,
     /// Rollers in a row
     #[arg(
         long,
