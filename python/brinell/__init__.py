@@ -13,7 +13,7 @@ Examples
 ...     simulation={"duration_s": 0.1, "sample_rate_hz": 25600.0},
 ... )
 >>> result = brinell.simulate(scenario)
->>> result["measured_ax"].shape
+>>> result["sensor_ax"].shape
 (2561,)
 >>> round(result.summary["defect_frequencies"]["hz"]["bpfo"], 1)
 250.1

@@ -49,7 +49,7 @@ class Plan:
     ... base = "base.toml"
     ... runs = 4
     ... runs_per_file = 2
-    ... signals = ["measured_ax"]
+    ... signals = ["sensor_ax"]
     ... [vary]
     ... simulation.duration_s = 0.02
     ... operation.speed_rpm = { uniform = [900, 3000] }
@@ -60,7 +60,7 @@ class Plan:
     >>> data = plan.run(folder / "data", jobs=1)
     >>> data.verify()
     []
-    >>> data.to_polars()["measured_ax"].list.len().to_list()
+    >>> data.to_polars()["sensor_ax"].list.len().to_list()
     [512, 512, 512, 512]
     """
 

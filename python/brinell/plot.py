@@ -70,7 +70,7 @@ def signal(
     """
     ax = _axes(ax)
     if channel is None:
-        channel = "measured_ax" if result.spectrum is None else str(result.spectrum.channel)
+        channel = "sensor_ax" if result.spectrum is None else str(result.spectrum.channel)
         if channel not in result.signals:
             channel = result.channels[-1]
     t, x = result.t, result[channel]
@@ -331,12 +331,12 @@ def table(of: Table, y: str, x: str | None = None, *, ax: Any = None) -> matplot
     >>> import brinell, brinell.plot
     >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
     >>> swept = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0]})
-    >>> brinell.plot.table(swept, "measured_ax.rms").get_xlabel()
+    >>> brinell.plot.table(swept, "sensor_ax.rms").get_xlabel()
     'operation.speed_rpm'
     """
     if y not in of.columns:
         near = [name for name in of.columns if y.split(".")[-1] == name.split(".")[-1]]
-        near = sorted(near or of.units, key=lambda name: not name.startswith("measured"))[:8]
+        near = sorted(near or of.units, key=lambda name: not name.startswith("sensor"))[:8]
         raise ValueError(f"y = {y}: no such column\n  allowed: the columns of the table, such as {', '.join(near)}")
     numbers = [key for key in of.keys if of.columns[key].dtype != object]
     if x is None:

@@ -34,7 +34,7 @@ class Result:
     >>> result = brinell.simulate(scenario)
     >>> result.channels[:3]
     ['t', 'inner_x', 'inner_y']
-    >>> result.units["measured_ax"], result["measured_ax"].dtype.name
+    >>> result.units["sensor_ax"], result["sensor_ax"].dtype.name
     ('m/s^2', 'float64')
     >>> result.summary["status"]
     {'complete': True}
@@ -107,7 +107,7 @@ class Result:
 
     @cached_property
     def quantities(self) -> dict[str, float]:
-        """Every number of the run by name (``measured_ax.rms``), as in the tables of sweeps; NaN where there is none.
+        """Every number of the run by name (``sensor_ax.rms``), as in the tables of sweeps; NaN where there is none.
 
         Ends of 95 % intervals have ``.low`` and ``.high`` behind the name.
         """
@@ -120,7 +120,7 @@ class Result:
 
     @cached_property
     def spectrum(self) -> Spectrum | None:
-        """Averaged amplitude spectrum of the measured acceleration nearer to the load, after the start; None of a run too short."""
+        """Averaged amplitude spectrum of the sensor acceleration nearer to the load, after the start; None of a run too short."""
         found = self._native().spectrum()
         return None if found is None else Spectrum._of(found, "m/s^2")
 
@@ -154,7 +154,7 @@ class Result:
         Parameters
         ----------
         channel : str, optional
-            The measured acceleration nearer to the load unless told.
+            The sensor acceleration nearer to the load unless told.
         **options
             As of `brinell.analyze`; ``speed_rpm`` is needed where the scenario's varies.
 
@@ -166,7 +166,7 @@ class Result:
         'outer_race'
         """
         if channel is None:
-            channel = "measured_ax" if self.spectrum is None else str(self.spectrum.channel)
+            channel = "sensor_ax" if self.spectrum is None else str(self.spectrum.channel)
         speed = self.scenario["operation.speed_rpm"]
         if "speed_rpm" not in options:
             if isinstance(speed, list):
@@ -208,7 +208,7 @@ class Result:
         --------
         >>> import brinell
         >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
-        >>> brinell.simulate(scenario).to_xarray().measured_ax.attrs["units"]
+        >>> brinell.simulate(scenario).to_xarray().sensor_ax.attrs["units"]
         'm/s^2'
         """
         attributes = {"scenario": self.scenario.to_toml(), "sample_rate_hz": self.rate_hz, "brinell": _brinell.__version__}
@@ -225,7 +225,7 @@ class Result:
         Parameters
         ----------
         channel : str, optional
-            The measured acceleration nearer to the load unless told.
+            The sensor acceleration nearer to the load unless told.
         from_s, to_s : float, optional
             Part of the run.
         ax : matplotlib axes, optional

@@ -273,7 +273,7 @@ def _plain(value: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def bearings() -> dict[str, str]:
-    """The catalogue: names with one line on each.
+    """The catalogue, whose names ``bearing.preset`` takes: with one line on each.
 
     Examples
     --------

@@ -28,7 +28,7 @@ class Table:
     keys: list[str]
     """Keys that vary."""
     columns: dict[str, npt.NDArray[Any]]
-    """Settings by key, then numbers by name (``measured_ax.rms``, its interval ``.low`` and ``.high``); NaN where a run has none."""
+    """Settings by key, then numbers by name (``sensor_ax.rms``, its interval ``.low`` and ``.high``); NaN where a run has none."""
     units: dict[str, str]
     """SI units of the numbers; 1 where there is none."""
     failed: dict[int, str]
@@ -131,10 +131,10 @@ def sweep(
     --------
     >>> import brinell
     >>> base = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
-    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
+    >>> table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "lumped"]})
     >>> table.shape, list(table["simulation.model"])
-    ((2, 2), ['full', 'reference', 'full', 'reference'])
-    >>> table.units["measured_ax.rms"]
+    ((2, 2), ['full', 'lumped', 'full', 'lumped'])
+    >>> table.units["sensor_ax.rms"]
     'm/s^2'
     """
     axes: list[tuple[tuple[str, ...], list[list[Any]]]] = []

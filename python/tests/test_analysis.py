@@ -136,19 +136,19 @@ def test_analytic_static_forces_hold_the_load(base):
 def test_regress_sweeps_of_keys_in_step_and_across(base):
     table = brinell.sweep(
         base,
-        {"simulation.model": ["full", "reference"]},
+        {"simulation.model": ["full", "lumped"]},
         together=[{"operation.speed_rpm": np.array([900.0, 1800.0]), "operation.load_n": [[200.0, 0.0], [400.0, 0.0]]}],
     )
     assert table.shape == (2, 2) and not table.failed
-    assert list(table["simulation.model"]) == ["full", "full", "reference", "reference"]
+    assert list(table["simulation.model"]) == ["full", "full", "lumped", "lumped"]
     assert table["operation.load_n"][1] == [400.0, 0.0]
     alone = brinell.simulate(base, settings={"operation.speed_rpm": 1800.0, "operation.load_n": [400.0, 0.0]})
     for name, value in alone.quantities.items():
         np.testing.assert_array_equal(table[name][1], value, err_msg=name)
     pytest.importorskip("xarray")
     grid = table.to_xarray()
-    assert grid["measured_ax.rms"].dims == ("simulation.model", "operation.speed_rpm")
-    assert float(grid["measured_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["measured_ax.rms"]
+    assert grid["sensor_ax.rms"].dims == ("simulation.model", "operation.speed_rpm")
+    assert float(grid["sensor_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["sensor_ax.rms"]
     pytest.importorskip("pandas")
     assert len(table.to_pandas()) == 4
 
@@ -171,8 +171,8 @@ def test_prop_plans_that_cannot_be(base, vary, together):
 
 def test_regress_pictures(result, base, tmp_path):
     pytest.importorskip("matplotlib")
-    table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "reference"]})
-    x = result["measured_ax"]
+    table = brinell.sweep(base, {"operation.speed_rpm": [900.0, 1800.0], "simulation.model": ["full", "lumped"]})
+    x = result["sensor_ax"]
     settings = {"rate_hz": result.rate_hz, "unit": "m/s^2", "speed_rpm": 1800.0, "bearing": result.scenario}
     longer = brinell.simulate(base, settings={"simulation.duration_s": 0.5})
     pictures = {
@@ -182,14 +182,14 @@ def test_regress_pictures(result, base, tmp_path):
         "load_zone": longer.plot_load_zone(),
         "pass": result.plot_pass(),
         "statics": brinell.static_analysis(base).plot(),
-        "sweep": table.plot("measured_ax.rms"),
-        "analysis": brinell.analyze(longer["measured_ax"], **settings).plot(),
+        "sweep": table.plot("sensor_ax.rms"),
+        "analysis": brinell.analyze(longer["sensor_ax"], **settings).plot(),
         "psd": brinell.psd(x, rate_hz=result.rate_hz, unit="m/s^2").plot(),
     }
     for name, ax in pictures.items():
         ax.figure.savefig(tmp_path / f"{name}.png", dpi=110)
         assert (tmp_path / f"{name}.png").stat().st_size > 5000
-    with pytest.raises(ValueError, match="measured_ax.rms"):
+    with pytest.raises(ValueError, match="sensor_ax.rms"):
         table.plot("x.rms")
     with pytest.raises(ValueError, match="1 to 1"):
         result.plot_pass(2)

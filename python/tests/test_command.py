@@ -16,8 +16,8 @@ def run(command, *args, code=0, cwd=None):
 
 
 def test_xval_signals_and_summary_have_the_bits_of_the_command(command, examples, tmp_path):
-    overrides = {"simulation.duration_s": 0.1, "simulation.record": ["outer_*", "measured_*", "contact1_01_*"]}
-    sets = ["--set", "simulation.duration_s=0.1", "--set", 'simulation.record=["outer_*", "measured_*", "contact1_01_*"]']
+    overrides = {"simulation.duration_s": 0.1, "simulation.record": ["outer_*", "sensor_*", "contact1_01_*"]}
+    sets = ["--set", "simulation.duration_s=0.1", "--set", 'simulation.record=["outer_*", "sensor_*", "contact1_01_*"]']
     run(command, "run", examples / "rectangle.toml", *sets, "-o", tmp_path, "--signals", "npz", "--no-report", "-q")
     result = brinell.simulate(examples / "rectangle.toml", settings=overrides)
     with np.load(tmp_path / "signals.npz") as arrays:
@@ -100,9 +100,9 @@ def test_xval_a_failed_run_has_the_words_of_the_command(command, tmp_path, examp
 def test_xval_analysis_is_that_of_the_command(command, examples, tmp_path):
     second = {"simulation.duration_s": 1.0}
     run(command, "run", examples / "rectangle.toml", "-o", tmp_path, "--signals", "npz", "--no-report", "-q", "--set", "simulation.duration_s=1.0")
-    done = run(command, "analyze", tmp_path / "signals.npz", "--channel", "measured_ax", "--json", "-")
+    done = run(command, "analyze", tmp_path / "signals.npz", "--channel", "sensor_ax", "--json", "-")
     expected = json.loads(done.stdout)
-    signal = brinell.read_signal(tmp_path / "signals.npz", "measured_ax")
+    signal = brinell.read_signal(tmp_path / "signals.npz", "sensor_ax")
     scenario = brinell.Scenario.from_file(examples / "rectangle.toml", second)
     assert signal.unit == "m/s^2"
     rate = expected["signal"]["sample_rate_hz"]

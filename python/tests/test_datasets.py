@@ -27,7 +27,7 @@ design = "sobol"
 runs_per_file = {per_file}
 held_out = 0.25
 secret = "9f86d081884c7d659a2feaa0c55ad015"
-signals = ["measured_a*"]
+signals = ["sensor_a*"]
 
 [vary]
 simulation.duration_s = {duration}
@@ -76,13 +76,13 @@ def test_xval_files_have_the_bytes_of_the_command(command, plan, tmp_path):
     done = [command, "dataset", str(chosen.path), "-o", str(tmp_path / "command"), "-q"]
     subprocess.run(done, check=True, capture_output=True)
     assert digests(tmp_path / "python") == digests(tmp_path / "command")
-    frame = data.to_polars(["run", "measured_ax", "speed_rpm", "status"])
+    frame = data.to_polars(["run", "sensor_ax", "speed_rpm", "status"])
     assert sorted(frame["run"].to_list()) == list(range(15)) and set(frame["status"]) == {"complete"}
     # A row's signal is the run's, but for the sample at the run's end.
     result = brinell.simulate(chosen.scenario(4))
-    signal = frame["measured_ax"][frame["run"].to_list().index(4)].to_numpy()
-    np.testing.assert_array_equal(signal, result["measured_ax"][:-1].astype(signal.dtype))
-    assert chosen.label(0) in ("healthy", "photo") and "measured_ax" in chosen.columns
+    signal = frame["sensor_ax"][frame["run"].to_list().index(4)].to_numpy()
+    np.testing.assert_array_equal(signal, result["sensor_ax"][:-1].astype(signal.dtype))
+    assert chosen.label(0) in ("healthy", "photo") and "sensor_ax" in chosen.columns
 
 
 def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):

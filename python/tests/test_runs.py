@@ -103,7 +103,7 @@ def test_prop_runs_go_on_in_threads_of_python_too(base):
     for thread in threads:
         thread.join()
     for k in range(3):
-        np.testing.assert_array_equal(results[k]["measured_ax"], results[0]["measured_ax"])
+        np.testing.assert_array_equal(results[k]["sensor_ax"], results[0]["sensor_ax"])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
@@ -120,7 +120,7 @@ def test_prop_ctrl_c_stops_a_run(call, examples):
         import brinell, os, signal, sys, threading
         # Hours of simulated time.
         base = brinell.Scenario.from_file({str(examples / "rectangle.toml")!r}, {{"simulation.duration_s": 20000.0,
-            "simulation.record": ["measured_ax"], "simulation.sample_rate_hz": 25600.0}})
+            "simulation.record": ["sensor_ax"], "simulation.sample_rate_hz": 25600.0}})
         threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
         try:
             {call}
@@ -143,7 +143,7 @@ def test_prop_results_can_be_sent_away(result):
     again = pickle.loads(pickle.dumps(result))
     assert again.summary == result.summary and again.quantities.keys() == result.quantities.keys()
     assert again.scenario == result.scenario and again.defects == result.defects
-    np.testing.assert_array_equal(again["measured_ax"], result["measured_ax"])
+    np.testing.assert_array_equal(again["sensor_ax"], result["sensor_ax"])
     np.testing.assert_array_equal(again.envelope.amplitude, result.envelope.amplitude)
     np.testing.assert_array_equal(again.events["t"], result.events["t"])
     assert len(again.passes) == len(result.passes) == 1
@@ -161,8 +161,8 @@ def test_regress_ground_truth_of_entries_and_exits(result):
 
 
 def test_regress_names_that_are_not_there(result):
-    with pytest.raises(KeyError, match="measured_ax"):
-        result["measured_az"]
+    with pytest.raises(KeyError, match="sensor_ax"):
+        result["sensor_az"]
     with pytest.raises(TypeError, match="brinell.simulate"):
         brinell.Result()
     with pytest.raises(TypeError, match="Scenario"):

@@ -194,7 +194,7 @@ static void read_model(const char *path)
     static const char *films[] = {"quasi-static", "dynamic"};
     static const char *starts[] = {"rolling", "rest", "equilibrium"};
     static const char *rings[] = {"inner-ring", "outer-ring"};
-    static const char *models[] = {"full", "reference"};
+    static const char *models[] = {"full", "lumped"};
     static const char *laws[] = {"ecl", "sliced"};
     static const char *paths[] = {"point", "envelope"};
     static const char *edges[] = {"none", "conservative"};
@@ -245,7 +245,7 @@ static void read_model(const char *path)
         build_floors(d);
     }
     if (M.edge && !(M.law == LAW_SLICED && M.path == PATH_ENVELOPE)) die("edge reaction:", "sliced and envelope only");
-    if (M.reference && (M.law || M.path)) die("the reference model", "is written for ecl and point");
+    if (M.reference && (M.law || M.path)) die("the lumped model", "is written for ecl and point");
 }
 
 /* ---------- prescribed motion and load ---------- */
@@ -1261,7 +1261,7 @@ static void begin(double *q, double *v)
     q[0] = q[1] = q[2] = q[3] = 1e-6;
     if (M.reference) {
         if (!M.load_outer) q[2] = q[3] = 0.0; /* rigidly mounted */
-        if (M.start == START_EQUILIBRIUM) die("equilibrium of the reference model", "is not offered here");
+        if (M.start == START_EQUILIBRIUM) die("equilibrium of the lumped model", "is not offered here");
         q[0] += M.perturb;
         return;
     }

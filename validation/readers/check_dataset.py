@@ -47,7 +47,7 @@ assert labels.run.tolist() == runs.run[held].tolist() and 0 < held.sum() < len(r
 assert runs["class"][held].isna().all() and runs["class"][~held].notna().all()
 for _, run in runs.iterrows():
     expected = round(run.duration_s * run.sample_rate_hz)
-    for signal in ["measured_ax", "measured_ay"]:
+    for signal in ["sensor_ax", "sensor_ay"]:
         x = run[signal]
         assert x.dtype == np.float32 and x.shape == (expected,) and np.isfinite(x).all() and x.std() > 0
 whole = runs.set_index("run").combine_first(labels.set_index("run")).reset_index()
@@ -56,16 +56,16 @@ assert [names[label] for label in whole.label] == whole["class"].tolist()
 for _, run in whole.iterrows():
     assert (len(run.entry_t_s) > 0) == (run["class"] == "outer")
     assert len(run.entry_t_s) == len(run.entry_force_n) == len(run.entry_side)
-some = pq.read_table(folder / "runs", columns=["operation.speed_rpm", "measured_ax"])
-assert some.column_names == ["operation.speed_rpm", "measured_ax"] and some.num_rows == len(runs)
+some = pq.read_table(folder / "runs", columns=["operation.speed_rpm", "sensor_ax"])
+assert some.column_names == ["operation.speed_rpm", "sensor_ax"] and some.num_rows == len(runs)
 for entry in about["files"]:
     whole_file = fastparquet.ParquetFile(str(folder / entry["path"])).to_pandas()
-    assert len(whole_file) == entry["rows"] and len(whole_file.measured_ax[0]) == 1280
+    assert len(whole_file) == entry["rows"] and len(whole_file.sensor_ax[0]) == 1280
 with tempfile.TemporaryDirectory() as cache:
     loaded = datasets.load_dataset(str(folder), cache_dir=cache)
     names = {"held-out": "held_out"}
     assert {name: split.num_rows for name, split in loaded.items()} == {names.get(s["name"], s["name"]): s["runs"] for s in about["splits"]}
-    assert len(loaded["train"][0]["measured_ax"]) == 1280
+    assert len(loaded["train"][0]["sensor_ax"]) == 1280
 card = mlcroissant.Dataset(jsonld=str(folder / "croissant.json"))
 assert not card.metadata.issues.errors
 assert sorted(record["run/run"] for record in card.records("run")) == sorted(runs.run)

@@ -33,12 +33,12 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Write a commented scenario to start from (the paper's NN3007 with a rectangular defect)
     Init(InitArgs),
-    /// List the catalogue's bearings, or show one with the source of every number
+    /// List the bearings known by name, or show one with the source of every number
     Bearing {
         #[command(subcommand)]
         command: BearingCommand,
     },
-    /// Print the defect frequencies of a catalogue bearing, a geometry or a scenario
+    /// Print the defect frequencies of a bearing by name, a geometry or a scenario
     Frequencies(FrequenciesArgs),
     /// See damage before it is simulated; convert, simplify, fit or draw it at random
     Defect {
@@ -66,7 +66,8 @@ pub(crate) enum Command {
 pub(crate) struct ScenarioArgs {
     /// The scenario (TOML); `-` reads standard input
     pub(crate) scenario: PathBuf,
-    /// Override any key: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40`; a bare word is a string
+    /// Override any key: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect 1: keys count list
+    /// elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
 }
@@ -89,7 +90,8 @@ pub(crate) struct RunArgs {
     /// The scenarios (TOML); `-` reads standard input
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40`; a bare word is a string
+    /// Override any key, in every scenario: `--set operation.speed_rpm=3000`, `--set defects.0.depth_um=40` (of defect 1: keys count list
+    /// elements from 0); a bare word is a string
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Runs at a time, of several scenarios [default: one a core]
@@ -168,11 +170,11 @@ pub(crate) struct InitArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BearingCommand {
-    /// List the catalogue
+    /// List the catalogue, and the bearings of public data sets
     List,
     /// Show one bearing with the source of every number
     Show {
-        /// Catalogue name, such as NN3007
+        /// A name of the list, such as NN3007
         name: String,
     },
 }
@@ -181,9 +183,9 @@ pub(crate) enum BearingCommand {
 #[command(after_help = "Examples:\n  \
     brinell frequencies NN3007 --speed 1800\n  \
     brinell frequencies scenario.toml\n  \
-    brinell frequencies --pitch 39 --roller 7.5 --rollers 13 --speed 1500")]
+    brinell frequencies --pitch 39 --diameter 7.5 --rollers 13 --speed 1500")]
 pub(crate) struct FrequenciesArgs {
-    /// A catalogue name or a scenario file (`-` reads standard input)
+    /// A bearing by name (`brinell bearing list`) or a scenario file (`-` reads standard input)
     pub(crate) bearing: Option<String>,
     /// Shaft speed, r/min [default: the scenario's, or 60 so that Hz are orders]
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
@@ -196,14 +198,15 @@ pub(crate) struct FrequenciesArgs {
         allow_negative_numbers = true
     )]
     pub(crate) pitch: Option<f64>,
-    /// Roller diameter, mm
+    /// Diameter of a rolling element, mm
     #[arg(
         long,
+        alias = "roller",
         value_name = "MM",
         conflicts_with = "bearing",
         allow_negative_numbers = true
     )]
-    pub(crate) roller: Option<f64>,
+    pub(crate) diameter: Option<f64>,
     /// Rollers in a row
     #[arg(
         long,

@@ -113,7 +113,7 @@ pub(crate) fn setting(option: &str, text: &str) -> Result<(String, String), Fail
 /// Patterns of `record` that match no channel.
 pub(crate) fn warn_idle(patterns: &[String]) {
     for pattern in patterns {
-        complain!("warning: simulation.record: \"{pattern}\" matches no channel of this bearing");
+        complain!("warning: {}", brinell::channel::idle_message(pattern));
     }
 }
 

@@ -4,6 +4,8 @@ use crate::args::{BearingCommand, FrequenciesArgs, InitArgs, ScenarioArgs};
 use crate::failure::Failure;
 use crate::files;
 use crate::say::{document, say};
+use brinell::analysis::NamedBearing;
+use brinell::bearing::KnownBearing;
 use brinell::bearing::catalogue::{self, Datum, Entry};
 use brinell::bearing::kinematics::{Geometry, Kinematics};
 use brinell::scenario::Speed;
@@ -41,25 +43,56 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
             for entry in catalogue::all() {
                 say!("{:<8} {}", entry.name, entry.title);
             }
+            say!(
+                "\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:"
+            );
+            for known in KnownBearing::all() {
+                if let KnownBearing::DataSet(bearing) = known {
+                    say!("{:<8} {}", bearing.name, bearing.source);
+                }
+            }
             say!("\n`brinell bearing show NAME` gives every number with its source.");
         }
         BearingCommand::Show { name } => {
-            let entry = find(name)?;
-            say!("{}: {}", entry.name, entry.title);
-            let all = || entry.facts.iter().chain(&entry.values);
-            let width = all().map(|v| v.key.len()).max().unwrap_or(0);
-            for value in all() {
-                let estimated = if value.estimated { "estimated: " } else { "" };
-                say!(
-                    "  {:<width$}  {:>10}  {estimated}{}",
-                    value.key,
-                    datum(&value.value),
-                    value.source
-                );
+            let known = find(name)?;
+            say!("{}: {}", known.name(), known.title());
+            match known {
+                KnownBearing::Catalogue(entry) => show_entry(entry),
+                KnownBearing::DataSet(bearing) => show_named(bearing),
             }
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn show_entry(entry: &Entry) {
+    let all = || entry.facts.iter().chain(&entry.values);
+    let width = all().map(|v| v.key.len()).max().unwrap_or(0);
+    for value in all() {
+        let estimated = if value.estimated { "estimated: " } else { "" };
+        say!(
+            "  {:<width$}  {:>10}  {estimated}{}",
+            value.key,
+            datum(&value.value),
+            value.source
+        );
+    }
+}
+
+/// Its one source prints every number.
+fn show_named(bearing: &NamedBearing) {
+    let elements = i64::try_from(bearing.elements).unwrap_or(i64::MAX);
+    for (name, value) in [
+        ("rolling elements", Datum::Integer(elements)),
+        ("pitch_diameter_mm", Datum::Number(bearing.pitch_mm)),
+        ("roller_diameter_mm", Datum::Number(bearing.diameter_mm)),
+        (
+            "contact_angle_deg",
+            Datum::Number(bearing.contact_angle_deg),
+        ),
+    ] {
+        say!("  {name:<18}  {:>10}", datum(&value));
+    }
 }
 
 fn datum(value: &Datum) -> String {
@@ -71,29 +104,29 @@ fn datum(value: &Datum) -> String {
     }
 }
 
-fn find(name: &str) -> Result<&'static Entry, Failure> {
-    catalogue::find(name).ok_or_else(|| {
-        let names: Vec<&str> = catalogue::all().iter().map(|e| e.name.as_str()).collect();
-        Failure::Usage(format!(
-            "no bearing {name:?} in the catalogue; it holds {}",
-            names.join(", ")
-        ))
-    })
+fn find(name: &str) -> Result<KnownBearing, Failure> {
+    KnownBearing::find(name).ok_or_else(|| Failure::Usage(KnownBearing::unknown(name)))
 }
 
 /// r/min at which Hz are orders.
 const ORDERS: f64 = 60.0;
 
 pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
-    let (geometry, own_speed) = geometry(args)?;
+    let (which, own_speed) = which(args)?;
     let rpm = args.speed.or(own_speed).unwrap_or(ORDERS);
     if !rpm.is_finite() || rpm == 0.0 {
         return Err(Failure::Usage(format!(
             "--speed {rpm}: expected a speed other than 0, in r/min"
         )));
     }
-    let w = rpm / 60.0 * TAU;
-    let rows = Kinematics::pure_rolling(&geometry, w).table(rpm.abs() / 60.0);
+    let rows = match which {
+        Which::Known(known) => known.frequencies(rpm).map_err(|key| {
+            Failure::Usage(format!("{}: the catalogue gives no {key}", known.name()))
+        })?,
+        Which::Geometry(geometry) => {
+            Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU).table(rpm.abs() / 60.0)
+        }
+    };
     if args.json {
         let values: serde_json::Map<String, serde_json::Value> = rows
             .iter()
@@ -118,14 +151,20 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> {
+/// Whose frequencies.
+enum Which {
+    Known(KnownBearing),
+    Geometry(Geometry),
+}
+
+fn which(args: &FrequenciesArgs) -> Result<(Which, Option<f64>), Failure> {
     let Some(bearing) = &args.bearing else {
-        return from_numbers(args).map(|g| (g, None));
+        return from_numbers(args).map(|g| (Which::Geometry(g), None));
     };
     let path = PathBuf::from(bearing);
     let written_as_a_file =
         files::is_stdin(&path) || path.components().count() > 1 || bearing.ends_with(".toml");
-    if catalogue::find(bearing).is_none() && (path.exists() || written_as_a_file) {
+    if KnownBearing::find(bearing).is_none() && (path.exists() || written_as_a_file) {
         let loaded = files::scenario(
             &ScenarioArgs {
                 scenario: path,
@@ -137,29 +176,24 @@ fn geometry(args: &FrequenciesArgs) -> Result<(Geometry, Option<f64>), Failure> 
             Speed::Constant(rpm) => Some(*rpm),
             Speed::Profile(_) => None,
         };
-        return Ok((Geometry::of(&loaded.scenario.bearing), speed));
+        let geometry = Geometry::of(&loaded.scenario.bearing);
+        return Ok((Which::Geometry(geometry), speed));
     }
-    geometry_of(find(bearing)?).map(|g| (g, None))
-}
-
-/// Geometry of a catalogue bearing.
-fn geometry_of(entry: &Entry) -> Result<Geometry, Failure> {
-    entry
-        .geometry()
-        .map_err(|key| Failure::Usage(format!("{}: the catalogue gives no {key}", entry.name)))
+    Ok((Which::Known(find(bearing)?), None))
 }
 
 /// Raceways follow from pitch and rollers.
 fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
-    let (Some(pitch), Some(roller), Some(rollers)) = (args.pitch, args.roller, args.rollers) else {
+    let (Some(pitch), Some(diameter), Some(rollers)) = (args.pitch, args.diameter, args.rollers)
+    else {
         return Err(Failure::Usage(
-            "which bearing? Give a catalogue name, a scenario file, or --pitch, --roller and --rollers together".into(),
+            "which bearing? Give a name (`brinell bearing list`), a scenario file, or --pitch, --diameter and --rollers together".into(),
         ));
     };
-    let fits = pitch.is_finite() && roller.is_finite() && roller > 0.0 && pitch > roller;
+    let fits = pitch.is_finite() && diameter.is_finite() && diameter > 0.0 && pitch > diameter;
     if !fits {
         return Err(Failure::Usage(format!(
-            "--pitch {pitch} --roller {roller}: expected 0 < roller < pitch, in mm"
+            "--pitch {pitch} --diameter {diameter}: expected 0 < diameter < pitch, in mm"
         )));
     }
     if rollers < 3 {
@@ -168,10 +202,10 @@ fn from_numbers(args: &FrequenciesArgs) -> Result<Geometry, Failure> {
         )));
     }
     Ok(Geometry {
-        inner_raceway_diameter: 1e-3 * (pitch - roller),
-        outer_raceway_diameter: 1e-3 * (pitch + roller),
+        inner_raceway_diameter: 1e-3 * (pitch - diameter),
+        outer_raceway_diameter: 1e-3 * (pitch + diameter),
         pitch_diameter: 1e-3 * pitch,
-        roller_diameter: 1e-3 * roller,
+        roller_diameter: 1e-3 * diameter,
         rollers_per_row: rollers,
     })
 }

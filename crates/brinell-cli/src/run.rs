@@ -376,7 +376,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         outcome.work.solver.evaluations + outcome.work.sample_evaluations,
     ));
     for channel in &findings.channels {
-        if channel.kind != Kind::AntiAliased || !channel.name.starts_with("measured_") {
+        if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
             continue;
         }
         let Some(rms) = channel.blocks.estimate(Indicator::Rms) else {

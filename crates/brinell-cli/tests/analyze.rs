@@ -269,7 +269,7 @@ fn regress_what_the_file_does_not_say_is_asked_for() {
                 "--bearing",
                 "9999",
             ],
-            "--bearing 9999: no such bearing",
+            "--bearing 9999: no bearing \"9999\"; there are NN3007",
         ),
     ] {
         let all: Vec<&str> = ["analyze", "x.csv"]

@@ -44,7 +44,7 @@ fn prop_a_known_speed_comes_back() {
     let truth = truth(folder.path(), "operation.speed_rpm=2950");
     let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
     let frequency = target("defect1.pure_rolling_frequency", "0.1%");
-    let rms = target("measured_ax.rms", "5%");
+    let rms = target("sensor_ax.rms", "5%");
     let args = [
         "--fit",
         "operation.speed_rpm=2500:3500",
@@ -94,7 +94,7 @@ fn prop_two_known_keys_come_back_within_their_intervals() {
     let target = |name: &str, share: &str| format!("{name}={:?}~{share}", value(&truth, name));
     let frequency = target("defect1.pure_rolling_frequency", "0.1%");
     let force = target("row1.largest_outer_force", "2%");
-    let rms = target("measured_ax.rms", "5%");
+    let rms = target("sensor_ax.rms", "5%");
     let args = [
         "--fit",
         "operation.speed_rpm=2500:3500",
@@ -140,7 +140,7 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
             "--target",
             &target,
             "--target",
-            "measured_ax.rms=30~10%",
+            "sensor_ax.rms=30~10%",
             "--budget",
             "14",
             "--set",
@@ -204,7 +204,7 @@ fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
     brinell(folder.path(), &args)
         .exits(0)
         .keeps_quiet()
-        .says(&["against measured_ax", "signature.octave_5120_10240_hz"]);
+        .says(&["against sensor_ax", "signature.octave_5120_10240_hz"]);
     let found = json(&folder.path().join("cal/calibrate.json"));
     assert!(found["chi_square"].is_number(), "{found:#}");
     let columns = fs::read_to_string(folder.path().join("cal/calibrate.csv")).unwrap();
@@ -251,7 +251,7 @@ fn regress_runs_that_fail_are_rows() {
         "--fit",
         "defects.0.shape.rectangle.width_mm=3:9",
         "--target",
-        "measured_ax.rms=30~1",
+        "sensor_ax.rms=30~1",
         "--budget",
         "40",
         "--set",
@@ -291,7 +291,7 @@ fn regress_bad_input_is_told_with_key_value_and_range() {
             "--fit",
             "operation.speed_rmp=1:2",
             "--target",
-            "measured_ax.rms=30~1",
+            "sensor_ax.rms=30~1",
         ],
         &["operation.speed_rmp", "speed_rpm"],
     );
@@ -300,7 +300,7 @@ fn regress_bad_input_is_told_with_key_value_and_range() {
             "--fit",
             "operation.speed_rpm=3100:2900",
             "--target",
-            "measured_ax.rms=30~1",
+            "sensor_ax.rms=30~1",
         ],
         &[
             "--fit: operation.speed_rpm = 3100:2900: the bounds are reversed; 2900.0:3100.0 is meant",
@@ -311,7 +311,7 @@ fn regress_bad_input_is_told_with_key_value_and_range() {
             "--fit",
             "bearing.radial_clearance_um=a:20",
             "--target",
-            "measured_ax.rms=30~1",
+            "sensor_ax.rms=30~1",
         ],
         &["the lower bound, `a`, is not a number"],
     );
@@ -320,31 +320,31 @@ fn regress_bad_input_is_told_with_key_value_and_range() {
             "--fit",
             "bearing.roller_diameter_mm=-3:8",
             "--target",
-            "measured_ax.rms=30~1",
+            "sensor_ax.rms=30~1",
         ],
         &["bearing.roller_diameter_mm", "-3", "mm"],
     );
     refuse(
-        &["--fit", "name=1:2", "--target", "measured_ax.rms=30~1"],
+        &["--fit", "name=1:2", "--target", "sensor_ax.rms=30~1"],
         &["name"],
     );
     refuse(
-        &with(&["--target", "measured_ax.rmss=30~1"]),
+        &with(&["--target", "sensor_ax.rmss=30~1"]),
         &[
-            "--target measured_ax.rmss: no such number of a run",
+            "--target sensor_ax.rmss: no such number of a run",
             "allowed: the columns of `brinell sweep`, such as",
         ],
     );
     refuse(
-        &with(&["--target", "measured_ax.rms=30"]),
-        &["--target: measured_ax.rms = 30: no standard uncertainty is given"],
+        &with(&["--target", "sensor_ax.rms=30"]),
+        &["--target: sensor_ax.rms = 30: no standard uncertainty is given"],
     );
     refuse(
-        &with(&["--target", "measured_ax.rms=30~0"]),
+        &with(&["--target", "sensor_ax.rms=30~0"]),
         &["the standard uncertainty is not above 0"],
     );
     refuse(
-        &with(&["--target", "measured_ax.rms=30~1", "--budget", "3"]),
+        &with(&["--target", "sensor_ax.rms=30~1", "--budget", "3"]),
         &["--budget 3: expected 6 runs or more for 1 key"],
     );
     refuse(&with(&["--measured", "nowhere.csv"]), &["nowhere.csv"]);
@@ -374,7 +374,7 @@ fn regress_bad_input_is_told_with_key_value_and_range() {
     ]);
     refuse(&unit, &["a calibration takes accelerations"]);
     assert!(files(folder.path()).len() == 2, "nothing is written");
-    let plan = with(&["--target", "measured_ax.rms=30~1", "--dry-run"]);
+    let plan = with(&["--target", "sensor_ax.rms=30~1", "--dry-run"]);
     brinell(folder.path(), &call(&plan))
         .exits(0)
         .says(&["1 key to 1 target", "up to 30 runs"]);

@@ -26,7 +26,7 @@ fn regress_files_and_variants_come_side_by_side() {
             "actual.toml",
             "simple.toml",
             "--variant",
-            "lumped:simulation.model=reference; defects.0.depth_um=10",
+            "lumped:simulation.model=lumped; defects.0.depth_um=10",
             "-o",
             "out",
             "--plots",
@@ -35,9 +35,9 @@ fn regress_files_and_variants_come_side_by_side() {
     )
     .exits(0)
     .says(&[
-        "simple over actual, ratios:",
-        "lumped over actual, ratios:",
-        "measured_ax.rms: ",
+        "simple over actual (the baseline), ratios:",
+        "lumped over actual (the baseline), ratios:",
+        "sensor_ax.rms: ",
         "(95 %: ",
     ])
     .keeps_quiet();
@@ -57,7 +57,8 @@ fn regress_files_and_variants_come_side_by_side() {
         assert!(names.contains(&format!("plots/{name}.svg")), "{names:?}");
     }
     let json = json(&out.join("compare.json"));
-    let rms = &json["quantities"]["measured_ax.rms"];
+    assert_eq!(json["baseline"], "actual");
+    let rms = &json["quantities"]["sensor_ax.rms"];
     let value = |label: &str| rms["runs"][label]["value"].as_f64().unwrap();
     assert!(value("actual") > 0.0 && value("simple") > 0.0 && value("lumped") > 0.0);
     let ratio = &rms["ratios"]["simple"];
@@ -68,7 +69,7 @@ fn regress_files_and_variants_come_side_by_side() {
         json["scenarios"]["lumped"]
             .as_str()
             .unwrap()
-            .contains("model = \"reference\"")
+            .contains("model = \"lumped\"")
     );
     let page = fs::read_to_string(out.join("compare.html")).unwrap();
     for part in [

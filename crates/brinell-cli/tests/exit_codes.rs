@@ -322,7 +322,7 @@ fn regress_bad_arguments_exit_2() {
         &["run"],
         &["run", "s.toml", "--signals", "flac"],
         &["run", "s.toml", "--plots", "gif"],
-        &["bearing", "show", "6205"],
+        &["bearing", "show", "6999"],
         &["frequencies"],
     ] {
         let call = brinell(folder.path(), args).exits(2);

@@ -146,7 +146,7 @@ fn prop_campaigns_spare_their_inputs() {
     let folder = folder_with("best.toml");
     let here = folder.path();
     let fit = "operation.speed_rpm=1400:1600";
-    let target = "measured_ax.rms=30~1";
+    let target = "sensor_ax.rms=30~1";
     let calibrate = |base| {
         let given = ["--fit", fit, "--target", target, "--budget", "8", "-o", "."];
         [&["calibrate", base], &given[..]].concat()

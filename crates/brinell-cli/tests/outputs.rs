@@ -37,8 +37,8 @@ const CHANNELS: [&str; 20] = [
     "cage1_ax",
     "cage1_ay",
     "cage1_speed",
-    "measured_ax",
-    "measured_ay",
+    "sensor_ax",
+    "sensor_ay",
 ];
 
 #[test]
@@ -185,10 +185,7 @@ fn regress_summary_has_the_documented_members() {
         assert!(channel["unit"].is_string(), "{channel}");
     }
     // What the outer ring does at the samples, and what a data logger would hold of it.
-    for (channel, kind) in [
-        ("outer_ax", "instantaneous"),
-        ("measured_ax", "anti-aliased"),
-    ] {
+    for (channel, kind) in [("outer_ax", "instantaneous"), ("sensor_ax", "anti-aliased")] {
         for indicator in ["rms", "peak_to_peak", "kurtosis", "crest_factor"] {
             let e = &s["indicators"]["channels"][channel][kind][indicator];
             for member in ["value", "low", "high"] {
@@ -390,6 +387,10 @@ fn regress_record_picks_channels_by_wildcards() {
     let (names, err) = columns(here, r#"["nothing"]"#);
     assert_eq!(names, ["t"]);
     assert!(err.contains("\"nothing\" matches no channel"), "{err}");
+    // Names of earlier versions.
+    let (names, err) = columns(here, r#"["measured_*"]"#);
+    assert_eq!(names, ["t"]);
+    assert!(err.contains("the channel is called \"sensor_*\""), "{err}");
 }
 
 /// Rust ignores SIGPIPE: a closed pipe is an error of the write, and `println!` panics at it.

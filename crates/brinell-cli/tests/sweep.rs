@@ -18,7 +18,7 @@ const GRID: [&str; 6] = [
     "--vary",
     "operation.speed_rpm=2900,3100",
     "--vary",
-    "simulation.model=reference,full",
+    "simulation.model=lumped,full",
 ];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -139,8 +139,8 @@ fn prop_csv_and_parquet_hold_the_same_table() {
     for row in 1..=4 {
         assert_eq!(cell(row, "status"), "complete");
         let number = |name: &str| cell(row, name).parse::<f64>().unwrap();
-        assert!(number("measured_ax.rms.low") < number("measured_ax.rms.high"));
-        assert!(number("measured_ax.peak_to_peak") > number("measured_ax.rms"));
+        assert!(number("sensor_ax.rms.low") < number("sensor_ax.rms.high"));
+        assert!(number("sensor_ax.peak_to_peak") > number("sensor_ax.rms"));
         // 2 of 8.8 mm lie bare in the rectangle of 4 mm: the rest of the line carries.
         assert!((number("defect1.least_contact_length") - 4.8e-3).abs() < 1e-12);
         assert!(number("work.steps") > 0.0);
@@ -158,7 +158,7 @@ fn regress_a_bad_point_is_a_row_and_the_others_run() {
         "--vary",
         "defects.0.depth_um=10,-1,20",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
     ];
@@ -182,7 +182,7 @@ fn regress_a_bad_point_is_a_row_and_the_others_run() {
         .collect();
     assert_eq!(status, ["complete", "failed", "complete"]);
     assert!(rows[2][column("reason")].contains("defects.0.depth_um = -1"));
-    assert_eq!(rows[2][column("measured_ax.rms")], "");
+    assert_eq!(rows[2][column("sensor_ax.rms")], "");
     let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
     assert!(page.contains("Points that failed") && page.contains("2: defects.0.depth_um = -1"));
 }
@@ -216,9 +216,9 @@ fn regress_what_no_point_can_run_with_is_bad_input() {
         "--vary",
         "bearing.radial_clearance_um=5,10",
         "--plot",
-        "measured_ax.rsm",
+        "sensor_ax.rsm",
     ])
-    .complains(&["--plot measured_ax.rsm: no such number"]);
+    .complains(&["--plot sensor_ax.rsm: no such number"]);
     assert!(!folder.path().join("out").exists());
 }
 
@@ -228,7 +228,7 @@ fn regress_another_sweep_is_refused_unless_extended() {
     let sweep = |values: &str, more: &[&str]| {
         let vary = format!("operation.speed_rpm={values}");
         let mut args = vec!["sweep", "base.toml", "--vary", &vary, "-o", "out"];
-        args.extend(["--set", "simulation.model=reference"]);
+        args.extend(["--set", "simulation.model=lumped"]);
         args.extend(more);
         brinell(folder.path(), &args)
     };
@@ -276,7 +276,7 @@ fn regress_points_of_another_version_are_run_again() {
         "--vary",
         "operation.speed_rpm=2900,3000",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
     ];
@@ -300,7 +300,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     let args = |more: &[&'static str]| {
         let mut args = vec!["sweep", "base.toml", "--together"];
         args.push("operation.speed_rpm=2900,3000; operation.load_n=[300,0],[0,400]");
-        args.extend(["--set", "simulation.model=reference", "-o", "out"]);
+        args.extend(["--set", "simulation.model=lumped", "-o", "out"]);
         args.extend(more);
         args
     };
@@ -313,7 +313,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     assert!(!folder.path().join("out").exists());
     brinell(folder.path(), &args(&["--plots", "svg"])).exits(0);
     let out = folder.path().join("out");
-    assert!(files(&out).contains(&"plots/measured_ax.rms.svg".to_owned()));
+    assert!(files(&out).contains(&"plots/sensor_ax.rms.svg".to_owned()));
     assert!(!out.join("signals").exists());
     let journal = fs::read(out.join("journal.jsonl")).unwrap();
     brinell(folder.path(), &args(&["--dry-run"]))
@@ -335,11 +335,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
     };
     for name in names.iter().flatten() {
         let signals = brinell_io::read_parquet(out.join(name)).unwrap();
-        assert!(
-            signals
-                .column("measured_ax")
-                .is_some_and(|x| x.len() == 4609)
-        );
+        assert!(signals.column("sensor_ax").is_some_and(|x| x.len() == 4609));
     }
     assert_eq!(names.iter().flatten().count(), 2);
     brinell(folder.path(), &args(&["--keep-signals"]))
@@ -368,7 +364,7 @@ fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
         "--vary",
         "operation.speed_rpm=2000:3000:10",
         "--set",
-        "simulation.model=reference",
+        "simulation.model=lumped",
         "-o",
         "out",
         "-j",

@@ -40,7 +40,9 @@ pub struct Unresolved {
 
 impl fmt::Display for Unresolved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = \"{}\": {}", self.key, self.file, self.message)
+        let Self { key, file, .. } = self;
+        let number = self.defect + 1;
+        write!(f, "{key} = \"{file}\" (defect {number}): {}", self.message)
     }
 }
 
@@ -91,7 +93,7 @@ pub(crate) fn resolve_noting(
                 thresholds.extend(threshold.map(|level| (*i, level)));
                 warnings.extend(
                     said.iter()
-                        .map(|text| format!("{key} = \"{file}\": {text}")),
+                        .map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)),
                 );
             }
             Err(message) => errors.push(Unresolved {
@@ -146,7 +148,10 @@ pub(crate) fn resolve_noting(
             message += &scale(&scenario.defects[*defect].shape);
         }
         match problem.severity {
-            Severity::Warning => warnings.push(format!("{key} = \"{file}\": {message}")),
+            Severity::Warning => warnings.push(format!(
+                "{key} = \"{file}\" (defect {}): {message}",
+                defect + 1
+            )),
             Severity::Error => errors.push(Unresolved {
                 defect: *defect,
                 key: key.clone(),

@@ -206,7 +206,7 @@ fn regress_every_bad_file_is_told_at_once_and_overlaps_are_seen_after_reading() 
     assert_eq!(loaded.warnings, []);
     let warnings = resolve(&mut loaded.scenario, &examples()).unwrap();
     assert!(
-        warnings.iter().any(|w| w.contains("overlaps defects.0")),
+        warnings.iter().any(|w| w.contains("overlaps defect 1")),
         "{warnings:?}"
     );
 }

@@ -13,7 +13,7 @@ fn table() -> Table {
     words.push(None);
     table.push(Column::new("model", "", ""), Cells::Words(words));
     table.push(
-        Column::new("measured_ax.rms", "m/s^2", ""),
+        Column::new("sensor_ax.rms", "m/s^2", ""),
         Cells::Numbers(vec![Some(0.1), None, Some(-0.0), Some(1e-300)]),
     );
     table
@@ -25,7 +25,7 @@ fn regress_csv_quotes_what_needs_it_and_leaves_empty_cells_empty() {
     let path = table().write_csv(folder.path().join("t.csv")).unwrap();
     assert_eq!(
         fs::read_to_string(path).unwrap(),
-        "model,measured_ax.rms\nfull,0.1\n\"a, \"\"b\"\"\nc\",\n\" blank \",-0.0\n,1e-300\n"
+        "model,sensor_ax.rms\nfull,0.1\n\"a, \"\"b\"\"\nc\",\n\" blank \",-0.0\n,1e-300\n"
     );
 }
 

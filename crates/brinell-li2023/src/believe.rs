@@ -135,7 +135,7 @@ impl Facts<'_> {
 
     fn start_up(&self) -> Option<String> {
         let (steady, off) = self.three("", "outer_ax.rms")?;
-        let (from_start, near) = self.three("start-", "measured_ax.first_285ms.rms")?;
+        let (from_start, near) = self.three("start-", "sensor_ax.first_285ms.rms")?;
         let percent = |x: f64| short(100.0 * x, 2);
         let says = if near <= 0.1 {
             "That is sufficient, not proven: length, ramp and exponent are not stated, and were chosen knowing the values. Bursts without a \
@@ -165,7 +165,7 @@ impl Facts<'_> {
     }
 
     fn alike(&self) -> Option<String> {
-        let healthy = self.plain("start-healthy", "measured_ax.first_285ms.rms")?;
+        let healthy = self.plain("start-healthy", "sensor_ax.first_285ms.rms")?;
         let (no_ramp, _) = self.three("no-ramp-", "outer_ax.first_300ms.rms")?;
         let also = self.plain("no-ramp-healthy", "outer_ax.first_300ms.rms")?;
         Some(format!(

@@ -23,7 +23,7 @@ pub(crate) struct Even {
 /// The curves of a run, SI units; empty where the run was too short for one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Curves {
-    /// Measured acceleration along the load.
+    /// Sensor acceleration along the load.
     pub(crate) waveform: Even,
     pub(crate) spectrum: Even,
     pub(crate) envelope: Even,
@@ -31,7 +31,7 @@ pub(crate) struct Curves {
     pub(crate) enters: Vec<f64>,
     /// Instants at which they leave it.
     pub(crate) leaves: Vec<f64>,
-    /// Mean measured acceleration around entries.
+    /// Mean sensor acceleration around entries.
     pub(crate) entry: Even,
     /// And around exits.
     pub(crate) exit: Even,

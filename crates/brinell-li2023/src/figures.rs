@@ -163,7 +163,7 @@ pub(crate) fn chapter(
         20 => {
             let names = cases
                 .iter()
-                .map(|case| with_rms(case, "measured_ax.rms", numbers));
+                .map(|case| with_rms(case, "sensor_ax.rms", numbers));
             drawn.names = names.collect();
             drawn.stack(
                 "fig20-waveform",
@@ -174,7 +174,7 @@ pub(crate) fn chapter(
             );
             let mut from_start = Drawn {
                 names: (starts.iter())
-                    .map(|case| with_rms(case, "measured_ax.first_285ms.rms", numbers))
+                    .map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers))
                     .collect(),
                 curves: starts.iter().map(|case| curves(case.id)).collect(),
                 pieces: vec![],
@@ -417,7 +417,7 @@ fn cell(number: Option<Number>) -> String {
 const COLUMNS: [(&str, &str); 9] = [
     ("Defect frequency (Hz)", "defect1.frequency"),
     ("RMS outer x", "outer_ax.rms"),
-    ("RMS outer x, filtered", "measured_ax.rms"),
+    ("RMS outer x, filtered", "sensor_ax.rms"),
     ("RMS outer y", "outer_ay.rms"),
     ("RMS inner x", "inner_ax.rms"),
     ("RMS cage x", "cage1_ax.rms"),
@@ -449,10 +449,10 @@ fn table(cases: &[&Case], numbers: &Numbers) -> Table {
 /// Cases from t = 0 on.
 fn start_table(cases: &[&Case], numbers: &Numbers) -> Table {
     let columns = [
-        ("0 to 0.285 s, filtered", "measured_ax.first_285ms.rms"),
-        ("0 to 0.3 s, filtered", "measured_ax.first_300ms.rms"),
+        ("0 to 0.285 s, filtered", "sensor_ax.first_285ms.rms"),
+        ("0 to 0.3 s, filtered", "sensor_ax.first_300ms.rms"),
         ("0 to 0.3 s, instantaneous", "outer_ax.first_300ms.rms"),
-        ("Steady part, filtered", "measured_ax.rms"),
+        ("Steady part, filtered", "sensor_ax.rms"),
         ("Steady part, instantaneous", "outer_ax.rms"),
     ];
     let row = |case: &&Case| {

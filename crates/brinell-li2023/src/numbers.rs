@@ -84,12 +84,12 @@ impl Numbers {
             }
         }
         if reading.filtered {
-            let measured = all.iter().filter_map(|((case, name), number)| {
-                let rest = name.strip_prefix("measured_a")?;
+            let sensor = all.iter().filter_map(|((case, name), number)| {
+                let rest = name.strip_prefix("sensor_a")?;
                 Some(((case.clone(), format!("outer_a{rest}")), *number))
             });
-            let measured: Vec<_> = measured.collect();
-            all.extend(measured);
+            let sensor: Vec<_> = sensor.collect();
+            all.extend(sensor);
         }
         Self { all }
     }
@@ -164,9 +164,9 @@ mod tests {
             version: String::new(),
             result: Ok(vec![
                 quantity("outer_ax.rms", Some(3.3), Spread::Interval(interval)),
-                quantity("measured_ax.rms", Some(2.0), Spread::Interval(interval)),
+                quantity("sensor_ax.rms", Some(2.0), Spread::Interval(interval)),
                 quantity("inner_ax.rms", Some(1.5), Spread::Interval(interval)),
-                quantity("measured_ax.first_285ms.rms", Some(30.0), Spread::Without),
+                quantity("sensor_ax.first_285ms.rms", Some(30.0), Spread::Without),
                 quantity("outer_ax.first_285ms.rms", Some(40.0), Spread::Without),
                 quantity("none", None, Spread::Unknown),
                 quantity("short", Some(5.0), Spread::Unknown),

@@ -3,7 +3,7 @@
 use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
-use brinell::bearing::catalogue;
+use brinell::bearing::KnownBearing;
 use brinell::bearing::kinematics::{Geometry, Kinematics};
 use brinell::derived::Derived;
 use brinell::model::Model;
@@ -58,7 +58,7 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let value = json!({
         "top_speed_rpm": d.top_speed * 60.0 / TAU,
-        "frequencies_hz": table(&d.kinematics, d.top_speed / TAU),
+        "frequencies_hz": table(d.kinematics.table(d.top_speed / TAU)),
         "contact_force_n": d.contact_force,
         "inner_contact_stiffness_n_per_m": d.contact_stiffness[0],
         "outer_contact_stiffness_n_per_m": d.contact_stiffness[1],
@@ -81,13 +81,19 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
 }
 
 /// Names in lower case without spaces: `bpfo`, `2bsf`.
-fn table(kinematics: &Kinematics, shaft: f64) -> serde_json::Map<String, serde_json::Value> {
-    let rows = kinematics.table(shaft).into_iter();
+fn table(rows: [(&str, f64, &str); 6]) -> serde_json::Map<String, serde_json::Value> {
+    let rows = rows.into_iter();
     rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into()))
         .collect()
 }
 
-/// Pure-rolling frequencies of a catalogue bearing or a scenario, Hz, at a speed; without one, at the scenario's.
+/// Whose frequencies.
+enum Which {
+    Known(KnownBearing),
+    Geometry(Geometry),
+}
+
+/// Pure-rolling frequencies of a bearing by name or of a scenario, Hz, at a speed; without one, at the scenario's.
 #[pyfunction]
 pub(crate) fn frequencies<'py>(
     py: Python<'py>,
@@ -95,17 +101,11 @@ pub(crate) fn frequencies<'py>(
     scenario: Option<&Scenario>,
     speed_rpm: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (geometry, own) = match (bearing, scenario) {
+    let (which, own) = match (bearing, scenario) {
         (Some(name), _) => {
-            let entry = catalogue::find(name).ok_or_else(|| {
-                let names: Vec<&str> = catalogue::all().iter().map(|e| e.name.as_str()).collect();
-                bad_value(format!(
-                    "no bearing {name:?} in the catalogue; it holds {}",
-                    names.join(", ")
-                ))
-            })?;
-            let missing = |key| bad_value(format!("{}: the catalogue gives no {key}", entry.name));
-            (entry.geometry().map_err(missing)?, None)
+            let known =
+                KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
+            (Which::Known(known), None)
         }
         (None, Some(scenario)) => {
             let scenario = &scenario.loaded.scenario;
@@ -113,7 +113,7 @@ pub(crate) fn frequencies<'py>(
                 Speed::Constant(rpm) => Some(rpm),
                 Speed::Profile(_) => None,
             };
-            (Geometry::of(&scenario.bearing), own)
+            (Which::Geometry(Geometry::of(&scenario.bearing)), own)
         }
         (None, None) => return Err(bad_value("which bearing? Give a name or a scenario")),
     };
@@ -125,6 +125,13 @@ pub(crate) fn frequencies<'py>(
             "speed_rpm = {rpm}: expected a speed other than 0, in r/min"
         )));
     }
-    let kinematics = Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU);
-    json_to_python(py, &table(&kinematics, rpm.abs() / 60.0).into())
+    let rows = match which {
+        Which::Known(known) => known
+            .frequencies(rpm)
+            .map_err(|key| bad_value(format!("{}: the catalogue gives no {key}", known.name())))?,
+        Which::Geometry(geometry) => {
+            Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU).table(rpm.abs() / 60.0)
+        }
+    };
+    json_to_python(py, &table(rows).into())
 }

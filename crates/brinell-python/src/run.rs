@@ -257,9 +257,9 @@ impl Run {
         })
     }
 
-    /// The measured channel that spectra are of.
+    /// The sensor channel that spectra are of.
     fn shown(&self) -> &'static str {
-        ["measured_ax", "measured_ay"][self.finished.findings.axis]
+        ["sensor_ax", "sensor_ay"][self.finished.findings.axis]
     }
 }
 
@@ -330,7 +330,7 @@ impl Run {
         .collect()
     }
 
-    /// Averaged spectrum of the measured acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a run too short.
+    /// Averaged spectrum of the sensor acceleration: channel, distance of bins (Hz), amplitudes, densities. None of a run too short.
     fn spectrum<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(spectrum) = &self.finished.findings.spectrum else {
             return Ok(None);

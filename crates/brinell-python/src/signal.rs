@@ -6,7 +6,7 @@ use brinell::analysis::{
     DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json, velocity,
 };
 use brinell::bearing::kinematics::Geometry;
-use brinell::bearing::{orders_named, orders_names, orders_of};
+use brinell::bearing::{KnownBearing, orders_of};
 use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -227,14 +227,11 @@ fn orders(
 ) -> PyResult<DefectOrders> {
     let mut orders = match (name, geometry) {
         (Some(name), _) => {
-            let known = orders_named(name).ok_or_else(|| {
-                let names: Vec<&str> = orders_names().collect();
-                bad_value(format!(
-                    "bearing = \"{name}\": no such bearing; there are {}",
-                    names.join(", ")
-                ))
-            })?;
-            known.0
+            let known =
+                KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
+            let missing =
+                |key| bad_value(format!("{}: the catalogue gives no {key}", known.name()));
+            known.orders().map_err(missing)?.0
         }
         (None, Some(geometry)) => orders_of(&geometry),
         (None, None) => DefectOrders::default(),

@@ -196,8 +196,8 @@ fn indicators() -> IndicatorTable {
         .map(str::to_owned)
         .to_vec(),
         rows: vec![
-            row("measured_ax", "measured (anti-aliased)", 1.0),
-            row("measured_ay", "measured (anti-aliased)", 0.61),
+            row("sensor_ax", "anti-aliased", 1.0),
+            row("sensor_ay", "anti-aliased", 0.61),
             row("outer_ax", "instantaneous", 1.29),
             row("outer_ay", "instantaneous", 0.74),
         ],

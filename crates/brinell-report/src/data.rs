@@ -28,7 +28,7 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Headline numbers.
     pub facts: Vec<Fact>,
-    /// The measured acceleration.
+    /// The sensor acceleration.
     pub waveform: Waveform,
     /// Its amplitude spectrum.
     pub spectrum: Spectrum,
@@ -143,7 +143,7 @@ impl Fact {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Series {
-    /// The axis label without unit: "Outer ring acceleration, x (measured)".
+    /// The axis label without unit: "Outer ring acceleration, x (sensor)".
     pub label: String,
     /// Its unit: "m/s^2".
     pub unit: String,
@@ -192,7 +192,7 @@ pub struct Event {
     pub label: String,
 }
 
-/// The measured signal: a part of it sample by sample, all of it as an envelope.
+/// The sensor signal: a part of it sample by sample, all of it as an envelope.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Waveform {
@@ -294,7 +294,7 @@ pub struct Estimate {
 pub struct IndicatorRow {
     /// Channel name: "outer_ax".
     pub channel: String,
-    /// "measured (anti-aliased)" or "instantaneous".
+    /// "anti-aliased" or "instantaneous".
     pub kind: String,
     /// One for each column of the table.
     pub cells: Vec<Estimate>,

@@ -306,13 +306,13 @@ mod tests {
         };
         let (plain, raised, lowered) = (of(Height::Line), of(Height::Raised), of(Height::Lowered));
         assert_eq!(
-            runs("h_I / h_a^2, measured_ax, a_b_c, x_"),
+            runs("h_I / h_a^2, sensor_ax, a_b_c, x_"),
             [
                 plain("h"),
                 lowered("I"),
                 plain(" / h"),
                 lowered("a"),
-                plain("², measured_ax, a_b_c, x_")
+                plain("², sensor_ax, a_b_c, x_")
             ]
         );
         assert_eq!(runs("m/s^2"), [plain("m/s²")]);

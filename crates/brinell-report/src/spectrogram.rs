@@ -13,7 +13,7 @@ use crate::plots::{Layout, time_unit};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct Spectrogram {
-    /// What it is of: "Outer ring acceleration, x (measured)".
+    /// What it is of: "Outer ring acceleration, x (sensor)".
     pub label: String,
     /// Unit of the density: "(m/s^2)^2/Hz".
     pub unit: String,

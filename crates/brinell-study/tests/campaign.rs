@@ -28,7 +28,7 @@ fn go_on(_: usize, _: f64) -> ControlFlow<()> {
 fn prop_runs_side_by_side_are_those_of_each_alone() {
     let list = [
         scenario(&[]),
-        scenario(&[("simulation.model", "reference")]),
+        scenario(&[("simulation.model", "lumped")]),
         scenario(&[("defects", "[]")]),
     ];
     let all = campaign::run_all(&list, NonZeroUsize::new(3).unwrap(), go_on);
@@ -59,17 +59,17 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
             .find(|q| q.name == name)
             .expect("it is told")
     };
-    let measured = &full.findings.channels;
-    let measured = measured.iter().find(|c| c.name == "measured_ay").unwrap();
-    let rms = measured.blocks.estimate(Indicator::Rms).unwrap();
-    assert_eq!(quantity(full, "measured_ay.rms").value, Some(rms.value));
+    let sensor = &full.findings.channels;
+    let sensor = sensor.iter().find(|c| c.name == "sensor_ay").unwrap();
+    let rms = sensor.blocks.estimate(Indicator::Rms).unwrap();
+    assert_eq!(quantity(full, "sensor_ay.rms").value, Some(rms.value));
     let interval = rms.interval.map(|i| (i.low, i.high));
     assert!(interval.is_some());
-    assert_eq!(quantity(full, "measured_ay.rms").interval(), interval);
+    assert_eq!(quantity(full, "sensor_ay.rms").interval(), interval);
     // The lumped model's motion is kinematic: it has no slip to tell.
     assert!(quantity(full, "row1.cage_slip").value.is_some());
     assert_eq!(quantity(lumped, "row1.cage_slip").value, None);
-    let peak = quantity(full, "measured_ay.peak").value.unwrap();
+    let peak = quantity(full, "sensor_ay.peak").value.unwrap();
     for name in ["defect1.entry_peak", "defect1.exit_peak"] {
         let impact = quantity(full, name).value.unwrap();
         assert!(0.0 < impact && impact <= peak, "{name} {impact}, {peak}");
@@ -84,7 +84,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     // Against each other: what one run lacks has no ratio, and the first has none.
     let compared = campaign::compare(&[full, lumped, healthy]);
     let one = |name: &str| compared.iter().find(|c| c.name == name).unwrap();
-    let rms = one("measured_ay.rms");
+    let rms = one("sensor_ay.rms");
     assert_eq!(rms.ratios[0], None);
     let quieter = rms.ratios[2].expect("both rings move");
     assert!(quieter.value < 1.0 && quieter.interval.is_some());

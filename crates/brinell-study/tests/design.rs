@@ -74,7 +74,7 @@ fn prop_every_run_makes_a_scenario_of_its_class_with_a_seed_of_its_own() {
         assert_eq!(draws.class(run), draw.class);
         let s = loaded.scenario;
         assert_eq!(s.defects.len(), draw.class);
-        assert_eq!(s.simulation.record, ["measured_ax", "measured_ay"]);
+        assert_eq!(s.simulation.record, ["sensor_ax", "sensor_ay"]);
         assert!((300.0..=700.0).contains(&s.operation.load_n[0]));
         for defect in s.defects {
             let brinell::scenario::Shape::Random { seed, width_mm, .. } = defect.shape else {
@@ -201,7 +201,7 @@ fn prop_designs_fill_each_distribution_evenly() {
 
 #[test]
 fn prop_grids_are_crossed_and_come_equally_often() {
-    let plan = "base = 'b'\nruns = 24\n[vary]\noperation.speed_rpm = { grid = '1000:3000:1000' }\nsimulation.model = { grid = ['full', 'reference'] }\n\
+    let plan = "base = 'b'\nruns = 24\n[vary]\noperation.speed_rpm = { grid = '1000:3000:1000' }\nsimulation.model = { grid = ['full', 'lumped'] }\n\
                 bearing.radial_clearance_um = { uniform = [1, 2] }\n";
     let uneven = draws(&plan.replace("24", "25"));
     let draws = draws(plan);

@@ -18,17 +18,17 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Name, scenario, and its measured channel along the load.
+/// Name, scenario, and its sensor channel along the load.
 const CASES: [(&str, &str, &str); 2] = [
     (
         "rectangle (NN3007)",
         include_str!("../../../examples/rectangle.toml"),
-        "measured_ax",
+        "sensor_ax",
     ),
     (
         "single row (NU206)",
         include_str!("../../../examples/single-row.toml"),
-        "measured_ay",
+        "sensor_ay",
     ),
 ];
 const DURATIONS: [f64; 3] = [0.5, 1.0, 2.0];

@@ -39,8 +39,8 @@ fn heaviest_contact(model: &Model, force: f64) -> f64 {
 /// Longest step in which the fastest motions still decay, s: of a roller whose contacts carry the elastic forces `heaviest` (inner and outer,
 /// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
 pub fn longest_step(model: &Model, heaviest: [f64; 2], film_damping: f64) -> f64 {
-    if model.kind == ModelKind::Reference {
-        // The reference model's rollers have no inertia.
+    if model.kind == ModelKind::Lumped {
+        // The lumped model's rollers have no inertia.
         return f64::INFINITY;
     }
     let [inner, outer] = SIDES.map(|side| spring(model, side, heaviest[side as usize]));

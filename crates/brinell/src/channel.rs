@@ -1,7 +1,7 @@
 //! Named channels: what can be recorded of a run, with units, and how each is read off an evaluated state.
 //!
 //! All SI. Rows, rollers and cages count from 1 in names. Accelerations are those of the equations of motion at the
-//! instant of the sample; `measured_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter (section 11 of the model).
+//! instant of the sample; `sensor_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter (section 11 of the model).
 
 use crate::defect::Side;
 use crate::model::{Model, Workspace};
@@ -30,13 +30,13 @@ enum Quantity {
     State(usize),
     /// Entry of the accelerations.
     Acceleration(usize),
-    /// x or y of a cage or its speed, where the reference model prescribes them.
+    /// x or y of a cage or its speed, where the lumped model prescribes them.
     CageSpeed(usize),
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
     PocketForce(usize),
-    /// x, y or the sensor's own direction of what is measured: not in a frame.
-    Measured(usize),
+    /// x, y or the sensor's own direction of the sensor channels: not in a frame.
+    Sensor(usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,9 +77,9 @@ pub const STIFFNESS_UNIT: &str = "N/m^n";
 
 impl Channel {
     /// Whether the channel comes from the anti-alias filter rather than from a frame; then its axis, 0 for x, 1 for y, 2 for the sensor's own.
-    pub fn measured_axis(&self) -> Option<usize> {
+    pub fn sensor_axis(&self) -> Option<usize> {
         match self.quantity {
-            Quantity::Measured(axis) => Some(axis),
+            Quantity::Sensor(axis) => Some(axis),
             _ => None,
         }
     }
@@ -92,19 +92,19 @@ impl Channel {
         }
     }
 
-    /// The channel's value in a frame; NaN for measured channels, which no frame holds.
+    /// The channel's value in a frame; NaN for sensor channels, which no frame holds.
     pub fn value(&self, f: &Frame) -> f64 {
         match self.quantity {
             Quantity::State(k) => f.y[k],
             Quantity::Acceleration(k) => f.a[k],
             Quantity::CageSpeed(k) => match f.model.kind {
                 ModelKind::Full => f.y[k],
-                ModelKind::Reference => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
+                ModelKind::Lumped => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
             },
             Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
             Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
-            Quantity::Measured(_) => f64::NAN,
+            Quantity::Sensor(_) => f64::NAN,
         }
     }
 }
@@ -123,7 +123,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
             f.y[l.phi() + slot],
             f.y[dof + l.phi() + slot],
         ),
-        ModelKind::Reference => {
+        ModelKind::Lumped => {
             let (w, _) = f.model.rotation.at(f.t);
             (
                 f.ws.kinematic_orbit[slot],
@@ -175,12 +175,12 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     if !c.on_damage[slot] {
         return law.stiffness;
     }
-    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Reference && share > 0.0) {
+    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
         return law.stiffness * share;
     }
     let healthy = match model.kind {
         ModelKind::Full => law.stiffness * c.power[slot],
-        ModelKind::Reference => model.series_contact.healthy(c.approach[slot]),
+        ModelKind::Lumped => model.series_contact.healthy(c.approach[slot]),
     };
     // Equal forces must give the healthy stiffness to the bit.
     law.stiffness * (c.elastic[slot] / healthy)
@@ -326,12 +326,12 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
             );
         }
     }
-    channels.extend(measured(sensor));
+    channels.extend(sensor_channels(sensor));
     channels
 }
 
 /// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own direction.
-pub fn measured(sensor: &Sensor) -> Vec<Channel> {
+pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
     let what = if sensor.is_on() {
         "acceleration that the sensor reads"
     } else {
@@ -341,12 +341,12 @@ pub fn measured(sensor: &Sensor) -> Vec<Channel> {
         name,
         unit,
         description: format!("{what} along {along} after the anti-alias filter"),
-        quantity: Quantity::Measured(k),
+        quantity: Quantity::Sensor(k),
     };
     let mut channels: Vec<Channel> = ["x", "y"]
         .into_iter()
         .enumerate()
-        .map(|(k, axis)| one(k, format!("measured_a{axis}"), "m/s^2", axis.into()))
+        .map(|(k, axis)| one(k, format!("sensor_a{axis}"), "m/s^2", axis.into()))
         .collect();
     if let Some(degrees) = sensor.direction_deg {
         let unit = own_unit(sensor.sensitivity_mv_per_m_per_s2);
@@ -400,9 +400,34 @@ pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel
     (chosen, idle)
 }
 
+/// What to say of a pattern of `record` that picks no channel; a name of earlier versions is answered with today's.
+pub fn idle_message(pattern: &str) -> String {
+    let today = today_name(pattern)
+        .map(|name| format!("; the channel is called \"{name}\""))
+        .unwrap_or_default();
+    format!("simulation.record: \"{pattern}\" matches no channel of this bearing{today}")
+}
+
+/// Today's name of a channel, or of a pattern, that earlier versions called `measured_...`.
+pub fn today_name(pattern: &str) -> Option<String> {
+    match pattern.strip_prefix("measured")? {
+        "_sensor" => Some(OWN_CHANNEL.to_owned()),
+        rest => Some(format!("sensor{rest}")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::matches;
+    use super::{idle_message, matches};
+
+    #[test]
+    fn earlier_names_are_answered_with_the_new_ones() {
+        let answer = |pattern| idle_message(pattern);
+        assert!(answer("measured_*").ends_with("is called \"sensor_*\""));
+        assert!(answer("measured_ax").ends_with("is called \"sensor_ax\""));
+        assert!(answer("measured_sensor").ends_with("is called \"sensor_out\""));
+        assert!(answer("contact3_*").ends_with("of this bearing"));
+    }
 
     #[test]
     fn analytic_wildcards() {

@@ -283,8 +283,9 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) ->
         };
         let words = if reached < REACHED_SHARE * deep {
             format!(
-                "defects.{k} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
+                "defect {} is {} um deep, and the roller's radius lets it sink {} um into it at the {ring} raceway; a \"point\" feels the \
                  floor all the same",
+                k + 1,
                 short(1e6 * deep),
                 short(1e6 * reached)
             )
@@ -292,8 +293,9 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) ->
             && drop > DROP * approach
         {
             format!(
-                "defects.{k} is as wide as the roller and {} um deep, {:.0} times the approach of the heaviest contact at rest: at a \"point\" the \
+                "defect {} is as wide as the roller and {} um deep, {:.0} times the approach of the heaviest contact at rest: at a \"point\" the \
                  roller drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
+                k + 1,
                 short(1e6 * drop),
                 drop / approach
             )
@@ -437,7 +439,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         ModelKind::Full => {
             "Energy is conserved with contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\""
         }
-        ModelKind::Reference => {
+        ModelKind::Lumped => {
             "Energy is conserved in simulation.model = \"full\" alone, with contact.law = \"sliced\", contact.roller_path = \"envelope\" and \
              contact.edge_reaction = \"conservative\""
         }

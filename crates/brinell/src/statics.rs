@@ -220,7 +220,7 @@ fn evaluate(
     for (slot, roller) in rollers.iter_mut().enumerate() {
         *roller = match model.kind {
             ModelKind::Full => between_raceways(model, problem, slot, x),
-            ModelKind::Reference => in_series(model, problem, slot, x),
+            ModelKind::Lumped => in_series(model, problem, slot, x),
         };
         potential += roller.energy;
     }

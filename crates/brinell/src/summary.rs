@@ -44,7 +44,7 @@ pub fn to_json(parts: &Parts) -> Value {
         "name": scenario.name,
         "status": status(&outcome.end),
         "simulated": {
-            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Reference => "reference" },
+            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped" },
             "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
             "duration_s": scenario.simulation.duration_s,
             "reached_s": outcome.rows.saturating_sub(1) as f64 / simulation.sample_rate(),
@@ -100,7 +100,7 @@ fn sensor(parts: &Parts) -> Option<Value> {
     }))
 }
 
-/// Which measured channels went beyond the converter's ends, in words.
+/// Which sensor channels went beyond the converter's ends, in words.
 pub fn clipped(parts: &Parts) -> Vec<String> {
     let channels = parts.simulation.filtered().iter();
     channels
@@ -133,9 +133,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
         .map(ToString::to_string)
         .collect();
     for pattern in parts.simulation.idle_patterns() {
-        all.push(format!(
-            "simulation.record: \"{pattern}\" matches no channel of this bearing"
-        ));
+        all.push(crate::channel::idle_message(pattern));
     }
     all.extend(clipped(parts));
     all.extend(unsettled(parts.findings));

@@ -12,7 +12,7 @@ use common::cases::{case, healthy, rectangle};
 
 /// Longer, and impacts amplify any difference (section 14).
 const WINDOW_S: f64 = 2.5e-3;
-/// The fast grid of 25.6 kHz, which the measured channels are made of.
+/// The fast grid of 25.6 kHz, which the sensor channels are made of.
 const RATE_HZ: f64 = 204_800.0;
 
 /// With the tolerance times `factor`.

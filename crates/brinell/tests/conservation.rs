@@ -45,7 +45,7 @@ fn unexplained_force(
     });
     let b = &s.bearing;
     let p = &s.support;
-    let lumped = s.simulation.model == ModelKind::Reference;
+    let lumped = s.simulation.model == ModelKind::Lumped;
     let rings = [
         (
             l.inner(),

@@ -156,7 +156,7 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
     assert_eq!(slip.cage.last(), Some(&1.0));
     assert_eq!(slip.spin.last(), Some(&1.0));
 
-    let lumped = model(|s| s.simulation.model = ModelKind::Reference);
+    let lumped = model(|s| s.simulation.model = ModelKind::Lumped);
     let mut course = SlipCourse::new(&lumped.layout);
     let mut orbit = CageOrbit::new(&lumped, 0.1, RATE);
     go(

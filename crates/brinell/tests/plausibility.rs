@@ -412,7 +412,7 @@ fn analytic_a_tenth_of_the_dissipation_is_the_limit_in_both_directions() {
         }
     }
     let mut lumped = s.clone();
-    lumped.simulation.model = brinell::scenario::ModelKind::Reference;
+    lumped.simulation.model = brinell::scenario::ModelKind::Lumped;
     energy.parametric = 1.0;
     energy.flows.load = 3.0;
     let told = after(&lumped, &energy).join("\n");

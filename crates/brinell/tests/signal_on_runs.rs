@@ -18,16 +18,16 @@ const FS: f64 = 51_200.0;
 const SETTLED: f64 = 0.2;
 
 /// Samples, and the axis that they are of.
-struct Measured(Vec<f64>, usize);
+struct Sensor(Vec<f64>, usize);
 
-impl Observer for Measured {
+impl Observer for Sensor {
     fn row(&mut self, _: u64, _: &[f64], filtered: &[f64]) -> ControlFlow<()> {
         self.0.push(filtered[self.1]);
         ControlFlow::Continue(())
     }
 }
 
-/// Settled part of the measured acceleration along the load.
+/// Settled part of the sensor acceleration along the load.
 fn run(s: &mut Scenario) -> Vec<f64> {
     recorded(s, FS, 2.2, SETTLED)
 }
@@ -38,10 +38,10 @@ fn recorded(s: &mut Scenario, rate: f64, seconds: f64, start: f64) -> Vec<f64> {
     s.simulation.sample_rate_hz = rate;
     let simulation = Simulation::new(s).unwrap();
     let load = s.operation.load_n;
-    let mut measured = Measured(Vec::new(), usize::from(load[1].abs() > load[0].abs()));
-    let outcome = simulation.run(&mut measured);
+    let mut sensor = Sensor(Vec::new(), usize::from(load[1].abs() > load[0].abs()));
+    let outcome = simulation.run(&mut sensor);
     assert_eq!(outcome.end, End::Complete);
-    measured.0.split_off((start * rate) as usize)
+    sensor.0.split_off((start * rate) as usize)
 }
 
 fn damaged(on: Surface) -> Scenario {

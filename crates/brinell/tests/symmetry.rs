@@ -349,7 +349,7 @@ fn prop_sample_rate_does_not_change_the_motion() {
         let mut compared = 0;
         for (name, (a, b)) in base.names.iter().zip(base.data.iter().zip(&other.data)) {
             // The anti-alias filter follows the sample rate.
-            if name.starts_with("measured_") {
+            if name.starts_with("sensor_") {
                 continue;
             }
             for (a, b) in a.iter().step_by(ours).zip(b.iter().step_by(theirs)) {

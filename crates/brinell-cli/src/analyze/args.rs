@@ -17,7 +17,7 @@ use std::path::PathBuf;
     brinell analyze out/my-bearing -o look              a run of brinell's own\n  \
     brinell analyze measured.mat ... --against out/my-bearing -o look\n  \
     brinell analyze records/ --rate 25600 --unit g --speed 1480 --bearing 6205 -o trend    a row a file, and a trend\n\n\
-    Bearings by name: the catalogue (`brinell bearing list`), and 6205-2RS, 6203-2RS, NICE, ZA-2115, UER204 of public data sets.\n\n\
+    Bearings by name: `brinell bearing list`, the catalogue and those of public data sets (6205-2RS, 6203-2RS, NICE, ZA-2115, UER204).\n\n\
     Exit codes: 0 analysed (whatever the verdict), 1 a result could not be written, or one of several files could not be analysed, 2 bad input."
 )]
 pub(crate) struct AnalyzeArgs {
@@ -74,6 +74,7 @@ pub(crate) struct AnalyzeArgs {
     /// Diameter of a rolling element
     #[arg(
         long,
+        alias = "roller",
         value_name = "MM",
         conflicts_with = "bearing",
         allow_negative_numbers = true
@@ -125,7 +126,7 @@ pub(crate) struct AnalyzeArgs {
     /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is told
     #[arg(long, requires = "against")]
     pub(crate) healthy: bool,
-    /// Channel of the other [default: measured_ay or measured_ax of a run, whichever the load points along]
+    /// Channel of the other [default: sensor_ay or sensor_ax of a run, whichever the load points along]
     #[arg(long, value_name = "NAME|N", requires = "against")]
     pub(crate) against_channel: Option<String>,
     /// Sample rate of the other, where its file does not state it

@@ -5,7 +5,7 @@ use super::measured::{ASK_BEARING, Measured};
 use crate::failure::Failure;
 use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
-use brinell::bearing::{orders_named, orders_names, orders_of};
+use brinell::bearing::{KnownBearing, orders_of};
 
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come from.
 pub(super) fn orders(
@@ -48,14 +48,15 @@ fn base(
     measured: &Measured,
 ) -> Result<(DefectOrders, String), Failure> {
     if let Some(name) = name {
-        if let Some(known) = orders_named(name) {
-            return Ok(known);
-        }
-        let names: Vec<&str> = orders_names().collect();
-        return Err(Failure::Usage(format!(
-            "--bearing {name}: no such bearing; there are {}. For another give --rollers, --pitch and --diameter, or --bpfo and so on",
-            names.join(", ")
-        )));
+        let Some(known) = KnownBearing::find(name) else {
+            return Err(Failure::Usage(format!(
+                "--bearing {name}: {}. For another give --rollers, --pitch and --diameter, or --bpfo and so on",
+                KnownBearing::unknown(name)
+            )));
+        };
+        return known.orders().map_err(|key| {
+            Failure::Usage(format!("{}: the catalogue gives no {key}", known.name()))
+        });
     }
     let angle = args.contact_angle.unwrap_or(0.0);
     match (args.rollers, args.pitch, args.diameter) {

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "A key is fitted within its bounds: KEY=LOW:HIGH, or KEY=LOW:HIGH:log where it is searched in its logarithm.\n\n\
     A target is a number of a run with its standard uncertainty (one sigma), in its unit or in per cent: NAME=VALUE~UNCERTAINTY. Names are those of \
-    the columns of `brinell sweep`: measured_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
+    the columns of `brinell sweep`: sensor_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
     Extremes, such as row1.largest_outer_force, scatter too, though a run cannot say by how much: give them an uncertainty that covers it.\n\n\
     A measured signal (--measured) becomes targets itself: its octave levels and its envelope spectrum's at the first five harmonics of each \
     defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they stand out. --model-uncertainty is \
@@ -28,7 +28,7 @@ use std::path::PathBuf;
     Exit codes: 0 done, whether the targets are met or not, 1 Ctrl-C stopped it (what is finished is kept) or no run came to its end, 2 bad input.\n\n\
     Examples:\n  \
     brinell calibrate base.toml --fit bearing.radial_clearance_um=2:20 --fit support.outer_stiffness_n_per_m=1e5:1e7:log \\\n    \
-    --target measured_ax.rms=30.4~1.0 --target defect1.frequency=250.2~0.5 -o out/cal --seed 1 --budget 60\n  \
+    --target sensor_ax.rms=30.4~1.0 --target defect1.frequency=250.2~0.5 -o out/cal --seed 1 --budget 60\n  \
     brinell calibrate base.toml --fit operation.speed_rpm=1750:1850 --measured rig.mat --channel DE --unit g"
 )]
 pub(crate) struct CalibrateArgs {

@@ -56,10 +56,10 @@ pub(super) fn pattern(
     };
     let [x, y] = scenario.operation.load_n;
     let (axis, channel) = match args.axis.as_deref() {
-        Some("x") => (0, "measured_ax"),
-        Some("y") => (1, "measured_ay"),
-        None if y.abs() > x.abs() => (1, "measured_ay"),
-        None => (0, "measured_ax"),
+        Some("x") => (0, "sensor_ax"),
+        Some("y") => (1, "sensor_ay"),
+        None if y.abs() > x.abs() => (1, "sensor_ay"),
+        None => (0, "sensor_ax"),
         Some(other) => return Err(usage(format!("--axis {other}: expected x or y"))),
     };
     let mut measured = load(

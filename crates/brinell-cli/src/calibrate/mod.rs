@@ -294,7 +294,7 @@ fn known(name: &str, names: &[String]) -> Result<(), Failure> {
         .take(8)
         .collect();
     if near.is_empty() {
-        near = vec!["measured_ax.rms", "envelope.bpfo", "row1.cage_slip"];
+        near = vec!["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"];
     }
     Err(Failure::Usage(format!(
         "--target {name}: no such number of a run\n  allowed: the columns of `brinell sweep`, such as {}",

@@ -7,10 +7,10 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The first scenario is what the others are held against. A variant is that one with some keys changed.\n\n\
+    after_help = "The first scenario is the baseline: every ratio is of another run to it. A variant is the baseline with some keys changed.\n\n\
     Files in the folder:\n  \
     compare.html   signals, spectra, envelope spectra, contact length and stiffness over the defect, entries and exits, ratios; one file\n  \
-    compare.csv, compare.parquet   a row a number: value and interval in each run, and its ratio to the first\n  \
+    compare.csv, compare.parquet   a row a number: value and interval in each run, and its ratio to the baseline\n  \
     compare.json   the same with the scenarios\n\n\
     A ratio is that of the two values printed. Its interval follows from theirs: ln(a/b) +- t sqrt(s_a^2 + s_b^2), s being the standard errors \
     of ln(a) and ln(b), t Student's with Welch's degrees of freedom. It supposes runs that scatter independently. There is none where an \
@@ -18,20 +18,20 @@ use std::path::PathBuf;
     Exit codes: 0 done, 1 a run failed or was interrupted (nothing is written), 2 bad input.\n\n\
     Examples:\n  \
     brinell compare actual.toml simplified.toml -o out/compare\n  \
-    brinell compare base.toml --variant reference:simulation.model=reference\n  \
+    brinell compare base.toml --variant lumped:simulation.model=lumped\n  \
     brinell compare base.toml --variant 'sliced:contact.law=sliced; contact.roller_path=envelope' --variant tight:simulation.accuracy=reference"
 )]
 pub(crate) struct CompareArgs {
-    /// The scenarios (TOML), the first of them the one that others are held against
+    /// The scenarios (TOML), the first of them the baseline
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// The first scenario with some keys changed, under a name
+    /// The baseline with some keys changed, under a name
     #[arg(long, value_name = "NAME:KEY=VALUE; KEY=VALUE")]
     pub(crate) variant: Vec<String>,
     /// Override any key, in all of them
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Folder for the results [default: out/compare-STEM, STEM being the first scenario's file name without ending]
+    /// Folder for the results [default: out/compare-STEM, STEM being the baseline's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// Runs at a time [default: one a core]

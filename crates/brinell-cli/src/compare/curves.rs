@@ -9,7 +9,7 @@ use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
 /// Name of the acceleration that a run's curves show.
 fn acceleration(run: &Finished) -> String {
     format!(
-        "acceleration measured_a{}",
+        "acceleration sensor_a{}",
         if run.findings.axis == 0 { "x" } else { "y" }
     )
 }
@@ -236,7 +236,7 @@ pub(super) fn entry_and_exit(runs: &[&Finished], defect: usize) -> Vec<Piece> {
             y_unit: "m/s^2".into(),
             curves,
             note: format!(
-                "Measured acceleration averaged over {} instants of {word}: what they have in common.",
+                "Sensor acceleration averaged over {} instants of {word}: what they have in common.",
                 counts.join(" and ")
             ),
             ..Overlay::default()

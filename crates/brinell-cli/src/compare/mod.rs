@@ -1,4 +1,4 @@
-//! `brinell compare`: scenarios side by side, each against the first.
+//! `brinell compare`: scenarios side by side, each against the baseline: the first.
 
 mod args;
 mod curves;
@@ -153,7 +153,11 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
 /// What matters most of the comparison.
 fn tell(sides: &[Side], compared: &[Compared]) {
     for (k, side) in sides.iter().enumerate().skip(1) {
-        say!("{} over {}, ratios:", side.label, sides[0].label);
+        say!(
+            "{} over {} (the baseline), ratios:",
+            side.label,
+            sides[0].label
+        );
         for name in page::headline(compared) {
             let Some(ratio) = compared
                 .iter()

@@ -17,10 +17,7 @@ pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) 
     let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
     let mut parts = vec![
         part("What differs", vec![Piece::Table(differing(sides))]),
-        part(
-            "Measured acceleration",
-            vec![Piece::Overlay(waveform(runs))],
-        ),
+        part("Sensor acceleration", vec![Piece::Overlay(waveform(runs))]),
         part("Spectrum", vec![spectrum(runs)]),
         part("Envelope spectrum", vec![envelope(sides, runs)]),
     ];
@@ -46,7 +43,7 @@ pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) 
     }
     SideBySide {
         title: names.join(", "),
-        subtitle: format!("{} runs, each held against {}", names.len(), names[0]),
+        subtitle: format!("{} runs, each over the baseline {}", names.len(), names[0]),
         version: brinell::VERSION.into(),
         warnings: warnings(sides, runs),
         facts: facts(&names, compared),
@@ -60,7 +57,7 @@ type Wanted = (&'static str, fn(&str) -> bool);
 
 const TABLES: [Wanted; 3] = [
     ("Indicators", |name| {
-        let of = ["measured_a", "inner_a", "outer_a", "cage1_a"];
+        let of = ["sensor_a", "inner_a", "outer_a", "cage1_a"];
         let which = [".rms", ".peak_to_peak", ".kurtosis", ".crest_factor"];
         of.iter().any(|o| name.starts_with(o))
             && which.iter().any(|w| name.ends_with(w))
@@ -80,7 +77,7 @@ const TABLES: [Wanted; 3] = [
 pub(super) fn headline(compared: &[Compared]) -> Vec<&str> {
     let names = compared.iter().map(|c| c.name.as_str());
     let wanted = |name: &&str| {
-        let of_acceleration = name.starts_with("measured_a")
+        let of_acceleration = name.starts_with("sensor_a")
             && [".rms", ".peak_to_peak", ".kurtosis"]
                 .iter()
                 .any(|w| name.ends_with(w));
@@ -248,7 +245,7 @@ fn unit(unit: &str) -> String {
     }
 }
 
-/// Values of each run, and ratios to the first.
+/// Values of each run, and ratios to the baseline's.
 fn numbers(title: &str, names: &[String], rows: &[&Compared]) -> Table {
     let mut columns = vec!["Quantity".to_owned(), "Unit".to_owned()];
     columns.extend(names.iter().map(|name| format!("#{name}")));

@@ -1,4 +1,4 @@
-//! What is compared: scenario files, and variants of the first one.
+//! What is compared: scenario files, and variants of the baseline: the first one.
 
 use super::{CompareArgs, table};
 use crate::args::ScenarioArgs;
@@ -112,8 +112,7 @@ fn sound(name: &str) -> Result<String, Failure> {
 
 /// `NAME:KEY=VALUE; KEY=VALUE`.
 fn variant(text: &str) -> Result<(String, Vec<(String, String)>), Failure> {
-    const EXAMPLE: &str =
-        "NAME:KEY=VALUE, for instance --variant reference:simulation.model=reference";
+    const EXAMPLE: &str = "NAME:KEY=VALUE, for instance --variant lumped:simulation.model=lumped";
     let wrong = || Failure::Usage(format!("--variant {text}: expected {EXAMPLE}"));
     let (name, settings) = text.split_once(':').ok_or_else(wrong)?;
     if name.contains('=') {

@@ -1,4 +1,4 @@
-//! A comparison as a table and as JSON: every number of each run, and its ratio to the first run's.
+//! A comparison as a table and as JSON: every number of each run, and its ratio to the baseline's, which is the first run.
 
 use super::sides::Side;
 use brinell::result::Quantity;
@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 /// The table's own columns.
 pub(super) static OWN: [&str; 2] = ["quantity", "unit"];
-/// Endings of the columns of each run, and of each but the first.
+/// Endings of the columns of each run, and of each but the baseline.
 pub(super) static VALUE: [&str; 3] = ["", ".low", ".high"];
 pub(super) static RATIO: [&str; 3] = [".ratio", ".ratio.low", ".ratio.high"];
 
@@ -73,9 +73,9 @@ pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
         .collect();
     json!({
         "brinell": brinell::VERSION,
-        "first": sides[0].label,
+        "baseline": sides[0].label,
         "interval": "95 % of the value, an average over whole revolutions, or over a defect's entries or exits; peaks are those of a revolution",
-        "ratio": "of the value to the first run's",
+        "ratio": "of the value to the baseline's",
         "interval_of_a_ratio": "95 %: ln(a/b) +- t sqrt(s_a^2/a^2 + s_b^2/b^2), Student's t with Welch's degrees of freedom; \
                                 supposes runs that scatter independently",
         "quantities": quantities,

@@ -37,7 +37,7 @@ pub(crate) fn report(parts: &Parts) -> Report {
         facts: facts(parts),
         waveform: waveform(parts),
         spectrum: spectrum(parts),
-        spectrogram: spectrogram(parts, measured(parts)),
+        spectrogram: spectrogram(parts, sensor_label(parts)),
         envelope_spectrum: envelope_spectrum(parts),
         markers: defect_markers(scenario, parts.simulation.model()),
         damage,
@@ -68,12 +68,12 @@ fn axis(parts: &Parts) -> &'static str {
 }
 
 /// What waveform and spectra show.
-fn measured(parts: &Parts) -> String {
+fn sensor_label(parts: &Parts) -> String {
     let what = match parts.simulation.sensor() {
         Some(_) => "Acceleration at the sensor",
         None => "Outer ring acceleration",
     };
-    format!("{what}, {} (measured)", axis(parts))
+    format!("{what}, {} (sensor)", axis(parts))
 }
 
 fn speed(scenario: &Scenario) -> String {
@@ -106,7 +106,7 @@ fn subtitle(scenario: &Scenario) -> String {
     let load = scenario.operation.load_n;
     let model = match scenario.simulation.model {
         ModelKind::Full => "full model",
-        ModelKind::Reference => "reference model",
+        ModelKind::Lumped => "lumped model",
     };
     format!(
         "{bearing}, {damage}, {}, load {} N, {model}",

@@ -1,6 +1,6 @@
-//! Of the report's data, the measured signal: waveform, spectra, defect frequencies, indicators.
+//! Of the report's data, the sensor signal: waveform, spectra, defect frequencies, indicators.
 
-use super::{axis, measured};
+use super::{axis, sensor_label};
 use crate::say::short;
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
@@ -34,7 +34,7 @@ pub(super) fn waveform(parts: &Parts) -> Waveform {
     let l = &parts.simulation.model().layout;
     Waveform {
         series: Series {
-            label: measured(parts),
+            label: sensor_label(parts),
             unit: "m/s^2".into(),
             t0_s: t0,
             dt_s: dt,
@@ -74,7 +74,7 @@ pub(super) fn spectrum(parts: &Parts) -> Spectrum {
         amplitude: s.amplitude.clone(),
         unit: "m/s^2".into(),
         note: format!(
-            "Measured acceleration along {}, peak amplitude, Hann window, {} of {} samples.",
+            "Sensor acceleration along {}, peak amplitude, Hann window, {} of {} samples.",
             axis(parts),
             if s.segments == 1 {
                 "one segment".to_owned()
@@ -96,7 +96,7 @@ pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
         amplitude: e.spectrum.amplitude.clone(),
         unit: "m/s^2".into(),
         note: format!(
-            "Envelope of the measured acceleration between {:.1} and {:.1} kHz.{}",
+            "Envelope of the sensor acceleration between {:.1} and {:.1} kHz.{}",
             1e-3 * band.low,
             1e-3 * band.high,
             match parts.loaded.scenario.operation.speed_rpm {
@@ -157,24 +157,19 @@ pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
         .findings
         .channels
         .iter()
-        .filter(|c| c.unit == "m/s^2" || c.name.starts_with("measured"))
+        .filter(|c| c.unit == "m/s^2" || c.name.starts_with("sensor"))
         .filter(|c| !c.name.starts_with("roller"))
         .map(|c| IndicatorRow {
             channel: c.name.clone(),
             kind: match c.kind {
-                Kind::AntiAliased => "measured (anti-aliased)".into(),
+                Kind::AntiAliased => "anti-aliased".into(),
                 Kind::Instantaneous => "instantaneous".into(),
             },
             cells: COLUMNS.iter().map(|(i, _)| cell(c, *i)).collect(),
         })
         .collect();
     // What a sensor sees comes first.
-    rows.sort_by_key(|r| {
-        (
-            !r.channel.starts_with("measured"),
-            r.kind == "instantaneous",
-        )
-    });
+    rows.sort_by_key(|r| (!r.channel.starts_with("sensor"), r.kind == "instantaneous"));
     IndicatorTable {
         columns: COLUMNS.iter().map(|(_, name)| (*name).to_owned()).collect(),
         rows,

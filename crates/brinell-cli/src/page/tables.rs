@@ -12,13 +12,13 @@ use brinell_report::{Assumption, Fact};
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let name = format!("measured_a{}", axis(parts));
-    let measured = parts
+    let name = format!("sensor_a{}", axis(parts));
+    let sensor = parts
         .findings
         .channels
         .iter()
         .find(|c| c.name == name && c.kind == Kind::AntiAliased);
-    if let Some(channel) = measured {
+    if let Some(channel) = sensor {
         for (indicator, label) in [
             (
                 Indicator::Rms,

@@ -167,7 +167,7 @@ fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
             .take(8)
             .collect();
         if near.is_empty() {
-            near = vec!["measured_ax.rms", "envelope.bpfo", "row1.cage_slip"];
+            near = vec!["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"];
         }
         return Err(Failure::Usage(format!(
             "--plot {name}: no such number\n  allowed: the columns of sweep.csv, such as {}",

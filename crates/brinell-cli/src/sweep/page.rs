@@ -18,12 +18,12 @@ const LINES: usize = 12;
 /// Pictures of one indicator; lines beyond them are in the tables alone.
 const PICTURES: usize = 4;
 
-/// RMS and peak to peak of the measured acceleration, the rings' and a cage's, along the axis nearer the load; of `names` that are there.
+/// RMS and peak to peak of the sensor acceleration, the rings' and a cage's, along the axis nearer the load; of `names` that are there.
 pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     let [x, y] = scenario.operation.load_n;
     let axis = if y.abs() > x.abs() { "y" } else { "x" };
     let mut usual = Vec::new();
-    for channel in ["measured", "inner", "outer", "cage1"] {
+    for channel in ["sensor", "inner", "outer", "cage1"] {
         for indicator in ["rms", "peak_to_peak"] {
             usual.push(format!("{channel}_a{axis}.{indicator}"));
         }
@@ -203,7 +203,7 @@ fn point(x: f64, quantity: Option<&Quantity>) -> IndicatorPoint {
     }
 }
 
-/// "RMS of measured_ax" for `measured_ax.rms`.
+/// "RMS of sensor_ax" for `sensor_ax.rms`.
 pub(crate) fn words(name: &str) -> String {
     let Some((of, what)) = name.rsplit_once('.') else {
         return name.replace('_', " ");

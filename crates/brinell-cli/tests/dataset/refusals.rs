@@ -115,7 +115,7 @@ fn regress_bad_input_is_told() {
         ),
         (
             "runs = 7",
-            "runs = 7\nsignals = [\"measured_ax\", \"outer_zz\"]",
+            "runs = 7\nsignals = [\"sensor_ax\", \"outer_zz\"]",
             vec!["signals = \"outer_zz\": no channel of the first runs has such a name"],
         ),
         (
@@ -138,7 +138,7 @@ fn regress_bad_input_is_told() {
             "\"outer-raceway\"",
             "\"outer\"",
             vec![
-                "defects.0.on = \"outer\": unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
+                "defects.0.on = \"outer\" (defect 1): unknown word; did you mean \"outer-raceway\"? (in 3 of 7 runs, such as run 1)",
                 "plan.toml:18:",
             ],
         ),
@@ -257,7 +257,7 @@ fn regress_a_dry_run_tells_and_writes_nothing() {
             "0 healthy: 4 runs",
             "1 outer: 3 runs",
             "varies: operation.speed_rpm, defects.0.depth_um, defects.0.shape.random.length_mm",
-            "signals: measured_ax, measured_ay",
+            "signals: sensor_ax, sensor_ay",
             "4 runs of this shard: 0.0800 s simulated",
         ]);
     assert_eq!(files(folder.path()), ["base.toml", "plan.toml"]);

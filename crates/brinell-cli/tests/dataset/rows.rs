@@ -40,11 +40,11 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
     )
     .exits(0);
     let again = brinell_io::read_parquet(folder.path().join("again/signals.parquet")).unwrap();
-    let whole = again.column("measured_ax").unwrap();
+    let whole = again.column("sensor_ax").unwrap();
     // All but the sample at the run's end: 0.02 s at 25.6 kHz are 512.
     assert_eq!(whole.len(), 513);
     let expected: Vec<f64> = whole[..512].iter().map(|x| f64::from(*x as f32)).collect();
-    assert_eq!(list(row, "measured_ax").unwrap(), expected);
+    assert_eq!(list(row, "sensor_ax").unwrap(), expected);
     let about = json(&folder.path().join("out/dataset.json"));
     assert_eq!(about["licence"], "CC0-1.0");
     assert_eq!(about["rate"]["sample_rate_hz"], 25600.0);
@@ -53,7 +53,7 @@ fn prop_a_row_is_the_run_that_its_scenario_gives() {
         .as_array()
         .unwrap()
         .iter()
-        .find(|c| c["name"] == "measured_ax")
+        .find(|c| c["name"] == "sensor_ax")
         .unwrap();
     assert_eq!(unit["unit"], "m/s^2");
 }
@@ -88,7 +88,7 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
         assert!(text(row, "reason").unwrap().contains("out of range"));
         assert_eq!(cell(row, "lubricant.viscosity_pa_s"), &Field::Double(-1.0));
         assert_eq!(
-            (list(row, "measured_ax"), list(row, "entry_t_s")),
+            (list(row, "sensor_ax"), list(row, "entry_t_s")),
             (None, None)
         );
         assert!(text(row, "class").is_some() && text(row, "settings").unwrap().contains("-1.0"));
@@ -105,7 +105,7 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
     assert_eq!(text(row, "status").as_deref(), Some("failed"));
     let reason = text(row, "reason").unwrap();
     assert!(reason.contains("no static balance") && !reason.contains('\n'));
-    assert!(text(row, "scenario").is_some() && list(row, "measured_ax").is_none());
+    assert!(text(row, "scenario").is_some() && list(row, "sensor_ax").is_none());
     // Nothing to start from in any run.
     let plan = PLAN.replace("[vary]", &format!("[vary]\n{}", loose.replace("vary.", "")));
     let folder = folder_with(&plan);
@@ -158,7 +158,7 @@ fn prop_held_out_labels_lie_apart() {
                 assert!(!is_held || cell(row, name) == &Field::Null, "{name} shows");
             }
             // What a sensor knows stays.
-            assert_eq!(list(row, "measured_ax").unwrap().len(), 512);
+            assert_eq!(list(row, "sensor_ax").unwrap().len(), 512);
             assert!(matches!(cell(row, "operation.speed_rpm"), Field::Double(_)));
             assert!(matches!(cell(row, "bpfo_hz"), Field::Double(_)));
             if is_held {

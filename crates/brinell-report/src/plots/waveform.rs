@@ -1,4 +1,4 @@
-//! The measured signal: the whole run, and the stretch close up with what rollers do in it.
+//! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
 use super::layout::{CURVE, Layout, known, spacing, start, time_unit};
 use super::markers::telling;
@@ -133,7 +133,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
     .collect()
 }
 
-/// The measured signal close up, with the instants at which rollers enter and leave defects.
+/// The sensor signal close up, with the instants at which rollers enter and leave defects.
 pub fn waveform(report: &Report, layout: Layout) -> Picture {
     let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
     draw_waveform(report, waveform_spec(report, layout.size(height)))

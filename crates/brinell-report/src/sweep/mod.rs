@@ -36,7 +36,7 @@ pub struct IndicatorLine {
 pub struct IndicatorPlot {
     /// Name of the picture's file.
     pub name: String,
-    /// The quantity, for the y axis: "RMS of measured_ax".
+    /// The quantity, for the y axis: "RMS of sensor_ax".
     pub label: String,
     /// Its unit; empty where it has none.
     pub unit: String,

@@ -12,8 +12,8 @@ fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {
 
 fn plot(points: Vec<IndicatorPoint>, names: &[&str]) -> IndicatorPlot {
     IndicatorPlot {
-        name: "measured_ax.rms".into(),
-        label: "RMS of measured_ax".into(),
+        name: "sensor_ax.rms".into(),
+        label: "RMS of sensor_ax".into(),
         unit: "m/s^2".into(),
         x_label: "operation.speed_rpm".into(),
         x_unit: "r/min".into(),
@@ -62,7 +62,7 @@ fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
 #[test]
 fn regress_names_stand_under_the_axis() {
     let points = vec![point(0.0, 3.0, None), point(1.0, 4.0, None)];
-    let (_, svg) = page(plot(points, &["full", "reference"]));
+    let (_, svg) = page(plot(points, &["full", "lumped"]));
     for words in [">full<", ">reference<", "operation.speed_rpm"] {
         assert!(svg.contains(words), "no {words} in {svg}");
     }

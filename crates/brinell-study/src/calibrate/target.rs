@@ -5,7 +5,7 @@ use super::CalibrateError;
 /// A number to be met.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
-    /// Name of a number of a run: `measured_ax.rms`.
+    /// Name of a number of a run: `sensor_ax.rms`.
     pub name: String,
     /// What it is to be, in that number's unit.
     pub value: f64,
@@ -15,7 +15,7 @@ pub struct Target {
 
 /// What a target looks like.
 const SYNTAX: &str = "NAME=VALUE~UNCERTAINTY, the uncertainty being one standard deviation in the target's unit or in per cent, for \
-                      instance measured_ax.rms=30.4~1.0 or measured_ax.rms=30.4~3%";
+                      instance sensor_ax.rms=30.4~1.0 or sensor_ax.rms=30.4~3%";
 
 impl Target {
     /// `NAME=VALUE~UNCERTAINTY`.
@@ -115,10 +115,10 @@ mod tests {
     #[test]
     fn regress_targets_are_read() {
         let read = |text| Target::read(text).unwrap();
-        let target = read("measured_ax.rms = 30.4 ~ 1.5");
+        let target = read("sensor_ax.rms = 30.4 ~ 1.5");
         assert_eq!(
             (&target.name[..], target.value, target.uncertainty),
-            ("measured_ax.rms", 30.4, 1.5)
+            ("sensor_ax.rms", 30.4, 1.5)
         );
         assert_eq!(read("a=-50~2%").uncertainty, 1.0);
     }

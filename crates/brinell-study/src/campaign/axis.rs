@@ -251,7 +251,7 @@ mod tests {
             ("a.b=1:-1:-0.75", vec!["1.00", "0.25", "-0.50"]),
             ("a.b=1e3:3e3:1e3", vec!["1000.0", "2000.0", "3000.0"]),
             ("a.b=1,10:30:10,100", vec!["1", "10", "20", "30", "100"]),
-            ("simulation.model=full,reference", vec!["full", "reference"]),
+            ("simulation.model=full,lumped", vec!["full", "lumped"]),
             ("o.load_n=[100,0],[200,0]", vec!["[100,0]", "[200,0]"]),
             (
                 "d.0.shape={ circle = { diameter_mm = 3 } }, {rectangle={length_mm=3,width_mm=2}}",

@@ -1,4 +1,4 @@
-//! Runs side by side: every number of each, and how it stands to the first run's.
+//! Runs side by side: every number of each, and its ratio to that of the baseline, the first run.
 
 use brinell::result::{Finished, LEAST_STIFFNESS, Quantity};
 use brinell::signal::ratio::{Ratio, ratio};
@@ -13,7 +13,7 @@ pub struct Compared {
     pub unit: String,
     /// Of each run, in their order; `None` where a run has no such number.
     pub of: Vec<Option<Quantity>>,
-    /// Value of each run over the first's, with an interval where both values have one; `None` of the first itself, of what is not
+    /// Value of each run over the baseline's, with an interval where both values have one; `None` of the baseline itself, of what is not
     /// positive, and of stiffnesses with different exponents, whose units differ.
     pub ratios: Vec<Option<Ratio>>,
 }

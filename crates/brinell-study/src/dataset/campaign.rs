@@ -320,10 +320,11 @@ impl Sources {
             }));
         };
         if let Some(pattern) = idle.iter().flatten().min() {
+            let near = brinell::channel::today_name(pattern).unwrap_or("sensor_ax".into());
             return Err(self.plan.problem_of(
                 "signals",
                 pattern,
-                "no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"measured_ax\"",
+                &format!("no channel of the first runs has such a name; channels are those of `simulation.record`, such as \"{near}\""),
             ));
         }
         Ok(Campaign {

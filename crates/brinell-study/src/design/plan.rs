@@ -241,7 +241,7 @@ impl Plan {
                 "signals",
                 "[]",
                 "a data set without signals".into(),
-                "channels, such as \"measured_ax\"",
+                "channels, such as \"sensor_ax\"",
             );
         }
         let mut names = HashSet::new();
@@ -426,10 +426,10 @@ fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
             by,
         });
     }
-    let measured = ["measured_ax", "measured_ay"].map(String::from).to_vec();
+    let sensor = ["sensor_ax", "sensor_ay"].map(String::from).to_vec();
     k.key(
         key("signals", "channels to keep; * matches any characters"),
-        stated(measured, "what a data logger holds"),
+        stated(sensor, "what a data logger holds"),
         &mut p.signals,
     );
     k.key(

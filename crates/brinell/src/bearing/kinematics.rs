@@ -83,22 +83,7 @@ impl Kinematics {
 
     /// Name, value (Hz) and meaning of every frequency, that of the shaft (Hz) first.
     pub fn table(&self, shaft: f64) -> [(&'static str, f64, &'static str); 6] {
-        [
-            ("shaft", shaft, "turns of the inner ring"),
-            ("FTF", self.ftf, "turns of the cage"),
-            (
-                "BPFO",
-                self.bpfo,
-                "rollers passing a point of the outer raceway",
-            ),
-            (
-                "BPFI",
-                self.bpfi,
-                "rollers passing a point of the inner raceway",
-            ),
-            ("BSF", self.bsf, "turns of a roller relative to the cage"),
-            ("2 BSF", 2.0 * self.bsf, "strikes of damage on a roller"),
-        ]
+        frequency_table(shaft, self.ftf, self.bpfo, self.bpfi, self.bsf)
     }
 
     /// Name and value (Hz) of the frequency at which damage on a surface strikes.
@@ -109,6 +94,24 @@ impl Kinematics {
             Surface::Roller(_) => ("2 BSF", 2.0 * self.bsf),
         }
     }
+}
+
+/// Name, value (Hz) and meaning of every frequency, that of the shaft first.
+pub(super) fn frequency_table(
+    shaft: f64,
+    ftf: f64,
+    bpfo: f64,
+    bpfi: f64,
+    bsf: f64,
+) -> [(&'static str, f64, &'static str); 6] {
+    [
+        ("shaft", shaft, "turns of the inner ring"),
+        ("FTF", ftf, "turns of the cage"),
+        ("BPFO", bpfo, "rollers passing a point of the outer raceway"),
+        ("BPFI", bpfi, "rollers passing a point of the inner raceway"),
+        ("BSF", bsf, "turns of a roller relative to the cage"),
+        ("2 BSF", 2.0 * bsf, "strikes of damage on a roller"),
+    ]
 }
 
 #[cfg(test)]

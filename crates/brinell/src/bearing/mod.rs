@@ -8,4 +8,4 @@ pub mod orders;
 pub mod rating;
 
 pub use kinematics::Kinematics;
-pub use orders::{orders_named, orders_names, orders_of};
+pub use orders::{KnownBearing, orders_of};

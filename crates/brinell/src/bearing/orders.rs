@@ -1,7 +1,7 @@
-//! Defect frequencies as orders of the shaft, of bearings of the catalogue and of scenarios.
+//! Bearings known by name, those of the catalogue and those of public data sets; defect frequencies as orders of the shaft.
 
-use super::catalogue;
-use super::kinematics::{Geometry, Kinematics};
+use super::catalogue::{self, Entry};
+use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use std::f64::consts::TAU;
 
@@ -16,18 +16,111 @@ pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     }
 }
 
-/// Of a bearing of a public data set or of the catalogue, and where its numbers come from; `None` where no such bearing is known.
-pub fn orders_named(name: &str) -> Option<(DefectOrders, String)> {
-    if let Some(known) = NamedBearing::find(name) {
-        return Some((known.orders(), known.source.to_owned()));
-    }
-    let entry = catalogue::find(name)?;
-    let words = format!("{}: {}", entry.name, entry.title);
-    Some((orders_of(&entry.geometry().ok()?), words))
+/// A bearing that every command knows by its name. A preset of a scenario is one of the catalogue.
+#[derive(Debug, Clone, Copy)]
+pub enum KnownBearing {
+    /// Of the catalogue, with all that a scenario needs.
+    Catalogue(&'static Entry),
+    /// Of a public data set, with what its defect frequencies follow from.
+    DataSet(&'static NamedBearing),
 }
 
-/// Names that [`orders_named`] knows.
-pub fn orders_names() -> impl Iterator<Item = &'static str> {
-    let catalogue = catalogue::all().iter().map(|entry| entry.name.as_str());
-    NAMED.iter().map(|bearing| bearing.name).chain(catalogue)
+impl KnownBearing {
+    /// All of them, the catalogue first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let catalogue = catalogue::all().iter().map(Self::Catalogue);
+        catalogue.chain(NAMED.iter().map(Self::DataSet))
+    }
+
+    /// The bearing of this name.
+    pub fn find(name: &str) -> Option<Self> {
+        let catalogued = catalogue::find(name).map(Self::Catalogue);
+        catalogued.or_else(|| NamedBearing::find(name).map(Self::DataSet))
+    }
+
+    /// Why there is no bearing of this name: the names that there are.
+    pub fn unknown(name: &str) -> String {
+        let names: Vec<&str> = Self::all().map(Self::name).collect();
+        format!("no bearing {name:?}; there are {}", names.join(", "))
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Catalogue(entry) => &entry.name,
+            Self::DataSet(bearing) => bearing.name,
+        }
+    }
+
+    /// What it is, in a line.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Catalogue(entry) => &entry.title,
+            Self::DataSet(bearing) => bearing.source,
+        }
+    }
+
+    /// Its orders, and where they come from.
+    ///
+    /// # Errors
+    /// The key that an entry of the catalogue lacks.
+    pub fn orders(self) -> Result<(DefectOrders, String), &'static str> {
+        Ok(match self {
+            Self::Catalogue(entry) => {
+                let words = format!("{}: {}", entry.name, entry.title);
+                (orders_of(&entry.geometry()?), words)
+            }
+            Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
+        })
+    }
+
+    /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first.
+    ///
+    /// # Errors
+    /// The key that an entry of the catalogue lacks.
+    pub fn frequencies(
+        self,
+        speed_rpm: f64,
+    ) -> Result<[(&'static str, f64, &'static str); 6], &'static str> {
+        let shaft = speed_rpm.abs() / 60.0;
+        Ok(match self {
+            Self::Catalogue(entry) => {
+                Kinematics::pure_rolling(&entry.geometry()?, speed_rpm / 60.0 * TAU).table(shaft)
+            }
+            Self::DataSet(bearing) => {
+                let orders = bearing.orders();
+                let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
+                let DefectOrders {
+                    ftf,
+                    bpfo,
+                    bpfi,
+                    bsf,
+                } = orders;
+                frequency_table(shaft, hz(ftf), hz(bpfo), hz(bpfi), hz(bsf))
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_known_bearing_is_found_by_its_name_and_has_orders() {
+        for known in KnownBearing::all() {
+            let found = KnownBearing::find(known.name()).unwrap();
+            assert_eq!(found.name(), known.name());
+            let (orders, _) = known.orders().unwrap();
+            let rows = known.frequencies(60.0).unwrap();
+            let near = |name: &str, order: Option<f64>| {
+                let row = rows.iter().find(|row| row.0 == name).unwrap();
+                assert!((row.1 / order.unwrap() - 1.0).abs() < 1e-12, "{name}");
+            };
+            near("BPFO", orders.bpfo);
+            near("BPFI", orders.bpfi);
+            near("BSF", orders.bsf);
+            near("FTF", orders.ftf);
+        }
+    }
 }

@@ -411,6 +411,8 @@ impl Leaf for Speed {
 pub trait Choice: Copy + PartialEq + 'static {
     /// Word, value, meaning; the first stands in where none could be read.
     const WORDS: &'static [(&'static str, Self, &'static str)];
+    /// A word of earlier versions, and the one that replaces it.
+    const RENAMED: Option<(&'static str, &'static str)> = None;
 
     /// Its word.
     fn word(self) -> &'static str {
@@ -444,9 +446,12 @@ impl<T: Choice> Leaf for T {
         let known = T::WORDS.iter().find(|(word, ..)| word == text);
         known.map(|(_, value, _)| *value).ok_or_else(|| {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
-            let hint = super::nearest::nearest(text, words)
-                .map(|word| format!("; did you mean {}?", quote(word)))
-                .unwrap_or_default();
+            let hint = match T::RENAMED {
+                Some((old, new)) if old == text => format!("; it is called {} now", quote(new)),
+                _ => super::nearest::nearest(text, words)
+                    .map(|word| format!("; did you mean {}?", quote(word)))
+                    .unwrap_or_default(),
+            };
             Misfit::new(format!("unknown word{hint}"), word_list::<T>())
         })
     }

@@ -148,6 +148,12 @@ impl Problem {
     }
 }
 
+/// Number of the defect, from 1, that a key is about: 1 for `defects.0.depth_um`, whose path counts from 0 as every list's does.
+fn defect_number(key: &str) -> Option<usize> {
+    let index = key.strip_prefix("defects.")?.split('.').next()?;
+    index.parse::<usize>().ok()?.checked_add(1)
+}
+
 /// Characters of a key, a value or a word that are shown.
 const SHOWN: usize = 200;
 
@@ -179,6 +185,9 @@ impl fmt::Display for Problem {
             write!(f, "{}", cut(&self.key, SHOWN))?;
             if let Some(value) = &self.value {
                 write!(f, " = {}", cut(value, SHOWN))?;
+            }
+            if let Some(number) = defect_number(&self.key) {
+                write!(f, " (defect {number})")?;
             }
             write!(f, ": ")?;
         }

@@ -472,10 +472,10 @@ fn simulation<K: Keys>(k: &mut K, s: &mut Simulation) {
         ),
         &mut s.accuracy,
     );
-    let usual = ["inner_*", "outer_*", "cage*", "measured_*"].map(String::from);
+    let usual = ["inner_*", "outer_*", "cage*", "sensor_*"].map(String::from);
     k.key(
         key("record", "channels to keep; * matches any characters"),
-        stated(usual.to_vec(), "rings, cages and the measured pair"),
+        stated(usual.to_vec(), "rings, cages and the sensor pair"),
         &mut s.record,
     );
 }

@@ -11,14 +11,14 @@ pub(super) fn sensor<K: Keys>(k: &mut K, s: &mut Sensor) {
     k.optional(
         key(
             "direction_deg",
-            "an axis of its own, counter-clockwise from +x: adds the channel measured_sensor",
+            "an axis of its own, counter-clockwise from +x: adds the channel sensor_out",
         ),
         &mut s.direction_deg,
     );
     k.optional(
         key(
             "sensitivity_mv_per_m_per_s2",
-            "of measured_sensor, which is then in mV, and of converter_range_mv",
+            "of sensor_out, which is then in mV, and of converter_range_mv",
         )
         .above(0.0),
         &mut s.sensitivity_mv_per_m_per_s2,

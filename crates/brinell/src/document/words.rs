@@ -4,12 +4,13 @@ use super::leaf::Choice;
 use crate::bearing::clearance::ClearanceClass;
 use crate::scenario::*;
 
-/// Gives a closed choice its words: value, word, meaning.
+/// Gives a closed choice its words: value, word, meaning; and a word of earlier versions with the one that replaces it.
 macro_rules! words {
-    ($type:ident: $($variant:ident = $word:literal, $meaning:literal;)+) => {
+    ($type:ident $(renamed $old:literal to $new:literal)?: $($variant:ident = $word:literal, $meaning:literal;)+) => {
         impl Choice for $type {
             const WORDS: &'static [(&'static str, Self, &'static str)] =
                 &[$(($word, $type::$variant, $meaning)),+];
+            $(const RENAMED: Option<(&'static str, &'static str)> = Some(($old, $new));)?
         }
     };
 }
@@ -59,9 +60,9 @@ words! { NoiseColour:
     Brown = "brown", "density ~ 1/f^2 above the corner";
 }
 
-words! { ModelKind:
+words! { ModelKind renamed "reference" to "lumped":
     Full = "full", "every part moves";
-    Reference = "reference", "lumped rings, kinematic cage";
+    Lumped = "lumped", "lumped rings, kinematic cage";
 }
 
 words! { Start:

@@ -125,7 +125,7 @@ impl Energy {
             spin: q[l.phi() + slot],
             ring: model.rotation.at(t).1,
         };
-        if model.kind == ModelKind::Reference {
+        if model.kind == ModelKind::Lumped {
             e.contacts = (0..l.rollers())
                 .map(|slot| super::lumped::contact_energy(model, t, slot, ws))
                 .sum();
@@ -203,7 +203,7 @@ impl ContactState {
                 self.orbit.copy_from_slice(&y[l.theta()..][..l.slots]);
                 self.spin.copy_from_slice(&y[l.phi()..][..l.slots]);
             }
-            ModelKind::Reference => {
+            ModelKind::Lumped => {
                 self.orbit.copy_from_slice(&ws.kinematic_orbit);
                 self.spin.fill(ws.kinematic_spin);
             }
@@ -269,12 +269,12 @@ fn work_at(
             held(&to) - held(&from)
         }
         // One contact in series for both sides: counted at the inner one where that is on damage.
-        ModelKind::Reference
+        ModelKind::Lumped
             if side == Side::Outer && (before.on_damage[0][slot] || after.on_damage[0][slot]) =>
         {
             0.0
         }
-        ModelKind::Reference => {
+        ModelKind::Lumped => {
             let held = |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
             held(&to) - held(&from)
         }

@@ -1,4 +1,4 @@
-//! The reference model of section 10: two rings, kinematic cages, both contacts of a roller in series.
+//! The lumped model of section 10: two rings, kinematic cages, both contacts of a roller in series.
 //!
 //! It is our reading of what the paper's Ref. [43] does; the paper says no more of it. The state keeps the full model's
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.

@@ -362,16 +362,16 @@ impl Model {
         }
     }
 
-    /// Whether the outer ring of the reference model is rigidly mounted (section 10).
+    /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
     pub fn outer_ring_is_fixed(&self) -> bool {
-        self.kind == ModelKind::Reference && self.load.on == LoadOn::InnerRing
+        self.kind == ModelKind::Lumped && self.load.on == LoadOn::InnerRing
     }
 
     /// Support of the outer ring in the equations that hold.
     pub fn acting_outer_support(&self) -> Support {
         match self.kind {
             ModelKind::Full => self.outer_support,
-            ModelKind::Reference => Support {
+            ModelKind::Lumped => Support {
                 stiffness: 0.0,
                 damping: 0.0,
             },
@@ -409,7 +409,7 @@ impl Model {
     pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         match self.kind {
             ModelKind::Full => full::accelerations(self, t, y, a, ws),
-            ModelKind::Reference => lumped::accelerations(self, t, y, a, ws),
+            ModelKind::Lumped => lumped::accelerations(self, t, y, a, ws),
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Model, Workspace};
 use crate::scenario::ModelKind;
 
 /// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and |external|).
-/// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the reference model with a fixed
+/// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the lumped model with a fixed
 /// outer ring).
 pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) -> Option<f64> {
     if model.outer_ring_is_fixed() {

@@ -66,9 +66,9 @@ pub struct Workspace {
     /// Groups of which some contact may be closed.
     pub(super) near: [Vec<bool>; 2],
     kernel: Kernel,
-    /// Orbit angle of each roller in the reference model, where they are not states.
+    /// Orbit angle of each roller in the lumped model, where they are not states.
     pub kinematic_orbit: Vec<f64>,
-    /// phi of a roller in the reference model, rad.
+    /// phi of a roller in the lumped model, rad.
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) heaviest: [[f64; WIDTH]; 2],

@@ -68,7 +68,7 @@ impl LoadZone {
         for slot in 0..l.rollers() {
             let orbit = match f.model.kind {
                 ModelKind::Full => f.y[l.theta() + slot],
-                ModelKind::Reference => f.ws.kinematic_orbit[slot],
+                ModelKind::Lumped => f.ws.kinematic_orbit[slot],
             };
             let bin = bin_at(orbit);
             let row = &mut self.rows[l.row(slot)];

@@ -61,7 +61,7 @@ pub struct ChannelStatistics {
     pub blocks: Blocks,
 }
 
-/// Repetition of one defect in the envelope of the measured acceleration.
+/// Repetition of one defect in the envelope of the sensor acceleration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DefectLine {
     /// Index of the defect, from 0.
@@ -91,7 +91,7 @@ impl DefectLine {
 pub struct Findings {
     /// Statistics, spectra, load zone and slip begin here, s.
     pub from: f64,
-    /// 0 or 1: the axis of the measured acceleration that spectra and waveform show, the one nearer the load.
+    /// 0 or 1: the axis of the sensor acceleration that spectra and waveform show, the one nearer the load.
     pub axis: usize,
     /// By channel.
     pub channels: Vec<ChannelStatistics>,
@@ -107,11 +107,11 @@ pub struct Findings {
     pub motion: Motion,
     /// Passes and events.
     pub passes: Passes,
-    /// The measured acceleration.
+    /// The sensor acceleration.
     pub waveform: Waveform,
-    /// Spectrogram of the measured acceleration, the whole run.
+    /// Spectrogram of the sensor acceleration, the whole run.
     pub spectrogram: Option<Spectrogram>,
-    /// Amplitude spectrum of the measured acceleration.
+    /// Amplitude spectrum of the sensor acceleration.
     pub spectrum: Option<Spectrum>,
     /// Its envelope spectrum and the band.
     pub envelope: Option<(EnvelopeSpectrum, Band)>,
@@ -182,7 +182,7 @@ impl Watch {
             .channels()
             .iter()
             .map(|c| {
-                let kind = if c.measured_axis().is_some() {
+                let kind = if c.sensor_axis().is_some() {
                     Kind::AntiAliased
                 } else {
                     Kind::Instantaneous
@@ -266,9 +266,9 @@ impl Watch {
 
     /// One complete row.
     pub fn row(&mut self, simulation: &Simulation, index: u64, row: &[f64], filtered: &[f64]) {
-        let measured = filtered[self.axis];
-        self.waveform.push(measured);
-        self.spectrogram.push(measured);
+        let sensor = filtered[self.axis];
+        self.waveform.push(sensor);
+        self.spectrogram.push(sensor);
         let t = index as f64 / self.sample_rate;
         if self.started.is_none_or(|from| t < from) {
             return;
@@ -283,12 +283,12 @@ impl Watch {
             }
             channel.blocks.push(*value);
         }
-        self.spectra.push(measured);
+        self.spectra.push(sensor);
     }
 
     /// What came together.
     pub fn finish(mut self, simulation: &Simulation) -> Findings {
-        // The measured channels were counted twice where they are recorded.
+        // The sensor channels were counted twice where they are recorded.
         let names: Vec<&str> = simulation
             .channels()
             .iter()
@@ -299,7 +299,7 @@ impl Watch {
             index += 1;
             index <= self.recorded
                 || !names.contains(&c.name.as_str())
-                || !c.name.starts_with("measured_")
+                || !c.name.starts_with("sensor_")
         });
         let drifts = self.drifts();
         let spectra = self.spectra.finish();
@@ -328,15 +328,15 @@ impl Watch {
         }
     }
 
-    /// Of each cage, and of the measured acceleration along the load. A varying speed lets both drift by rights.
+    /// Of each cage, and of the sensor acceleration along the load. A varying speed lets both drift by rights.
     fn drifts(&self) -> Vec<Drift> {
         if !self.constant_speed {
             return Vec::new();
         }
         let rows = self.slip.rows.iter().enumerate();
         let slips = rows.filter_map(|(row, slip)| Some(Drift::CageSlip(row, slip.cage_drift()?)));
-        let measured = format!("measured_a{}", ["x", "y"][self.axis]);
-        let level = self.channels.iter().find(|c| c.name == measured);
+        let sensor = format!("sensor_a{}", ["x", "y"][self.axis]);
+        let level = self.channels.iter().find(|c| c.name == sensor);
         let level = level.and_then(|c| {
             let ratio = (0.5 * c.blocks.level_drift()?).exp() - 1.0;
             (ratio.abs() > LEAST_LEVEL_DRIFT).then_some(Drift::Level(c.name.clone(), ratio))

@@ -96,7 +96,7 @@ impl Motion {
         for slot in 0..self.rollers {
             let (orbit, spin) = match f.model.kind {
                 ModelKind::Full => (f.y[l.theta() + slot], f.y[l.phi() + slot]),
-                ModelKind::Reference => (f.ws.kinematic_orbit[slot], f.ws.kinematic_spin),
+                ModelKind::Lumped => (f.ws.kinematic_orbit[slot], f.ws.kinematic_spin),
             };
             self.states[at * self.rollers + slot] = RollerState {
                 orbit: wrap(orbit) as f32,
@@ -108,7 +108,7 @@ impl Motion {
         for row in 0..self.rows {
             let angle = match f.model.kind {
                 ModelKind::Full => f.y[l.cage(row) + 2],
-                ModelKind::Reference => {
+                ModelKind::Lumped => {
                     f.ws.kinematic_orbit[l.slot(row, 0)] - f.model.pocket_angle[l.slot(row, 0)]
                 }
             };

@@ -32,10 +32,10 @@ impl CageOrbit {
             model.rotation.max_speed().abs()
         });
         let turn = if speed > 0.0 { TAU / speed } else { duration };
-        // A cage of the reference model has no freedom.
+        // A cage of the lumped model has no freedom.
         let rows = match model.kind {
             ModelKind::Full => model.layout.rows,
-            ModelKind::Reference => 0,
+            ModelKind::Lumped => 0,
         };
         let span = (TURNS as f64 * turn).min(duration);
         let capacity = TURNS * POINTS;
@@ -67,7 +67,7 @@ impl CageOrbit {
         }
     }
 
-    /// Orbits of the cages, a row each; empty for the reference model.
+    /// Orbits of the cages, a row each; empty for the lumped model.
     pub fn rows(&self) -> usize {
         self.rows
     }

@@ -76,7 +76,7 @@ impl PassRates {
             last: 0.0,
             averages: Averages::new(),
         };
-        let kinematic = model.kind == ModelKind::Reference;
+        let kinematic = model.kind == ModelKind::Lumped;
         let defects = model.defects.iter().filter(|_| !kinematic);
         Self {
             last: None,
@@ -97,7 +97,7 @@ impl PassRates {
         self.last = Some(f.t);
     }
 
-    /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None` in the reference model, whose
+    /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None` in the lumped model, whose
     /// rollers do not slip, and before the first revolution.
     pub fn rate(&self, defect: usize) -> Option<Estimate> {
         self.rates.get(defect)?.averages.estimate()

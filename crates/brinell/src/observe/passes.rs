@@ -155,7 +155,7 @@ impl Passes {
                         spin: f.y[l.phi() + slot],
                         ring,
                     },
-                    ModelKind::Reference => Angles {
+                    ModelKind::Lumped => Angles {
                         orbit: f.ws.kinematic_orbit[slot],
                         spin: f.ws.kinematic_spin,
                         ring,

@@ -58,7 +58,7 @@ impl RowSlip {
 /// Slip of every row.
 #[derive(Debug, Clone)]
 pub struct Slip {
-    /// One a row; empty means for the reference model, whose motion is kinematic.
+    /// One a row; empty means for the lumped model, whose motion is kinematic.
     pub rows: Vec<RowSlip>,
     /// Of the inner ring at the first instant, rad.
     start_angle: Option<f64>,
@@ -79,7 +79,7 @@ impl Slip {
     /// Takes one instant; skipped while the ring stands still.
     pub fn take(&mut self, f: &Frame) {
         let (w, angle) = f.model.rotation.at(f.t);
-        if f.model.kind == ModelKind::Reference || w == 0.0 {
+        if f.model.kind == ModelKind::Lumped || w == 0.0 {
             return;
         }
         let start = *self.start_angle.get_or_insert(angle);

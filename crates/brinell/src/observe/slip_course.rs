@@ -80,7 +80,7 @@ impl SlipCourse {
         }
         self.in_stretch = (self.in_stretch + 1) % self.per_stretch;
         let (w, _) = f.model.rotation.at(f.t);
-        if f.model.kind == ModelKind::Reference
+        if f.model.kind == ModelKind::Lumped
             || w == 0.0
             || w.abs() < SLOWEST * f.model.rotation.max_speed().abs()
         {
@@ -132,7 +132,7 @@ impl SlipCourse {
         self.per_stretch
     }
 
-    /// Slip of a row, stretch by stretch from t = 0 on; empty for the reference model, whose motion is kinematic.
+    /// Slip of a row, stretch by stretch from t = 0 on; empty for the lumped model, whose motion is kinematic.
     pub fn over_time(&self, row: usize) -> Slips {
         means(self.stretches.iter().skip(row).step_by(self.rows))
     }

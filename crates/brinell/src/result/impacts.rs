@@ -1,4 +1,4 @@
-//! What the measured acceleration does when rollers come onto a defect and leave it: the mean course around those instants, and the
+//! What the sensor acceleration does when rollers come onto a defect and leave it: the mean course around those instants, and the
 //! peak after them.
 //!
 //! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time that a roller takes over the
@@ -31,7 +31,7 @@ pub struct Impacts {
     pub from: f64,
     /// Time between its points, s.
     pub step: f64,
-    /// The measured acceleration averaged over the instants, m/s^2; empty without any.
+    /// The sensor acceleration averaged over the instants, m/s^2; empty without any.
     pub mean: Vec<f64>,
     /// Largest |acceleration| in the half window after the instant, averaged over the instants, m/s^2, with its 95 % interval.
     pub peak: Option<Estimate>,

@@ -1,8 +1,8 @@
 //! A run as named numbers: every indicator of every channel with its interval, defect lines, contact, slip, audits and work.
 //!
-//! Names are channel and indicator, `measured_ax.rms`; SI units. A channel's values are instantaneous; what passed the anti-alias
-//! filter, and does not say so in its name as `measured_*` does, is `outer_ax.anti_aliased.rms`. A scenario fixes the list of
-//! names; what a run does not have (slip in the reference model, a defect's frequency in a short run) is there without a value.
+//! Names are channel and indicator, `sensor_ax.rms`; SI units. A channel's values are instantaneous; what passed the anti-alias
+//! filter, and does not say so in its name as `sensor_*` does, is `outer_ax.anti_aliased.rms`. A scenario fixes the list of
+//! names; what a run does not have (slip in the lumped model, a defect's frequency in a short run) is there without a value.
 //! No wall time is among them: the same scenario gives the same numbers.
 
 use super::impacts::{Impacts, impacts};
@@ -16,7 +16,7 @@ use crate::simulate::{Outcome, Simulation};
 /// One number of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// What it is: `measured_ax.rms`.
+    /// What it is: `sensor_ax.rms`.
     pub name: String,
     /// SI unit; 1 where it has none.
     pub unit: String,
@@ -100,7 +100,7 @@ pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String
 
 fn quantity_name(channel: &str, kind: Kind, what: &str) -> String {
     let filtered = match kind {
-        Kind::AntiAliased if !channel.starts_with("measured_") => ".anti_aliased",
+        Kind::AntiAliased if !channel.starts_with("sensor_") => ".anti_aliased",
         _ => "",
     };
     format!("{channel}{filtered}.{what}")

@@ -240,8 +240,8 @@ pub struct Operation {
 pub enum ModelKind {
     /// Every part a moving body.
     Full,
-    /// The lumped model that the paper compares against.
-    Reference,
+    /// The lumped model that the paper compares against: its reference model.
+    Lumped,
 }
 
 /// State at t = 0.

@@ -23,7 +23,7 @@ use filter::{Mode, Passes, Running, low_cut, low_cut_response};
 use noise::{Level, Noise};
 
 /// Name of the channel along the sensor's own direction.
-pub const OWN_CHANNEL: &str = "measured_sensor";
+pub const OWN_CHANNEL: &str = "sensor_out";
 
 /// A scenario's sensor, ready for runs at a sample rate.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,4 +1,4 @@
-//! The anti-alias chain of the measured channels: linear-phase FIR, then one sample in eight.
+//! The anti-alias chain of the sensor channels: linear-phase FIR, then one sample in eight.
 //!
 //! Model.md section 11: the state is sampled at 8 f_s, filtered by a Kaiser-window low-pass (passband to 0.4 f_s,
 //! stopband from 0.5 f_s, 80 dB), its delay removed, and decimated by 8.

@@ -233,7 +233,7 @@ impl<'a> Run<'a> {
             }
             let row = self.pending.row(self.rows);
             for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
-                if let Some(axis) = channel.measured_axis() {
+                if let Some(axis) = channel.sensor_axis() {
                     *value = self.filtered[axis];
                 }
             }

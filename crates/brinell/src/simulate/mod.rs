@@ -186,11 +186,11 @@ impl Simulation {
         let others = others
             .into_iter()
             .filter(|c| channels.iter().any(|r| r.name == c.name));
-        let mut filtered = channel::measured(&scenario.sensor);
-        let measured = filtered.len();
+        let mut filtered = channel::sensor_channels(&scenario.sensor);
+        let own = filtered.len();
         filtered.extend(others);
-        let slopes = ring.iter().chain(&filtered[measured..]);
-        let places = (0..ring.len()).chain(measured..);
+        let slopes = ring.iter().chain(&filtered[own..]);
+        let places = (0..ring.len()).chain(own..);
         Ok(Self {
             filtered_entries: places
                 .zip(slopes.filter_map(Channel::acceleration_entry))
@@ -218,13 +218,13 @@ impl Simulation {
         &self.channels
     }
 
-    /// The accelerations that pass the anti-alias filter: the measured channels, x and y of the outer ring and the sensor's own if it has
+    /// The accelerations that pass the anti-alias filter: the sensor channels, x and y of the outer ring and the sensor's own if it has
     /// one, then those of the other rings and cages that are recorded.
     pub fn filtered(&self) -> &[Channel] {
         &self.filtered
     }
 
-    /// What stands between the outer ring and the measured channels, if anything does.
+    /// What stands between the outer ring and the sensor channels, if anything does.
     pub fn sensor(&self) -> Option<&Chain> {
         self.sensor.as_ref()
     }

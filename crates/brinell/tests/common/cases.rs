@@ -32,7 +32,7 @@ pub fn healthy() -> Scenario {
 /// The scenarios that together meet every term of the model, by name.
 pub fn every_term() -> Vec<(&'static str, Scenario)> {
     let mut lumped = rectangle();
-    lumped.simulation.model = ModelKind::Reference;
+    lumped.simulation.model = ModelKind::Lumped;
     let mut inner_guided = rectangle();
     inner_guided.cage.guidance = Guidance::InnerRing;
     inner_guided.cage.guidance_film = GuidanceFilm::Dynamic;

@@ -372,7 +372,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 defects,
                 sensor: sensor(words.0, &x),
                 simulation: Simulation {
-                    model: [ModelKind::Full, ModelKind::Reference][words.2],
+                    model: [ModelKind::Full, ModelKind::Lumped][words.2],
                     duration_s: 1.0 + x[12] / 1e9,
                     sample_rate_hz: 1.0 + x[13],
                     start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],

@@ -133,9 +133,9 @@ pub(super) fn channel(
     if let Some(run) = run {
         let load = run.scenario.operation.load_n;
         let along = if load[1].abs() > load[0].abs() {
-            "measured_ay"
+            "sensor_ay"
         } else {
-            "measured_ax"
+            "sensor_ax"
         };
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
             notes.push(format!(

@@ -4,7 +4,7 @@ use super::{Wanted, usage};
 use crate::failure::Failure;
 use crate::say::short;
 use brinell::analysis::{FullScale, Quantity, Sensitivity, Unit};
-use brinell::channel::measured;
+use brinell::channel::sensor_channels;
 use brinell::document::Loaded;
 use brinell_io::Channel;
 
@@ -170,7 +170,7 @@ fn of_file(
 
 /// Unit of a channel of brinell's own that a signal may be in.
 fn own_unit(name: &str, run: &Loaded) -> Option<&'static str> {
-    if let Some(channel) = (measured(&run.scenario.sensor).iter()).find(|c| c.name == name) {
+    if let Some(channel) = (sensor_channels(&run.scenario.sensor).iter()).find(|c| c.name == name) {
         return Some(channel.unit);
     }
     (name.ends_with("_ax") || name.ends_with("_ay")).then_some("m/s^2")

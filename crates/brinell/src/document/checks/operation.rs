@@ -170,7 +170,7 @@ impl Checker<'_> {
                 s.support.outer_stiffness_n_per_m,
             ),
         };
-        // The reference model holds neither ring by the outer support: section 10.
+        // The lumped model holds neither ring by the outer support: section 10.
         let full = s.simulation.model == ModelKind::Full;
         let reference_inner = s.operation.load_on == LoadOn::InnerRing;
         let gap = 1e-6 * (s.bearing.radial_clearance_um + s.bearing.outer_gap_um);

@@ -36,7 +36,7 @@ impl Checker<'_> {
         if s.sensitivity_mv_per_m_per_s2.is_some() && !voltage {
             self.warn(
                 "sensor.sensitivity_mv_per_m_per_s2",
-                "changes nothing: measured_ax and measured_ay are in m/s^2".into(),
+                "changes nothing: sensor_ax and sensor_ay are in m/s^2".into(),
                 "with direction_deg (a channel in mV) or converter_range_mv".into(),
                 &[],
             );

@@ -277,8 +277,7 @@ impl Checker<'_> {
             return;
         };
         if map.extremes().1 < 0.0
-            && (self.s.contact.law != Law::Sliced
-                || self.s.simulation.model == ModelKind::Reference)
+            && (self.s.contact.law != Law::Sliced || self.s.simulation.model == ModelKind::Lumped)
         {
             self.error(
                 &key,
@@ -381,11 +380,11 @@ impl Checker<'_> {
                 "\"none\", or law = \"sliced\" with roller_path = \"envelope\"".into(),
                 &["contact.law", "contact.roller_path"],
             );
-        } else if self.s.simulation.model == ModelKind::Reference {
+        } else if self.s.simulation.model == ModelKind::Lumped {
             self.error(
                 KEY,
-                "the reference model prescribes how rollers turn: nothing can push them".into(),
-                "\"none\" where simulation.model = \"reference\"".into(),
+                "the lumped model prescribes how rollers turn: nothing can push them".into(),
+                "\"none\" where simulation.model = \"lumped\"".into(),
                 &["simulation.model"],
             );
         }
@@ -436,8 +435,10 @@ impl Checker<'_> {
                 let finder = self.finder;
                 self.problems.add_of(Severity::Warning, "overlaps", || {
                     let (key, other) = (format!("defects.{i}"), format!("defects.{j}"));
-                    let message =
-                        format!("overlaps {other} along the rolling direction; {rule}{path}");
+                    let message = format!(
+                        "overlaps defect {} along the rolling direction; {rule}{path}",
+                        j + 1
+                    );
                     let problem = Problem::new(Severity::Warning, key, message);
                     (finder.complete(problem, &[&other]), None)
                 });
