@@ -10,6 +10,7 @@ mod layout;
 pub(crate) mod lumped;
 mod momentum;
 mod motion;
+mod stability;
 mod workspace;
 
 pub use crate::kernel::Kernel;
@@ -18,6 +19,7 @@ pub use exposure::Exposure;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
+pub use stability::PAIR;
 pub use workspace::Workspace;
 
 use crate::bearing::kinematics::{self, Kinematics};

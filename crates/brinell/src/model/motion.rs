@@ -1,7 +1,7 @@
 //! The model as a system that the solver can integrate.
 
+use super::stability::longest_step;
 use super::{Model, Power, Workspace};
-use crate::accuracy::longest_step;
 use crate::solver::System;
 
 /// A model and the workspace of its evaluations.

@@ -1,0 +1,58 @@
+//! Stability limit of the explicit solver: the longest step in which it damps the fastest motions.
+
+use super::Model;
+use crate::defect::{SIDES, Side};
+use crate::scenario::ModelKind;
+use crate::solver::{DAMPED_CONTACT, Tableau};
+
+/// The pair that integrates.
+pub const PAIR: Tableau = DAMPED_CONTACT;
+
+/// Longest step in which the fastest motions still decay, s: of a roller whose contacts carry the elastic forces `heaviest` (inner and outer,
+/// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
+pub(super) fn longest_step(model: &Model, heaviest: [f64; 2], film_damping: f64) -> f64 {
+    if model.kind == ModelKind::Lumped {
+        // The lumped model's rollers have no inertia.
+        return f64::INFINITY;
+    }
+    let [inner, outer] = SIDES.map(|side| spring(model, side, heaviest[side as usize]));
+    let mass = model.inertia.roller;
+    // Between the raceways, or on one of them.
+    let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer]
+        .map(|spring| decaying_step(spring, mass));
+    // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2.
+    let slope = model.friction.coefficient / model.friction.slip_velocity;
+    let rolling = 2.0 * slope * (heaviest[0] + heaviest[1]) / mass;
+    // All cages against the ring that guides them.
+    let ring = match model.land_on() {
+        Side::Inner => model.inertia.inner_ring,
+        Side::Outer => model.inertia.outer_ring,
+    };
+    let film = film_damping * (1.0 / model.inertia.cage + model.layout.rows as f64 / ring);
+    between.into_iter().fold(
+        PAIR.longest_step(rolling.max(film), f64::INFINITY),
+        f64::min,
+    )
+}
+
+/// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; none where it is open.
+fn spring(model: &Model, side: Side, force: f64) -> [f64; 2] {
+    let law = model.contact(side);
+    if force > 0.0 {
+        [law.tangent_at(force), law.damping]
+    } else {
+        [0.0; 2]
+    }
+}
+
+/// Longest step in which m x'' + c x' + k x = 0 decays, s.
+fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
+    let under_root = 0.25 * c * c - k * m;
+    let rate = if under_root > 0.0 {
+        (0.5 * c + under_root.sqrt()) / m
+    } else {
+        (k / m).sqrt()
+    };
+    // k = 0 and c = 0: no motion, and any step.
+    PAIR.longest_step(rate, 0.5 * c / (k * m).sqrt())
+}

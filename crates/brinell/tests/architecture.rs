@@ -1,0 +1,154 @@
+//! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+type Uses = BTreeMap<String, BTreeSet<String>>;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Rows of the table under a heading, as cells.
+fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
+    let (_, from) = page.split_once(heading).expect(heading);
+    let lines = from.lines().skip_while(|line| !line.starts_with('|'));
+    let rows = lines.take_while(|line| line.starts_with('|')).skip(2);
+    rows.map(|row| {
+        let cells = row.trim_matches('|').split('|');
+        cells.map(|cell| cell.trim().to_owned()).collect()
+    })
+    .collect()
+}
+
+/// Text without comments and tests, which may use anything; strings that hold `//` do not matter here.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let text = text.split("#[cfg(test)]").next().unwrap_or("");
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn files(of: &Path) -> Vec<PathBuf> {
+    if of.is_file() {
+        return vec![of.to_owned()];
+    }
+    let entries = fs::read_dir(of).unwrap().map(|e| e.unwrap().path());
+    entries.flat_map(|path| files(&path)).collect()
+}
+
+/// Modules of the engine and what each names of the others.
+fn modules(src: &Path) -> Uses {
+    let mut all = Uses::new();
+    let entries = fs::read_dir(src).unwrap().map(|e| e.unwrap().path());
+    for path in entries.filter(|path| !path.ends_with("lib.rs")) {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let uses = all.entry(name).or_default();
+        for file in files(&path)
+            .iter()
+            .filter(|f| f.extension().is_some_and(|e| e == "rs") && !f.ends_with("tests.rs"))
+        {
+            for after in code(file).split("crate::").skip(1) {
+                let end = after.find(|c: char| !c.is_alphanumeric() && c != '_');
+                uses.insert(after[..end.unwrap_or(after.len())].to_owned());
+            }
+        }
+    }
+    let known: BTreeSet<String> = all.keys().cloned().collect();
+    for (name, uses) in &mut all {
+        uses.retain(|used| known.contains(used) && used != name);
+    }
+    all
+}
+
+/// A cycle, if there is one.
+fn cycle(uses: &Uses) -> Option<String> {
+    let mut left = uses.clone();
+    loop {
+        let free = left
+            .iter()
+            .find(|(_, uses)| !uses.iter().any(|u| left.contains_key(u)));
+        let Some(name) = free.map(|(name, _)| name.clone()) else {
+            return (!left.is_empty()).then(|| format!("{:?}", left.keys()));
+        };
+        left.remove(&name);
+    }
+}
+
+#[test]
+fn prop_architecture_says_which_module_uses_which() {
+    let page = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let code = modules(&root().join("crates/brinell/src"));
+    assert_eq!(cycle(&code), None, "modules that use each other");
+    let mut told = Uses::new();
+    for row in table(&page, "of `crates/brinell/src`") {
+        let uses: BTreeSet<String> = (row.get(2).into_iter())
+            .flat_map(|cell| cell.split(','))
+            .map(|name| name.trim().to_owned())
+            .filter(|name| code.contains_key(name))
+            .collect();
+        for name in row[0].split(',') {
+            let name = name
+                .trim()
+                .trim_matches('`')
+                .trim_end_matches('/')
+                .trim_end_matches(".rs");
+            told.entry(name.to_owned())
+                .or_default()
+                .extend(uses.clone());
+        }
+    }
+    let names = |uses: &Uses| uses.keys().cloned().collect::<BTreeSet<_>>();
+    assert_eq!(
+        names(&told),
+        names(&code),
+        "modules in the table, and in the code"
+    );
+    for (name, uses) in &code {
+        let missing: Vec<_> = uses.difference(&told[name]).collect();
+        let stale: Vec<_> = told[name].difference(uses).collect();
+        assert!(
+            missing.is_empty() && stale.is_empty(),
+            "{name} uses {missing:?}, which ARCHITECTURE.md does not say; it says {stale:?}, which it does not use"
+        );
+    }
+}
+
+#[test]
+fn prop_architecture_says_which_crate_depends_on_which() {
+    let page = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let rows = table(&page, "# Architecture");
+    let mut uses = Uses::new();
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let manifest = fs::read_to_string(path.join("Cargo.toml")).unwrap();
+        let ours = manifest.lines().filter(|line| line.starts_with("brinell"));
+        let ours = ours.map(|line| line.split(['.', ' ', '=']).next().unwrap_or("").to_owned());
+        uses.insert(name.clone(), ours.collect());
+        let row = rows.iter().find(|row| {
+            row[0]
+                .split('`')
+                .any(|part| part == format!("crates/{name}"))
+        });
+        let row =
+            row.unwrap_or_else(|| panic!("crates/{name} is not in the table of ARCHITECTURE.md"));
+        let said = &row[2];
+        for used in &uses[&name] {
+            let whole = said.starts_with("all ");
+            assert!(
+                whole || said.contains(&format!("`crates/{used}`")),
+                "{name} depends on {used}; ARCHITECTURE.md says: {said}"
+            );
+        }
+        let stale = said
+            .split('`')
+            .filter_map(|part| part.strip_prefix("crates/"))
+            .find(|part| !uses[&name].contains(*part));
+        assert_eq!(stale, None, "{name} does not depend on it");
+    }
+    assert_eq!(cycle(&uses), None, "crates that depend on each other");
+}
