@@ -8,8 +8,12 @@ mod common;
 use brinell::channel::Frame;
 use brinell::observe::Watch;
 use brinell::scenario::{GuidanceFilm, Scenario, Shape};
+use brinell::signal::LineFrequency;
 use brinell::simulate::{End, Observer, Simulation};
 use std::ops::ControlFlow;
+
+/// Independent starts, the load larger by one part in 10^5 each time.
+const STARTS: u32 = 7;
 
 /// Half a percent is 1.25 Hz: a bin of a 0.8 s record, and twice the spread of the paper's own three figures.
 const TOLERANCE: f64 = 5e-3;
@@ -29,6 +33,18 @@ impl Observer for Watching<'_> {
     }
 }
 
+/// The line of the only defect.
+fn line(s: &Scenario) -> LineFrequency {
+    let simulation = Simulation::new(s).unwrap();
+    let mut watching = Watching(Watch::new(s, &simulation), &simulation);
+    let outcome = simulation.run(&mut watching);
+    assert_eq!(outcome.end, End::Complete);
+    let findings = watching.0.finish(&simulation);
+    let line = &findings.lines[0];
+    assert_eq!(line.name, "BPFO");
+    line.found.expect("a line stands clear of the noise")
+}
+
 fn found(name: &str, shape: Shape, printed: f64) {
     let mut s = Scenario::example();
     s.defects[0].shape = shape;
@@ -38,21 +54,25 @@ fn found(name: &str, shape: Shape, printed: f64) {
     // The cages slip by 1 % for the first 0.2 s and would pull the mean over half a second 0.6 % below pure rolling.
     s.simulation.duration_s = 1.0;
     s.simulation.sample_rate_hz = 25_600.0;
-    let simulation = Simulation::new(&s).unwrap();
-    let mut watching = Watching(Watch::new(&s, &simulation), &simulation);
-    let outcome = simulation.run(&mut watching);
-    assert_eq!(outcome.end, End::Complete);
-    let findings = watching.0.finish(&simulation);
-    let line = &findings.lines[0];
-    assert_eq!(line.name, "BPFO");
-    let f = line
-        .found
-        .as_ref()
-        .expect("a line stands clear of the noise");
+    // Some starts end in a motion in which the cages slip by another per cent; which ones hangs on round-off. So the median of several.
+    let load = s.operation.load_n.clone();
+    let mut lines: Vec<LineFrequency> = (0..STARTS)
+        .map(|k| {
+            for (own, given) in s.operation.load_n.iter_mut().zip(&load) {
+                *own = given * (1.0 + 1e-5 * f64::from(k));
+            }
+            line(&s)
+        })
+        .collect();
+    lines.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    let all: Vec<String> = lines
+        .iter()
+        .map(|l| format!("{:.2}", l.frequency))
+        .collect();
+    println!("{name}: {} Hz", all.join(", "));
+    let f = lines[lines.len() / 2];
     println!(
-        "{} {}: {:.2} +- {:.2} Hz, printed {printed} Hz ({:+.2} %)",
-        name,
-        line.name,
+        "{name} BPFO: {:.2} +- {:.2} Hz, printed {printed} Hz ({:+.2} %)",
         f.frequency,
         f.uncertainty,
         100.0 * (f.frequency / printed - 1.0)
