@@ -55,7 +55,7 @@ fn found(name: &str, shape: Shape, printed: f64) {
     s.simulation.duration_s = 1.0;
     s.simulation.sample_rate_hz = 25_600.0;
     // Some starts end in a motion in which the cages slip by another per cent; which ones hangs on round-off. So the median of several.
-    let load = s.operation.load_n.clone();
+    let load = s.operation.load_n;
     let mut lines: Vec<LineFrequency> = (0..STARTS)
         .map(|k| {
             for (own, given) in s.operation.load_n.iter_mut().zip(&load) {
