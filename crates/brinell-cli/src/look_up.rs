@@ -7,10 +7,9 @@ use crate::say::{document, say};
 use brinell::analysis::NamedBearing;
 use brinell::bearing::KnownBearing;
 use brinell::bearing::catalogue::{self, Datum, Entry};
-use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::bearing::kinematics::Geometry;
 use brinell::scenario::Speed;
 use brinell_io::atomic_write;
-use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -120,12 +119,8 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         )));
     }
     let rows = match which {
-        Which::Known(known) => known.frequencies(rpm).map_err(|key| {
-            Failure::Usage(format!("{}: the catalogue gives no {key}", known.name()))
-        })?,
-        Which::Geometry(geometry) => {
-            Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU).table(rpm.abs() / 60.0)
-        }
+        Which::Known(known) => known.frequencies(rpm).map_err(Failure::Usage)?,
+        Which::Geometry(geometry) => geometry.frequencies(rpm),
     };
     if args.json {
         let values: serde_json::Map<String, serde_json::Value> = rows

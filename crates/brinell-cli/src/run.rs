@@ -144,11 +144,11 @@ fn execute(
     let mut shown = Shown::new(progress, stop);
     let mut recorder = Recorder::new(&simulation, writers, &mut shown);
     let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
-    let heard = recorder.close(&finished.outcome.end, true);
+    let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);
-    let heard = heard?;
-    ready.extend(heard.files);
+    let recording = recording?;
+    ready.extend(recording.files);
     let Finished {
         simulation,
         outcome,

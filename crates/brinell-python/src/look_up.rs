@@ -4,7 +4,7 @@ use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
 use brinell::bearing::KnownBearing;
-use brinell::bearing::kinematics::{Geometry, Kinematics};
+use brinell::bearing::kinematics::Geometry;
 use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::scenario::Speed;
@@ -126,12 +126,8 @@ pub(crate) fn frequencies<'py>(
         )));
     }
     let rows = match which {
-        Which::Known(known) => known
-            .frequencies(rpm)
-            .map_err(|key| bad_value(format!("{}: the catalogue gives no {key}", known.name())))?,
-        Which::Geometry(geometry) => {
-            Kinematics::pure_rolling(&geometry, rpm / 60.0 * TAU).table(rpm.abs() / 60.0)
-        }
+        Which::Known(known) => known.frequencies(rpm).map_err(bad_value)?,
+        Which::Geometry(geometry) => geometry.frequencies(rpm),
     };
     json_to_python(py, &table(rows).into())
 }

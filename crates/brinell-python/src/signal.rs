@@ -229,9 +229,7 @@ fn orders(
         (Some(name), _) => {
             let known =
                 KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
-            let missing =
-                |key| bad_value(format!("{}: the catalogue gives no {key}", known.name()));
-            known.orders().map_err(missing)?.0
+            known.orders().map_err(bad_value)?.0
         }
         (None, Some(geometry)) => orders_of(&geometry),
         (None, None) => DefectOrders::default(),

@@ -1,10 +1,12 @@
 //! What the analysis says of signals whose damage is known: made-up rig signals with shaft, mains, jitter and noise.
 
+mod cases;
+
+use cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze,
-    compare,
+    Analysis, AnalysisError, NamedBearing, Options, Side, Standing, Verdict, analyze, compare,
 };
 use brinell_signal::random::Random;
 
@@ -80,16 +82,6 @@ fn look(x: &[f64], fs: f64) -> Analysis {
     let orders = NamedBearing::find("6205-2RS").unwrap().orders();
     analyze(x, fs, &Options::new(TOLD, orders)).unwrap()
 }
-
-fn first(analysis: &Analysis) -> Option<Component> {
-    analysis.causes().next().map(|f| f.component)
-}
-
-const CASES: [(Component, f64, f64); 3] = [
-    (Component::OuterRace, 3.5848, 0.0),
-    (Component::InnerRace, 5.4152, 1.0),
-    (Component::Element, 4.7135, 0.39828),
-];
 
 #[test]
 fn prop_the_right_component_ranks_first() {

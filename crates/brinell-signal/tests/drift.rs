@@ -1,9 +1,12 @@
 //! A shaft whose speed drifts during the record: noticed by its own lines or a defect's, followed where that tells more, and nothing made up where it
 //! is steady.
 
+mod cases;
+
 use brinell_signal::Rotation;
-use brinell_signal::analysis::{Analysis, Component, NamedBearing, Options, analyze};
+use brinell_signal::analysis::{Analysis, NamedBearing, Options, analyze};
 use brinell_signal::random::Random;
+use cases::{CASES, first};
 use std::f64::consts::TAU;
 
 const FS: f64 = 12_000.0;
@@ -79,16 +82,6 @@ fn look(x: &[f64]) -> Analysis {
     let orders = NamedBearing::find("6205-2RS").unwrap().orders();
     analyze(x, FS, &Options::new(SHAFT, orders)).unwrap()
 }
-
-fn first(analysis: &Analysis) -> Option<Component> {
-    analysis.causes().next().map(|f| f.component)
-}
-
-const CASES: [(Component, f64, f64); 3] = [
-    (Component::OuterRace, 3.5848, 0.0),
-    (Component::InnerRace, 5.4152, 1.0),
-    (Component::Element, 4.7135, 0.39828),
-];
 
 /// How far the course strays from the truth, relative, RMS; the mean left out where a defect's lines told it.
 fn stray(analysis: &Analysis, rig: &Rig) -> f64 {

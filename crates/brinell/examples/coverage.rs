@@ -9,14 +9,14 @@
 
 use brinell::channel::Frame;
 use brinell::document;
+use brinell::many;
 use brinell::observe::{Findings, Watch};
 use brinell::scenario::Scenario;
 use brinell::signal::{Estimate, Indicator};
 use brinell::simulate::{Observer, Simulation};
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Name, scenario, and its sensor channel along the load.
 const CASES: [(&str, &str, &str); 2] = [
@@ -118,29 +118,16 @@ fn all(
     numbers: std::ops::Range<usize>,
     durations: &[f64],
     channel: &str,
-    threads: usize,
+    threads: NonZeroUsize,
 ) -> Result<Results, Box<dyn Error + Send + Sync>> {
-    let next = AtomicUsize::new(numbers.start);
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= numbers.end {
-                        return;
-                    }
-                    let result = start(base, number, durations, channel);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((number, result));
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().map_err(|_| "a run panicked")?;
-    done.sort_by_key(|(number, _)| *number);
-    done.into_iter().map(|(_, result)| result).collect()
+    let mut results: Vec<_> = numbers.clone().map(|_| None).collect();
+    many::each(
+        numbers.len(),
+        threads,
+        |k| start(base, numbers.start + k, durations, channel),
+        |k, result| results[k] = Some(result),
+    );
+    results.into_iter().flatten().collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -153,7 +140,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         Some(text) => text.parse(),
         None => Ok(default),
     };
-    let (starts, threads) = (argument(1, 200)?, argument(2, 1)?.max(1));
+    let starts = argument(1, 200)?;
+    let threads = NonZeroUsize::new(argument(2, 1)?).unwrap_or(NonZeroUsize::MIN);
     let longest = argument(3, 2)? as f64;
     let durations: Vec<f64> = DURATIONS.into_iter().filter(|d| *d <= longest).collect();
     let names = INDICATORS.map(Indicator::name);

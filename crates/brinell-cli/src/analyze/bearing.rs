@@ -54,9 +54,7 @@ fn base(
                 KnownBearing::unknown(name)
             )));
         };
-        return known.orders().map_err(|key| {
-            Failure::Usage(format!("{}: the catalogue gives no {key}", known.name()))
-        });
+        return known.orders().map_err(Failure::Usage);
     }
     let angle = args.contact_angle.unwrap_or(0.0);
     match (args.rollers, args.pitch, args.diameter) {

@@ -89,22 +89,24 @@ pub(super) fn to_json(results: &[Result_], of: impl Fn(&Result_) -> Value) -> Va
     let path = results
         .first()
         .map(|r| r.measured.path.display().to_string());
+    let lead = lead(results);
+    let one = |result: &Result_| {
+        let mut one = of(result);
+        one["bearing"] = result.name.clone().into();
+        one["beside"] = result.beside.clone().into();
+        one
+    };
+    let bearings: Vec<Value> = results.iter().map(one).collect();
+    // That of the bearing that leads, or of the first; its text speaks of all.
+    let mut verdict = bearings[lead.unwrap_or(0)]["verdict"].clone();
+    let texts = results.iter().map(|r| format!("{}: {}", r.name, r.told()));
+    verdict["text"] = texts.collect::<Vec<_>>().join("\n").into();
     json!({
         "brinell": brinell::VERSION,
         "file": { "path": path },
-        "verdict": {
-            "text": (results.iter().map(|r| format!("{}: {}", r.name, r.told())).collect::<Vec<_>>()).join("\n"),
-            "says": (lead(results).map(|k| &results[k]).or(results.first())).map(|r| r.analysis.conclusion().key()),
-            "damage": lead(results).map_or(Vec::new(), |k| results[k].analysis.causes().map(|f| f.component.key()).collect::<Vec<_>>()),
-            "clarity": lead(results).and_then(|k| Some(results[k].analysis.clarity(call(&results[k])?))),
-        },
-        "leads": lead(results).map(|k| results[k].name.clone()),
-        "bearings": results.iter().map(|result| {
-            let mut one = of(result);
-            one["bearing"] = result.name.clone().into();
-            one["beside"] = result.beside.clone().into();
-            one
-        }).collect::<Vec<_>>(),
+        "verdict": verdict,
+        "leads": lead.map(|k| results[k].name.clone()),
+        "bearings": bearings,
     })
 }
 

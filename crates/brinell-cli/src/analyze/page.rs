@@ -4,7 +4,7 @@ use super::Result_;
 use super::level::scaled;
 use super::words::{called, ratio, shaft_lines};
 use crate::say::short;
-use brinell::analysis::{Analysis, COLUMNS, Family, Standing, Verdict, shown_spectrum};
+use brinell::analysis::{Analysis, COLUMNS, Family, HARMONICS, Standing, Verdict, shown_spectrum};
 use brinell::signal::{Estimate, Indicator, Spectrum};
 use brinell_report::{
     AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Marker, Series, Table,
@@ -212,9 +212,6 @@ fn capital(text: &str) -> String {
         _ => text[..1].to_uppercase() + &text[1..],
     }
 }
-
-/// Harmonics of a comb at no frequency of the bearing that are marked.
-const HARMONICS: usize = 5;
 
 fn markers(a: &Analysis) -> Vec<Marker> {
     let marker = |f: &Family| Marker {

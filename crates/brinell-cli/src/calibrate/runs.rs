@@ -62,12 +62,12 @@ impl Work for FromPoints<'_> {
         }
     }
 
-    fn hears(&self) -> Option<usize> {
+    fn captured_channel(&self) -> Option<usize> {
         self.pattern.map(|pattern| pattern.axis)
     }
 
-    fn finished(&self, _: &Task, _: &Finished, heard: &[f64]) -> Result<Vec<Quantity>, Failure> {
-        let own = |pattern: &Pattern| pattern.quantities(heard);
+    fn finished(&self, _: &Task, _: &Finished, captured: &[f64]) -> Result<Vec<Quantity>, Failure> {
+        let own = |pattern: &Pattern| pattern.quantities(captured);
         Ok(self.pattern.map_or(Vec::new(), own))
     }
 }

@@ -216,13 +216,8 @@ pub(super) fn cage(shaft: f64, options: &Options) -> f64 {
     options.orders.ftf.unwrap_or(USUAL_FTF) * shaft
 }
 
-/// Each family at the slip at which its score is highest, up to `tolerance` from pure rolling.
-pub(super) fn read(
-    together: &Together,
-    shaft: f64,
-    tolerance: f64,
-    options: &Options,
-) -> Vec<Family> {
+/// Each family at the slip at which its score is highest, up to the tolerance from pure rolling.
+pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Family> {
     // Damage on an element strikes twice a turn; a ball that turns about another axis, once, at lines that 2 BSF has as well.
     let strikes = (options.orders.strikes()).filter(|(_, name, _)| *name != "BSF");
     let noise = (HARMONICS as f64 * together.noise.ln()).max(LEAST_SCORE);
@@ -230,7 +225,7 @@ pub(super) fn read(
     strikes
         .map(|(component, name, order)| {
             let expected = order * shaft;
-            let (behind, ahead) = reach(component, tolerance, options.exact);
+            let (behind, ahead) = reach(component, options.tolerance, options.exact);
             let step = 0.25 * together.step() / (HARMONICS as f64 * expected);
             let steps = ((ahead + behind) / step) as usize;
             let places = (0..=steps).map(|k| expected * (1.0 - behind + k as f64 * step));

@@ -54,6 +54,7 @@ pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{
     BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
 };
+pub use together::HARMONICS;
 pub use unit::{Quantity, Unit};
 pub use verdict::Elsewhere;
 pub use words::COLUMNS;
@@ -253,7 +254,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     // What asks for nothing but the samples goes side by side.
-    let (indicators, map, shaft, drift, transformed) = thread::scope(|scope| {
+    let (indicators, map, shaft, mut drift, transformed) = thread::scope(|scope| {
         let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
         let map = scope.spawn(|| match options.band {
             Some(_) => Ok(None),
@@ -286,7 +287,6 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     let transformed = transformed?.dithered(DITHER);
     let samples = x.len();
     drop(x);
-    let mut drift = drift;
     let range = bands::range(fs, options)?;
     let mut envelopes = Envelopes::of(&transformed, range, shaft, options)?;
     let known = options.rotation.is_some() || options.exact;
@@ -304,20 +304,18 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     };
     let own;
     let mut record = Record::of(&envelopes, known, options)?;
-    let (mut families, mut elsewhere) = record.families();
-    if !shaft_lines.is_empty() && !options.exact && !is_damage(&families) {
+    if !shaft_lines.is_empty() && !options.exact && !record.is_damage() {
         // Lines that agree by chance, or another shaft's, may have told a wrong speed.
         let given = Shaft {
             hz: options.shaft,
             tolerance: 0.0,
         };
-        let mut as_given = Record::of(&envelopes, given, options)?;
-        let (found, there) = as_given.families();
+        let as_given = Record::of(&envelopes, given, options)?;
         // At a speed that is off, lines of the shaft are not hidden: only what is very clear counts.
         let clear = |f: &Family| f.standing == Standing::Damage && f.is_very_clear();
-        if found.iter().any(clear) {
+        if as_given.families.iter().any(clear) {
             shaft_lines.clear();
-            (record, families, elsewhere) = (as_given, found, there);
+            record = as_given;
         }
     }
     if let Some(drift) = &mut drift {
@@ -330,32 +328,29 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             hz: drift.mean(),
             tolerance: SHAFT_KNOWN * drift.mean(),
         };
-        let mut at_angles = Record::of(&envelopes, known, &own)?;
-        let (found, there) = at_angles.families();
-        if evidence(&found) > evidence(&families) {
+        let at_angles = Record::of(&envelopes, known, &own)?;
+        if at_angles.evidence() > record.evidence() {
             drift.followed = true;
-            (record, families, elsewhere) = (at_angles, found, there);
+            record = at_angles;
         }
     }
-    if options.band.is_none() && !options.exact && !is_damage(&families) {
+    if options.band.is_none() && !options.exact && !record.is_damage() {
         for part in bands::lower(range) {
             let there = Envelopes::of(&transformed, part, record.shaft, record.options)?;
             let known = Shaft {
                 hz: record.shaft,
                 tolerance,
             };
-            let mut lower = Record::of(&there, known, record.options)?;
-            let (found, _) = lower.families();
-            if is_damage(&found) {
-                (record, families, elsewhere) = (lower, found, None);
+            let lower = Record::of(&there, known, record.options)?;
+            if lower.is_damage() {
+                record = lower;
                 envelopes = there;
                 break;
             }
         }
     }
     let Record { shaft, options, .. } = record;
-    let lead = (families.iter()).find(|f| f.standing == Standing::Damage);
-    let (band, choice, (mean_of_envelope, spectrum)) = match (options.band, lead) {
+    let (band, choice, (mean_of_envelope, spectrum)) = match (options.band, record.lead()) {
         (None, Some(lead)) => {
             let (band, envelope) = &envelopes.each[record.together.clearest(lead)];
             let spectrum = envelopes.spectrum(envelope, shaft, options)?;
@@ -389,26 +384,9 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             mean: mean_of_envelope,
         },
         bands: record.together.bands(),
-        families,
-        elsewhere,
+        families: record.families,
+        elsewhere: record.elsewhere,
     })
-}
-
-/// Whether a family is damage.
-fn is_damage(families: &[Family]) -> bool {
-    families.iter().any(|f| f.standing == Standing::Damage)
-}
-
-/// Score of the family that leads or, where none is damage, of the highest: the first is more.
-fn evidence(families: &[Family]) -> (bool, f64) {
-    let highest = |damage: bool| {
-        let these = (families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
-        these.map(|f| f.score).reduce(f64::max)
-    };
-    match highest(true) {
-        Some(score) => (true, score),
-        None => (false, highest(false).unwrap_or(0.0)),
-    }
 }
 
 /// Of a signal less its mean, averaged over revolutions of `revolution` samples.

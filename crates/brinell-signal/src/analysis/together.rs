@@ -14,7 +14,7 @@ use crate::parallel;
 use crate::{Band, Segments, Spectrum, Thinned, Transformed, psd, resample};
 
 /// Harmonics of a defect frequency that are looked at.
-pub(super) const HARMONICS: usize = 5;
+pub const HARMONICS: usize = 5;
 /// Bands side by side in the whole range at most; half as many again lie between them.
 const BANDS: f64 = 12.0;
 /// Revolutions of a segment: lines are then a fraction of 1/120 of the shaft's frequency wide. In longer ones slip would smear them.

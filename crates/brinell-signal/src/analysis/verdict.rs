@@ -23,10 +23,10 @@ const LOWEST: f64 = 1.5;
 const FEWEST_HARMONICS: f64 = 3.0;
 /// Bins within which two combs are one.
 const WIDTH: f64 = 3.0;
-/// The same for the cage's own lines.
-const TELLING_CAGE: f64 = 40.0;
 /// Turns of the cage from which sidebands at its frequency are told from other lines: in a shorter record they fill the spectrum.
 const TELLING: f64 = 20.0;
+/// The same for the cage's own lines.
+const TELLING_CAGE: f64 = 40.0;
 
 /// A comb of lines that is deeper than any of the bearing's, where the bearing has no frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,13 +54,17 @@ pub struct Nearest {
     pub shaft: f64,
 }
 
-/// What was looked at and how long it is.
+/// What was looked at, how long it is, and what was found.
 pub(super) struct Record<'a> {
     pub(super) together: Together,
-    pub(super) revolutions: f64,
+    revolutions: f64,
     /// Shaft speed, Hz.
     pub(super) shaft: f64,
     pub(super) options: &'a Options,
+    /// Those that are damage first, the one that leads before the others.
+    pub(super) families: Vec<Family>,
+    /// Where there is one, nothing is damage.
+    pub(super) elsewhere: Option<Elsewhere>,
 }
 
 impl<'a> Record<'a> {
@@ -71,21 +75,43 @@ impl<'a> Record<'a> {
     ) -> Result<Self, AnalysisError> {
         let samples = envelopes.each.first().map_or(0, |(_, e)| e.values.len());
         let seconds = samples as f64 / envelopes.rate;
-        Ok(Record {
+        let mut record = Record {
             together: Together::of(envelopes, known, options)?,
             revolutions: seconds * known.hz,
             shaft: known.hz,
             options,
-        })
+            families: Vec::new(),
+            elsewhere: None,
+        };
+        (record.families, record.elsewhere) = record.judge();
+        Ok(record)
     }
 
-    fn read(&self, tolerance: f64) -> Vec<Family> {
-        read(&self.together, self.shaft, tolerance, self.options)
+    /// Whether a family is damage.
+    pub(super) fn is_damage(&self) -> bool {
+        self.lead().is_some()
     }
 
-    /// All families: those that are damage first, the one that leads before the others; what else stands after it.
-    pub(super) fn families(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
-        let mut all = self.read(self.options.tolerance);
+    /// The family that leads, where one is damage.
+    pub(super) fn lead(&self) -> Option<&Family> {
+        (self.families.iter()).find(|f| f.standing == Standing::Damage)
+    }
+
+    /// Score of the family that leads or, where none is damage, of the highest: the first is more.
+    pub(super) fn evidence(&self) -> (bool, f64) {
+        let highest = |damage: bool| {
+            let these =
+                (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
+            these.map(|f| f.score).reduce(f64::max)
+        };
+        match highest(true) {
+            Some(score) => (true, score),
+            None => (false, highest(false).unwrap_or(0.0)),
+        }
+    }
+
+    fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
+        let mut all = read(&self.together, self.shaft, self.options);
         for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
             if self.is_short_for(family.component) {
                 family.standing = Standing::Open;
@@ -104,7 +130,7 @@ impl<'a> Record<'a> {
         };
         let lead = all.remove(lead);
         self.take_out(lead.frequency);
-        let left = self.read(self.options.tolerance);
+        let left = read(&self.together, self.shaft, self.options);
         // Frequencies that slip may bring together are not told apart.
         let apart =
             |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;

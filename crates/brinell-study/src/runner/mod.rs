@@ -10,7 +10,7 @@ mod run;
 
 pub use cost::{estimate, mean_pace};
 pub use ledger::{JOURNAL, Kept, Ledger};
-pub use recorder::{Heard, Recorder};
+pub use recorder::{Recorder, Recording};
 pub use run::{Beside, Task, Work, run};
 
 use brinell_io::IoError;

@@ -1,18 +1,18 @@
-//! What a run is heard with: rows to files, one filtered signal kept where it is asked for, time to its listener.
+//! The observer of a recorded run: writes rows to files, captures one filtered signal where requested, and reports the time to its listener.
 
 use crate::listener::RunListener;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::{Complete, IoError, Outcome, SignalWriter};
 use std::ops::ControlFlow;
 
-/// Hears a run for its files and its listener.
+/// Records a run for its files and its listener.
 pub struct Recorder<'a> {
     row: Vec<f64>,
     sample_rate: f64,
     writers: Vec<Box<dyn SignalWriter>>,
     failed: Option<IoError>,
-    hears: Option<usize>,
-    heard: Vec<f64>,
+    captured_channel: Option<usize>,
+    captured: Vec<f64>,
     listener: &'a mut dyn RunListener,
 }
 
@@ -28,24 +28,24 @@ impl<'a> Recorder<'a> {
             sample_rate: simulation.sample_rate(),
             writers,
             failed: None,
-            hears: None,
-            heard: Vec::new(),
+            captured_channel: None,
+            captured: Vec::new(),
             listener,
         }
     }
 
     /// Keeps that one of [`Simulation::filtered`] whole, in memory.
-    pub fn hearing(mut self, which: Option<usize>) -> Self {
-        self.hears = which;
+    pub fn capturing(mut self, which: Option<usize>) -> Self {
+        self.captured_channel = which;
         self
     }
 
-    /// Ends the files as the run ended, up to their names. Gives them and what was heard. A run that was broken off leaves whole files of the
+    /// Ends the files as the run ended, up to their names. Gives them and the captured signal. A run that was broken off leaves whole files of the
     /// part that was run, which say so, or none: `keep_stopped` decides.
     ///
     /// # Errors
     /// Where a file could not be written.
-    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Heard, IoError> {
+    pub fn close(self, end: &End, keep_stopped: bool) -> Result<Recording, IoError> {
         if let Some(error) = self.failed {
             return Err(error);
         }
@@ -60,25 +60,25 @@ impl<'a> Recorder<'a> {
                 files.push(writer.complete(outcome.clone())?);
             }
         }
-        Ok(Heard {
+        Ok(Recording {
             files,
-            signal: self.heard,
+            signal: self.captured,
         })
     }
 }
 
-/// What is left of a run beside its findings.
-pub struct Heard {
+/// What a run leaves beside its findings.
+pub struct Recording {
     /// Files of signals, to be published.
     pub files: Vec<Complete>,
-    /// The signal that was asked for, from t = 0.
+    /// The captured signal, from t = 0.
     pub signal: Vec<f64>,
 }
 
 impl Observer for Recorder<'_> {
     fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
-        if let Some(x) = self.hears.and_then(|k| filtered.get(k)) {
-            self.heard.push(*x);
+        if let Some(x) = self.captured_channel.and_then(|k| filtered.get(k)) {
+            self.captured.push(*x);
         }
         if self.writers.is_empty() {
             return ControlFlow::Continue(());

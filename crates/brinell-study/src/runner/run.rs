@@ -60,8 +60,8 @@ pub trait Work: Sync {
         Ok(None)
     }
 
-    /// Which of [`Simulation::filtered`] it wants to hear whole, if any.
-    fn hears(&self) -> Option<usize> {
+    /// Which of [`Simulation::filtered`] it captures whole, if any.
+    fn captured_channel(&self) -> Option<usize> {
         None
     }
 
@@ -70,8 +70,8 @@ pub trait Work: Sync {
         None
     }
 
-    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row. `heard` is what was asked
-    /// for, from when the run had settled.
+    /// Keeps of a run that came to its end what its row does not hold, and gives numbers of its own for the row. `captured` is the captured
+    /// signal, from when the run had settled.
     ///
     /// # Errors
     /// Where that cannot be kept.
@@ -79,7 +79,7 @@ pub trait Work: Sync {
         &self,
         _: &Task,
         _: &Finished,
-        _heard: &[f64],
+        _captured: &[f64],
     ) -> Result<Vec<Quantity>, Self::Error> {
         Ok(Vec::new())
     }
@@ -160,7 +160,8 @@ fn one<W: Work>(
     let writers = work.signals(task, &simulation)?;
     let mut hearer = listener.begin(k, task.duration_s);
     let writers = writers.into_iter().collect();
-    let mut recorder = Recorder::new(&simulation, writers, hearer.as_mut()).hearing(work.hears());
+    let mut recorder =
+        Recorder::new(&simulation, writers, hearer.as_mut()).capturing(work.captured_channel());
     let mut beside = work.beside(task, &simulation);
     let finished = match &mut beside {
         Some(other) => {
@@ -169,9 +170,9 @@ fn one<W: Work>(
         }
         None => finish(scenario, simulation, &mut recorder),
     };
-    let heard = recorder.close(&finished.outcome.end, false);
-    let heard = heard.map_err(RunnerError::from)?;
-    for file in heard.files {
+    let recording = recorder.close(&finished.outcome.end, false);
+    let recording = recording.map_err(RunnerError::from)?;
+    for file in recording.files {
         file.publish().map_err(RunnerError::from)?;
     }
     let numbers = match &finished.outcome.end {
@@ -182,7 +183,10 @@ fn one<W: Work>(
         End::Failed(error) => Err(error.to_string()),
         End::Complete => {
             let settled = finished.findings.from * finished.simulation.sample_rate();
-            let settled = heard.signal.get(settled.ceil() as usize..).unwrap_or(&[]);
+            let settled = recording
+                .signal
+                .get(settled.ceil() as usize..)
+                .unwrap_or(&[]);
             let more = work.finished(task, &finished, settled)?;
             let besides = beside.map_or(Ok(Vec::new()), |b| b.finished(&finished))?;
             Ok([finished.quantities(), more, besides].concat())

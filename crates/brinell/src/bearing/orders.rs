@@ -63,12 +63,12 @@ impl KnownBearing {
     /// Its orders, and where they come from.
     ///
     /// # Errors
-    /// The key that an entry of the catalogue lacks.
-    pub fn orders(self) -> Result<(DefectOrders, String), &'static str> {
+    /// In words, the key that an entry of the catalogue lacks.
+    pub fn orders(self) -> Result<(DefectOrders, String), String> {
         Ok(match self {
             Self::Catalogue(entry) => {
                 let words = format!("{}: {}", entry.name, entry.title);
-                (orders_of(&entry.geometry()?), words)
+                (orders_of(&geometry(entry)?), words)
             }
             Self::DataSet(bearing) => (bearing.orders(), bearing.source.to_owned()),
         })
@@ -77,17 +77,15 @@ impl KnownBearing {
     /// Name, value (Hz) and meaning of every frequency in pure rolling at a shaft speed in r/min, that of the shaft first.
     ///
     /// # Errors
-    /// The key that an entry of the catalogue lacks.
+    /// In words, the key that an entry of the catalogue lacks.
     pub fn frequencies(
         self,
         speed_rpm: f64,
-    ) -> Result<[(&'static str, f64, &'static str); 6], &'static str> {
-        let shaft = speed_rpm.abs() / 60.0;
+    ) -> Result<[(&'static str, f64, &'static str); 6], String> {
         Ok(match self {
-            Self::Catalogue(entry) => {
-                Kinematics::pure_rolling(&entry.geometry()?, speed_rpm / 60.0 * TAU).table(shaft)
-            }
+            Self::Catalogue(entry) => geometry(entry)?.frequencies(speed_rpm),
             Self::DataSet(bearing) => {
+                let shaft = speed_rpm.abs() / 60.0;
                 let orders = bearing.orders();
                 let hz = |order: Option<f64>| order.unwrap_or(f64::NAN) * shaft;
                 let DefectOrders {
@@ -100,6 +98,11 @@ impl KnownBearing {
             }
         })
     }
+}
+
+fn geometry(entry: &Entry) -> Result<Geometry, String> {
+    let lacks = |key| format!("{}: the catalogue gives no {key}", entry.name);
+    entry.geometry().map_err(lacks)
 }
 
 #[cfg(test)]
