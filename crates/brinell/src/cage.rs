@@ -74,6 +74,15 @@ impl Pocket {
     }
 }
 
+/// `along` times a vector and `across` times the same turned by +90 degrees.
+#[inline]
+fn turned(of: [f64; 2], along: f64, across: f64) -> [f64; 2] {
+    [
+        along * of[0] - across * of[1],
+        along * of[1] + across * of[0],
+    ]
+}
+
 /// Film and land between the cage and its guiding ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {
@@ -122,29 +131,25 @@ impl Guide {
         cage_speed: f64,
         ring_speed: f64,
     ) -> GuideForce {
-        // Offsets are far from where squares overflow.
-        let e = (offset[0] * offset[0] + offset[1] * offset[1]).sqrt();
-        let n = if e > 0.0 {
-            let per_e = 1.0 / e;
-            [offset[0] * per_e, offset[1] * per_e]
-        } else {
-            [1.0, 0.0]
-        };
         let mut f = GuideForce::default();
-        if e > self.clearance {
-            let rate = velocity[0] * n[0] + velocity[1] * n[1];
-            let elastic = self.land_stiffness * (e - self.clearance);
-            let push = (elastic + self.land_damping * rate).max(0.0);
-            f.land = [-push * n[0], -push * n[1]];
-            f.land_loss = (push - elastic) * rate;
+        // Offsets are far from where squares overflow.
+        let square = offset[0] * offset[0] + offset[1] * offset[1];
+        if square > self.clearance * self.clearance {
+            self.land(&mut f, offset, velocity, square.sqrt());
         }
         let Some(film) = self.film else {
             return f;
         };
         let per_clearance = 1.0 / self.clearance;
-        let eps = (e * per_clearance).min(MAX_ECCENTRICITY);
-        let gap = 1.0 - eps * eps;
-        let per_root = 1.0 / gap.sqrt();
+        let mut ratio = offset.map(|x| x * per_clearance);
+        let mut ratio2 = square * per_clearance * per_clearance;
+        if ratio2 > MAX_ECCENTRICITY * MAX_ECCENTRICITY {
+            let held = MAX_ECCENTRICITY / ratio2.sqrt();
+            ratio = ratio.map(|x| x * held);
+            ratio2 = MAX_ECCENTRICITY * MAX_ECCENTRICITY;
+        }
+        let per_gap = 1.0 / (1.0 - ratio2);
+        let per_root = per_gap.sqrt();
         let shear = self.radius * (cage_speed - ring_speed);
         f.moment = -2.0
             * PI
@@ -154,38 +159,46 @@ impl Guide {
             * self.width
             * per_clearance
             * per_root;
-        let (normal, tangential) = match film {
+        match film {
             GuidanceFilm::QuasiStatic => {
                 let entrainment = self.radius * (cage_speed + ring_speed);
                 let scale = self.viscosity * self.width.powi(3) * per_clearance * per_clearance;
-                (
-                    -scale * entrainment.abs() * eps * eps / (gap * gap),
-                    0.25 * PI * scale * entrainment * eps * per_root / gap,
-                )
+                // Over the eccentricity ratio, which its direction brings.
+                let normal = -scale * entrainment.abs() * ratio2.sqrt() * per_gap * per_gap;
+                let tangential = 0.25 * PI * scale * entrainment * per_root * per_gap;
+                f.film = turned(ratio, normal, tangential);
             }
             GuidanceFilm::Dynamic => {
-                let along = velocity[0] * n[0] + velocity[1] * n[1];
-                let across =
-                    velocity[1] * n[0] - velocity[0] * n[1] - 0.5 * (cage_speed + ring_speed) * e;
-                let speed = (along * along + across * across).sqrt();
-                if speed == 0.0 {
-                    return f;
+                let half_sum = 0.5 * (cage_speed + ring_speed);
+                let squeeze = [
+                    velocity[0] + half_sum * offset[1],
+                    velocity[1] - half_sum * offset[0],
+                ];
+                let speed2 = squeeze[0] * squeeze[0] + squeeze[1] * squeeze[1];
+                if speed2 > 0.0 {
+                    let per_speed = 1.0 / speed2.sqrt();
+                    let toward = squeeze.map(|u| u * per_speed);
+                    let half = HalfFilm::at(
+                        ratio[0] * toward[0] + ratio[1] * toward[1],
+                        ratio[1] * toward[0] - ratio[0] * toward[1],
+                    );
+                    let scale = self.viscosity * self.radius * (self.width * per_clearance).powi(3);
+                    f.damping = scale * (half.along.max(half.across) + half.mixed.abs());
+                    f.film = turned(squeeze, -scale * half.along, -scale * half.mixed);
                 }
-                let per_speed = 1.0 / speed;
-                let half = HalfFilm::about(eps, per_root, [along * per_speed, across * per_speed]);
-                let scale = self.viscosity * self.radius * (self.width * per_clearance).powi(3);
-                f.damping = scale * (half.along.max(half.across) + half.mixed.abs());
-                (
-                    -scale * (along * half.along + across * half.mixed),
-                    -scale * (along * half.mixed + across * half.across),
-                )
             }
-        };
-        f.film = [
-            normal * n[0] - tangential * n[1],
-            normal * n[1] + tangential * n[0],
-        ];
+        }
         f
+    }
+
+    /// The land's push on a cage that is `e` > C_g, m, off its centre.
+    fn land(&self, f: &mut GuideForce, offset: [f64; 2], velocity: [f64; 2], e: f64) {
+        let n = offset.map(|x| x / e);
+        let rate = velocity[0] * n[0] + velocity[1] * n[1];
+        let elastic = self.land_stiffness * (e - self.clearance);
+        let push = (elastic + self.land_damping * rate).max(0.0);
+        f.land = n.map(|x| -push * x);
+        f.land_loss = (push - elastic) * rate;
     }
 
     /// How far the cage has run into the land, m.

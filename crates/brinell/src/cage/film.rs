@@ -1,47 +1,44 @@
 //! The short bearing's half film that pushes, for any motion of the centres, in closed form.
 //!
-//! Frame: the first axis along the eccentricity, the second turned from it by +90 degrees; the film is h = C (1 - eps cos g) thick at the
-//! angle g. Ocvirk's short bearing with Guembel's condition: the pressure is that of the Reynolds equation where it pushes the bodies
-//! apart, and zero on the other half, so that the force is the integral of (v* . n) n / h^3 over v* . n > 0.
+//! Frame: the first axis along the motion, the second turned from it by +90 degrees; over the clearance the film is h = 1 - x cos g - y sin g
+//! thick at the angle g, for the eccentricity (x, y). Ocvirk's short bearing with Guembel's condition: the pressure is that of the Reynolds
+//! equation where it pushes the bodies apart, and zero on the other half, so that the force is the integral of (v . n) n / h^3 over v . n > 0.
 
 use std::f64::consts::PI;
 
-/// Integrals of n n' / (1 - eps cos g)^3, n = (cos g, sin g), over the half circle about a direction: a symmetric, positive definite matrix.
+/// Integrals of n n' / h^3, n = (cos g, sin g), over the half circle about the motion: a symmetric, positive definite matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfFilm {
-    /// Of cos^2 g.
+    /// Of cos^2 g: resistance along the motion.
     pub along: f64,
-    /// Of cos g sin g.
+    /// Of cos g sin g: what it pushes aside.
     pub mixed: f64,
     /// Of sin^2 g.
     pub across: f64,
 }
 
 impl HalfFilm {
-    /// Over the half circle about the unit vector `toward`, for the eccentricity ratio `eps` in [0, 1); `per_w` is 1 / sqrt(1 - eps^2).
+    /// At the eccentricity `x` along the motion and `y` across it, over the clearance; x^2 + y^2 < 1.
     ///
-    /// Sommerfeld's angle s, with 1 - eps cos g = w^2 / (1 + eps cos s) and w^2 = 1 - eps^2, turns the integrands into (eps + cos s)^2 / w^5,
-    /// (eps + cos s) sin s / w^4 and sin^2 s / w^3, which have no denominators; the half circle spans pi + 2 atan(eps c / w) of it. The relative
-    /// error stays below 1e-11 up to eps = 0.95.
+    /// Sommerfeld's angle s about the eccentricity eps, with 1 - eps cos g = w^2 / (1 + eps cos s) and w^2 = 1 - eps^2, turns the integrands
+    /// into (eps + cos s)^2 / w^5, (eps + cos s) sin s / w^4 and sin^2 s / w^3, which have no denominators; the half circle spans
+    /// pi + 2 atan(x / w) of it. In the frame of the motion what is left is rational in x and y, and nothing is divided by eps: the centre
+    /// needs no case of its own. The relative error stays below 1e-11 up to eps = 0.95.
     #[inline]
-    pub fn about(eps: f64, per_w: f64, toward: [f64; 2]) -> Self {
-        let [c, s] = toward;
-        let w2 = 1.0 - eps * eps;
-        let per_w3 = per_w * per_w * per_w;
-        let ec = eps * c;
-        let s2 = s * s;
-        let per_q = 1.0 / (w2 + ec * ec);
-        let per_q2 = per_q * per_q;
-        let half_span = 0.5 * PI + (ec * per_w).atan();
-        let end = ec * w2 * per_w * per_q2;
+    pub fn at(x: f64, y: f64) -> Self {
+        let [x2, y2] = [x * x, y * y];
+        let per_w2 = 1.0 / (1.0 - x2 - y2);
+        let per_w = per_w2.sqrt();
+        let per_w4 = per_w2 * per_w2;
+        // 1 - y^2 is the product of the film's thicknesses where the half circle ends.
+        let per_ends = 1.0 / (1.0 - y2);
+        let half_span = (0.5 * PI + (x * per_w).atan()) * per_w4 * per_w;
+        let aside = x2 * per_ends;
         Self {
-            along: ((1.0 + 2.0 * eps * eps) * half_span
-                + end * (3.0 + (2.0 - 5.0 * eps * eps) * s2))
-                * per_w3
-                * per_w
-                * per_w,
-            mixed: 2.0 * eps * s * s2 * per_q2,
-            across: (half_span + end * (1.0 - (2.0 - eps * eps) * s2)) * per_w3,
+            along: (1.0 + 2.0 * x2 - y2) * half_span + 3.0 * x * per_w4,
+            mixed: 3.0 * x * y * half_span + y * (2.0 + aside) * per_w4,
+            across: (1.0 - x2 + 2.0 * y2) * half_span
+                + x * (1.0 + 4.0 * y2 - aside * (1.0 + y2)) * per_ends * per_w4,
         }
     }
 }
@@ -60,14 +57,14 @@ mod tests {
     ];
     const PANELS: usize = 1000;
 
-    fn by_quadrature(eps: f64, direction: f64) -> HalfFilm {
+    fn by_quadrature(x: f64, y: f64) -> HalfFilm {
         let mut sums = [0.0; 3];
         let panel = PI / PANELS as f64;
         for k in 0..PANELS {
-            for [x, weight] in GAUSS {
-                let g = direction - 0.5 * PI + panel * (k as f64 + 0.5 + 0.5 * x);
+            for [node, weight] in GAUSS {
+                let g = -0.5 * PI + panel * (k as f64 + 0.5 + 0.5 * node);
                 let (sin, cos) = g.sin_cos();
-                let share = 0.5 * panel * weight / (1.0 - eps * cos).powi(3);
+                let share = 0.5 * panel * weight / (1.0 - x * cos - y * sin).powi(3);
                 for (sum, product) in sums.iter_mut().zip([cos * cos, cos * sin, sin * sin]) {
                     *sum += share * product;
                 }
@@ -88,13 +85,9 @@ mod tests {
             0.0, 1e-300, 1e-12, 1e-6, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.75, 0.85, 0.9, 0.93, 0.95,
         ] {
             for k in 0..48 {
-                let direction = f64::from(k) * PI / 24.0;
-                let closed = HalfFilm::about(
-                    eps,
-                    1.0 / (1.0 - eps * eps).sqrt(),
-                    [direction.cos(), direction.sin()],
-                );
-                let sum = by_quadrature(eps, direction);
+                let (sin, cos) = (f64::from(k) * PI / 24.0).sin_cos();
+                let closed = HalfFilm::at(eps * cos, eps * sin);
+                let sum = by_quadrature(eps * cos, eps * sin);
                 // The mixed integral crosses zero: against what it is added to.
                 let errors = [
                     closed.along / sum.along - 1.0,
