@@ -123,7 +123,7 @@ impl Guide {
     ///
     /// `Dynamic` holds for any motion of the centres. Seen in a frame that turns at half the sum of both speeds the film is squeezed alone, so
     /// that its force never does work there. `QuasiStatic`, Eq. (42), is the same force for resting centres, whatever they do.
-    #[inline]
+    #[inline(always)]
     pub fn force(
         &self,
         offset: [f64; 2],
@@ -192,6 +192,7 @@ impl Guide {
     }
 
     /// The land's push on a cage that is `e` > C_g, m, off its centre.
+    #[cold]
     fn land(&self, f: &mut GuideForce, offset: [f64; 2], velocity: [f64; 2], e: f64) {
         let n = offset.map(|x| x / e);
         let rate = velocity[0] * n[0] + velocity[1] * n[1];

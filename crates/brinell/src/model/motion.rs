@@ -41,7 +41,7 @@ impl System for Motion<'_> {
     }
 
     fn longest_step(&self) -> f64 {
-        longest_step(self.model, self.ws.heaviest(), self.ws.film_damping)
+        longest_step(self.model, self.ws.heaviest(), self.ws.film_damping())
     }
 
     fn flow(&self) -> Power {

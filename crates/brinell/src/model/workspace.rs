@@ -1,6 +1,7 @@
 //! What one evaluation of the equations of motion leaves behind: forces of every contact and the flows of energy.
 
 use super::{Model, Power};
+use crate::cage::GuideForce;
 use crate::kernel::Kernel;
 use crate::lanes::{Column, WIDTH};
 
@@ -72,8 +73,8 @@ pub struct Workspace {
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) heaviest: [[f64; WIDTH]; 2],
-    /// Largest damping of a cage's guidance film in any direction, N s/m.
-    pub(crate) film_damping: f64,
+    /// What guides each row's cage.
+    pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
     pub power: Power,
 }
@@ -106,7 +107,7 @@ impl Workspace {
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
             heaviest: [[0.0; WIDTH]; 2],
-            film_damping: 0.0,
+            guidance: vec![GuideForce::default(); model.layout.rows],
             power: Power::default(),
         }
     }
@@ -115,6 +116,11 @@ impl Workspace {
     pub fn heaviest(&self) -> [f64; 2] {
         self.heaviest
             .map(|lanes| lanes.into_iter().fold(0.0, f64::max))
+    }
+
+    /// Largest damping of a cage's guidance film in any direction, N s/m.
+    pub(super) fn film_damping(&self) -> f64 {
+        self.guidance.iter().fold(0.0, |d, f| f.damping.max(d))
     }
 
     /// The kernel that evaluations use.

@@ -1,6 +1,7 @@
 //! Cages and rings, which take up what the rollers leave, and the push of damage's edges.
 
 use super::{Sums, Turn};
+use crate::cage::GuideForce;
 use crate::defect::{Angles, SIDES, Side, edge_gradient};
 use crate::model::{Model, Power, Workspace};
 
@@ -42,42 +43,52 @@ pub(super) fn edge_reaction(
     }
 }
 
-/// Guidance (section 6) and the cages' own motion (Eq. 41). Returns the films' largest damping, N s/m.
+/// What guides each cage (section 6), into the workspace. Long chains of operations that wait for one another and for no roller: a processor
+/// that is given them first works on the rollers meanwhile.
+#[inline(always)]
+pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut Workspace) {
+    let l = &model.layout;
+    let (ring, ring_speed) = match model.land_on() {
+        Side::Inner => (l.inner(), w),
+        Side::Outer => (l.outer(), 0.0),
+    };
+    for (row, f) in ws.guidance.iter_mut().enumerate() {
+        let at = l.cage(row);
+        let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
+        let velocity = [v[at] - v[ring], v[at + 1] - v[ring + 1]];
+        *f = model.guide.force(offset, velocity, v[at + 2], ring_speed);
+    }
+}
+
+/// The cages' own motion (Eq. 41).
 #[inline(always)]
 pub(super) fn cages(
     model: &Model,
-    q: &[f64],
     v: &[f64],
     a: &mut [f64],
-    w: f64,
+    guidance: &[GuideForce],
     sums: &mut Sums,
-) -> f64 {
-    let mut damping = 0.0;
+) {
     let l = &model.layout;
     let m = &model.inertia;
-    for row in 0..l.rows {
+    let (ring, reaction) = match model.land_on() {
+        Side::Inner => (l.inner(), &mut sums.on_inner),
+        Side::Outer => (l.outer(), &mut sums.on_outer),
+    };
+    for (row, f) in guidance.iter().enumerate() {
         let at = l.cage(row);
-        let (ring, ring_speed, reaction) = match model.land_on() {
-            Side::Inner => (l.inner(), w, &mut sums.on_inner),
-            Side::Outer => (l.outer(), 0.0, &mut sums.on_outer),
-        };
-        let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-        let velocity = [v[at] - v[ring], v[at + 1] - v[ring + 1]];
-        let f = model.guide.force(offset, velocity, v[at + 2], ring_speed);
         for k in 0..2 {
             a[at + k] += f.film[k] + f.land[k];
             reaction[k] -= f.film[k] + f.land[k];
-            sums.power.film += f.film[k] * velocity[k];
+            sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
         }
         a[at + 2] += f.moment;
         sums.power.film += f.moment * v[at + 2];
         sums.power.land += f.land_loss;
-        damping = f.damping.max(damping);
         a[at] = a[at] / m.cage + model.gravity[0];
         a[at + 1] = a[at + 1] / m.cage + model.gravity[1];
         a[at + 2] /= m.cage_spin;
     }
-    damping
 }
 
 /// Rings: Eqs. (28) and (35).

@@ -68,6 +68,7 @@ pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     let (q, v) = y.split_at(dof);
     let (speed, angle) = model.rotation.at(t);
     let turn = Turn { speed, angle };
+    bodies::guidance(model, (q, v), speed, ws);
     let mut sums = if PLAIN {
         plain::rollers(model, (q, v), a, turn, ws)
     } else {
@@ -76,7 +77,7 @@ pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     if model.rules.is_conservative() && !model.defects.is_empty() {
         bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
     }
-    ws.film_damping = bodies::cages(model, q, v, a, speed, &mut sums);
+    bodies::cages(model, v, a, &ws.guidance, &mut sums);
     bodies::rings(model, t, q, v, a, &mut sums);
     ws.power = sums.power;
 }
