@@ -5,7 +5,7 @@ use crate::reading::Reading;
 
 /// Which unstated assumption a variant changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Aspect {
+pub(crate) enum Aspect {
     /// Stiffness of the rings' supports.
     Supports,
     /// Damping of the rings' supports.
@@ -44,7 +44,7 @@ pub enum Aspect {
 
 impl Aspect {
     /// As tables say it.
-    pub fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Supports => "supports",
             Self::Damping => "damping",
@@ -69,7 +69,7 @@ impl Aspect {
 
 /// One assumption made otherwise, in every case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Variant {
+pub(crate) struct Variant {
     /// How files call it.
     pub id: &'static str,
     /// Which assumption it is about.
@@ -119,7 +119,7 @@ const CAGE_C: &str = "cage.contact_damping_ns_per_m";
 const SLIP: &str = "friction.slip_velocity_m_per_s";
 
 /// Every variant; the first changes nothing, at the length of the others. Those of filter and record need no run of their own.
-pub const VARIANTS: &[Variant] = &[
+pub(crate) const VARIANTS: &[Variant] = &[
     v(
         "baseline",
         Aspect::Supports,

@@ -1,4 +1,4 @@
-//! One run from its scenario to its result: [`run()`] gives [`Finished`], which [`quantities()`] boils down to named numbers with
+//! One run from its scenario to its result: [`simulate()`] gives [`RunResult`], which [`quantities()`] boils down to named numbers with
 //! intervals. Knows no files.
 
 mod impacts;
@@ -7,4 +7,4 @@ mod run;
 
 pub use impacts::{Impacts, impacts};
 pub use quantities::{LEAST_STIFFNESS, Quantity, Spread, indicator_name, names, quantities};
-pub use run::{Finished, Unfinished, finish, run};
+pub use run::{RunResult, finish, record, simulate, simulate_with};
