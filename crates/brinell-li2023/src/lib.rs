@@ -30,7 +30,10 @@ mod sensitivity;
 mod variants;
 mod verdict;
 
-pub use cases::{BASE, FIGURES, Length};
+pub use cases::BASE;
+#[doc(hidden)]
+pub use cases::{FIGURES, Length};
+#[doc(hidden)]
 pub use curve_files::{CaseObserver, CurveFiles};
 pub use error::Error;
 pub use points::{Point, scenario};

@@ -83,7 +83,7 @@
 //! # Spectra
 //!
 //! [`RunResult`] has an amplitude spectrum and an envelope spectrum of the sensor. Any other band, window or method, and the verdict on a
-//! measured signal, is in [`signal`] and [`signal::analysis`](analysis): the crate `brinell-signal`, which knows no simulator.
+//! measured signal, is in [`signal`] and [`analysis`]: the crate `brinell-signal`, which knows no simulator.
 //!
 //! ```
 //! use brinell::signal::{Band, Segments, envelope_spectrum, peak_near};
@@ -156,6 +156,7 @@ pub use brinell_signal as signal;
 #[doc(no_inline)]
 pub use brinell_signal::{analysis, parallel as many, random};
 pub use error::Error;
+pub use model::ModelError;
 #[doc(no_inline)]
 pub use result::{RunResult, record, simulate, simulate_with};
 #[doc(no_inline)]

@@ -5,6 +5,9 @@ mod impacts;
 mod quantities;
 mod run;
 
+#[doc(hidden)]
 pub use impacts::{Impacts, impacts};
-pub use quantities::{LEAST_STIFFNESS, Quantity, Spread, indicator_name, names, quantities};
+#[doc(hidden)]
+pub use quantities::{LEAST_STIFFNESS, names, quantities};
+pub use quantities::{Quantity, Spread};
 pub use run::{RunResult, finish, record, simulate, simulate_with};
