@@ -192,12 +192,12 @@ mod tests {
             |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
         assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));
         assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(2.0));
-        assert_eq!(read(usual.from_start(285), "outer_ax.rms"), Some(40.0));
+        assert_eq!(read(usual.over_start(285), "outer_ax.rms"), Some(40.0));
         assert_eq!(
-            read(usual.from_start(285).behind_filter(), "outer_ax.rms"),
+            read(usual.over_start(285).behind_filter(), "outer_ax.rms"),
             Some(30.0)
         );
-        assert_eq!(read(usual.from_start(285), "inner_ax.rms"), None);
-        assert_eq!(read(usual.from_start(100), "outer_ax.rms"), None);
+        assert_eq!(read(usual.over_start(285), "inner_ax.rms"), None);
+        assert_eq!(read(usual.over_start(100), "outer_ax.rms"), None);
     }
 }

@@ -39,7 +39,7 @@ impl Reading {
 
     /// The same signal from t = 0 over `ms` milliseconds.
     #[must_use]
-    pub(crate) const fn from_start(self, ms: u32) -> Self {
+    pub(crate) const fn over_start(self, ms: u32) -> Self {
         Self {
             record: Record::FromStart(ms),
             ..self

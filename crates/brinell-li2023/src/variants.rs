@@ -110,7 +110,7 @@ const fn v(
     }
 }
 
-const FROM_START: Reading = Reading::USUAL.from_start(285);
+const FROM_START: Reading = Reading::USUAL.over_start(285);
 
 const RAMP: &str = "operation.load_ramp_s";
 const START: &str = "simulation.start";
@@ -134,14 +134,14 @@ pub(crate) const VARIANTS: &[Variant] = &[
     )
     .read(Reading::USUAL.behind_filter()),
     v("record-100", Aspect::Record, "from t = 0 over 0.1 s", &[])
-        .read(Reading::USUAL.from_start(100)),
+        .read(Reading::USUAL.over_start(100)),
     v("record-200", Aspect::Record, "from t = 0 over 0.2 s", &[])
-        .read(Reading::USUAL.from_start(200)),
+        .read(Reading::USUAL.over_start(200)),
     v("record-285", Aspect::Record, "from t = 0 over 0.285 s", &[]).read(FROM_START),
     v("record-500", Aspect::Record, "from t = 0 over 0.5 s", &[])
-        .read(Reading::USUAL.from_start(500)),
+        .read(Reading::USUAL.over_start(500)),
     v("record-800", Aspect::Record, "from t = 0 over 0.8 s", &[])
-        .read(Reading::USUAL.from_start(800)),
+        .read(Reading::USUAL.over_start(800)),
     v(
         "start-no-ramp",
         Aspect::Start,
@@ -196,7 +196,7 @@ pub(crate) const VARIANTS: &[Variant] = &[
         "from t = 0 over 0.3 s, no load ramp",
         &[(RAMP, "0.0")],
     )
-    .read(Reading::USUAL.from_start(300)),
+    .read(Reading::USUAL.over_start(300)),
     v(
         "outer-soft",
         Aspect::Supports,
