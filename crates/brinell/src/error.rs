@@ -54,6 +54,12 @@ pub enum Error {
 
 impl Error {
     /// Whether the scenario is at fault, and not the run: the command then exits with code 2, and with 1 after a failed run.
+    ///
+    /// ```
+    /// let error = brinell::Scenario::from_toml("[bearing]\npreset = \"NN3007\"").unwrap_err();
+    /// assert!(error.is_bad_input());
+    /// assert!(error.to_string().contains("operation.speed_rpm"));
+    /// ```
     pub fn is_bad_input(&self) -> bool {
         matches!(
             self,
