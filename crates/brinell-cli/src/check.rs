@@ -13,14 +13,13 @@ use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
 use brinell::scenario::{Bearing, Scenario, Speed};
-use brinell::simulate::RunError;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
 pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let loaded = files::scenario(&args.scenario, false)?;
     let s = &loaded.scenario;
-    let model = Model::new(s).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let model = Model::new(s)?;
     let d = Derived::new(&model, s.simulation.accuracy);
     let b = &s.bearing;
     let warnings = plausibility::before(s, &model, &d.statics);

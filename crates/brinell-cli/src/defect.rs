@@ -16,7 +16,6 @@ use brinell::defect::fit::{Fit, FitSettings};
 use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
-use brinell::simulate::RunError;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{DamagePanel, Picture};
 use serde_json::json;
@@ -78,8 +77,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
             "--ring-thickness-mm {x}: expected a thickness above 0, in mm"
         )));
     }
-    let all =
-        damage::all(s, args.ring_thickness_mm).map_err(|e| Failure::Run(RunError::Model(e)))?;
+    let all = damage::all(s, args.ring_thickness_mm)?;
     let previewed = |index: usize| args.defect.is_none_or(|n| n == index + 1);
     for (index, damage) in all.iter().enumerate().filter(|(k, _)| previewed(*k)) {
         let deepest_mm = 1e-3 * damage.measures.deepest_um;

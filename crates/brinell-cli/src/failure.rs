@@ -2,7 +2,7 @@
 
 use crate::say::complain;
 use brinell::document::{Problem, pointed_out};
-use brinell::simulate::RunError;
+use brinell::model::ModelError;
 use brinell_io::IoError;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -28,7 +28,7 @@ pub(crate) enum Failure {
     /// A picture cannot be drawn.
     Picture(brinell_report::Error),
     /// The run failed.
-    Run(RunError),
+    Run(brinell::Error),
     /// Standard output does not take what is said; why.
     Unsaid(String),
 }
@@ -38,7 +38,7 @@ impl Failure {
     pub(crate) fn code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => 2,
-            Self::Run(RunError::Model(_) | RunError::NoBalance(_)) => 2,
+            Self::Run(error) if error.is_bad_input() => 2,
             // The place is wrong, not the writing.
             Self::Write(
                 IoError::NotPermitted { .. }
@@ -91,6 +91,18 @@ impl Failure {
             Self::Run(error) => complain!("error: {of}{error}"),
             Self::Unsaid(_) => complain!("error: {}", self.words()),
         }
+    }
+}
+
+impl From<brinell::Error> for Failure {
+    fn from(error: brinell::Error) -> Self {
+        Self::Run(error)
+    }
+}
+
+impl From<ModelError> for Failure {
+    fn from(error: ModelError) -> Self {
+        Self::Run(error.into())
     }
 }
 

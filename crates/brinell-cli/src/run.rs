@@ -15,7 +15,7 @@ use crate::{files, page};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
 use brinell::plausibility::{self, Beforehand};
-use brinell::result::{Finished, finish};
+use brinell::result::{RunResult, finish};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
@@ -149,7 +149,7 @@ fn execute(
     drop(shown);
     let recording = recording?;
     ready.extend(recording.files);
-    let Finished {
+    let RunResult {
         simulation,
         outcome,
         findings,

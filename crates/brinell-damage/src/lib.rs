@@ -73,7 +73,9 @@ pub use form::{Form, FormReport};
 pub use geometry::{DepthGrid, Polygons};
 pub use kind::FileKind;
 pub use loaded::resolve_loaded;
-pub use resolve::{MOST_TEXT, Unresolved, read_shape, resolve};
+#[doc(hidden)]
+pub use resolve::MOST_TEXT;
+pub use resolve::{Unresolved, read_shape, resolve};
 
 #[cfg(feature = "image")]
 pub use image::{ImageOptions, Smooth, read_image};

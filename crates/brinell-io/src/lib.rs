@@ -49,27 +49,36 @@ mod table;
 mod text;
 mod write;
 
+#[doc(hidden)]
 pub use atomic::{Complete, atomic_copy, atomic_prepare, atomic_write, lock};
+#[doc(hidden)]
 pub use csv::{CsvWriter, read_csv, read_csv_from};
 pub use error::IoError;
+#[doc(hidden)]
 pub use journal::Journal;
+#[doc(hidden)]
+pub use read::MAX_VALUES;
 #[cfg(feature = "parquet")]
+#[doc(hidden)]
 pub use read::parquet::read_parquet;
 pub use read::{
-    Channel, Decimal, Delimiter, FileKind, MAX_VALUES, Rate, RateSource, SignalFile, TextFormat,
-    open, open_as,
+    Channel, Decimal, Delimiter, FileKind, Rate, RateSource, SignalFile, TextFormat, open, open_as,
 };
 #[cfg(feature = "parquet")]
+#[doc(hidden)]
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
-pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals, keys};
+#[doc(hidden)]
+pub use signals::keys;
+pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals};
+#[doc(hidden)]
 pub use table::{Cells, Table};
+#[doc(hidden)]
 pub use text::{LARGEST_TEXT, read_text};
+#[doc(hidden)]
 pub use write::mat::MatWriter;
-#[cfg(feature = "npz")]
-pub use write::npz::NpzWriter;
 #[cfg(feature = "parquet-write")]
+#[doc(hidden)]
 pub use write::parquet::ParquetWriter;
 #[cfg(feature = "parquet")]
+#[doc(hidden)]
 pub use write::records::{RecordFacts, RecordWriter, Written, record_facts};
-pub use write::uff::UffWriter;
-pub use write::wav::WavWriter;

@@ -5,7 +5,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::{Complete, CsvWriter, IoError, MatWriter, UffWriter, WavWriter};
+use crate::write::uff::UffWriter;
+use crate::write::wav::WavWriter;
+use crate::{Complete, CsvWriter, IoError, MatWriter};
 
 /// Keys of the metadata that a Parquet file carries.
 pub mod keys {
@@ -198,7 +200,9 @@ impl Format {
             Self::Parquet => Box::new(crate::ParquetWriter::create(&path, columns, metadata)?),
             Self::Mat => Box::new(MatWriter::create(&path, columns, metadata, false)?),
             #[cfg(feature = "npz")]
-            Self::Npz => Box::new(crate::NpzWriter::create(&path, columns, metadata)?),
+            Self::Npz => Box::new(crate::write::npz::NpzWriter::create(
+                &path, columns, metadata,
+            )?),
             Self::Uff58 => Box::new(UffWriter::create(&path, columns, metadata)?),
             Self::Wav => Box::new(WavWriter::create(&path, columns, metadata)?),
             #[cfg(not(feature = "parquet-write"))]

@@ -84,13 +84,13 @@ impl Length {
 
 const SHAPE: &str = "defects.0.shape";
 /// Every scenario of section 4, once.
-pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| file().case);
+pub(crate) static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| file().case);
 
 /// The same bearing looked at from t = 0 on, start-up included.
-pub static STARTS: LazyLock<Vec<Case>> = LazyLock::new(|| file().start);
+pub(crate) static STARTS: LazyLock<Vec<Case>> = LazyLock::new(|| file().start);
 
 /// Section 4, in its order.
-pub static EXPERIMENTS: LazyLock<Vec<Experiment>> = LazyLock::new(|| file().experiment);
+pub(crate) static EXPERIMENTS: LazyLock<Vec<Experiment>> = LazyLock::new(|| file().experiment);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, bound(deserialize = "'de: 'static"))]
@@ -105,12 +105,12 @@ fn file() -> File {
 }
 
 /// A case by its id.
-pub fn case(id: &str) -> Option<&'static Case> {
+pub(crate) fn case(id: &str) -> Option<&'static Case> {
     CASES.iter().chain(STARTS.iter()).find(|case| case.id == id)
 }
 
 /// How long a case runs where the others run `length`: those about the start need no more than that.
-pub fn length_of(case: &Case, length: Length) -> Length {
+pub(crate) fn length_of(case: &Case, length: Length) -> Length {
     if STARTS.iter().any(|start| start.id == case.id) {
         Length::START
     } else {
@@ -121,7 +121,7 @@ pub fn length_of(case: &Case, length: Length) -> Length {
 /// What a figure or several of them show.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Experiment {
+pub(crate) struct Experiment {
     /// The figures.
     pub figures: Vec<u32>,
     /// Heading.

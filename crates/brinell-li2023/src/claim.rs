@@ -159,7 +159,7 @@ static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
 });
 
 /// Every claim, in the paper's order.
-pub fn claims() -> impl Iterator<Item = &'static Claim> {
+pub(crate) fn claims() -> impl Iterator<Item = &'static Claim> {
     CLAIMS.iter()
 }
 

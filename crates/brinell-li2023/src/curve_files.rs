@@ -3,7 +3,7 @@
 use crate::curves::Curves;
 use crate::{Error, FromStart, Request, entry_drop};
 use brinell::channel::Frame;
-use brinell::result::{Finished, Quantity, Spread};
+use brinell::result::{Quantity, RunResult, Spread};
 use brinell::simulate::{Observer, Simulation};
 use brinell_io::atomic_write;
 use std::collections::HashSet;
@@ -69,7 +69,7 @@ impl CaseObserver {
     ///
     /// # Errors
     /// Where the curves cannot be written.
-    pub fn finish(&self, finished: &Finished) -> Result<Vec<Quantity>, Error> {
+    pub fn finish(&self, finished: &RunResult) -> Result<Vec<Quantity>, Error> {
         if let Some(path) = &self.curves {
             make_folder(path.parent().unwrap_or(Path::new("")))?;
             let curves = Curves::of(finished, self.from_start.pocket_forces());

@@ -1,6 +1,6 @@
 //! What pictures need of a run: the end of its waveform, spectra, a pass over the damage, the mean entry and exit.
 
-use brinell::result::{Finished, impacts};
+use brinell::result::{RunResult, impacts};
 use serde_json::{Value, json};
 
 /// Length of the waveform kept, s: the run's last.
@@ -50,7 +50,7 @@ pub(crate) struct Curves {
 
 impl Curves {
     /// Of a run, and the mean forces between cage and rollers around the bearing.
-    pub(crate) fn of(run: &Finished, around_pocket: Vec<f64>) -> Self {
+    pub(crate) fn of(run: &RunResult, around_pocket: Vec<f64>) -> Self {
         let (findings, rate) = (&run.findings, run.simulation.sample_rate());
         let (first, values) = findings.waveform.latest();
         let short = values.len() as f64 <= SHORT_S * rate;

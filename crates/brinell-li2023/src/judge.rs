@@ -18,7 +18,7 @@ pub struct Found {
 }
 
 /// Verdicts of statements, each with what decided it.
-pub type Decided = Vec<(Verdict, Vec<Found>)>;
+pub(crate) type Decided = Vec<(Verdict, Vec<Found>)>;
 
 /// A claim held against numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ impl Judged {
 }
 
 /// Decides a claim.
-pub fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
+pub(crate) fn judge(claim: &Claim, numbers: &Numbers) -> Judged {
     let all = |statements: &[Statement]| {
         let decided = statements.iter().map(|s| decide(&s.check, numbers));
         let decided: Decided = decided.collect();

@@ -16,7 +16,7 @@ const UNKNOWN: Interval = Interval {
 
 /// One number with what is known of its scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Number {
+pub(crate) struct Number {
     /// The value.
     pub value: f64,
     /// Its 95 % interval.
@@ -25,7 +25,8 @@ pub struct Number {
 
 impl Number {
     /// A number that does not scatter.
-    pub fn exact(value: f64) -> Self {
+    #[cfg(test)]
+    pub(crate) fn exact(value: f64) -> Self {
         Self {
             value,
             interval: None,
@@ -35,18 +36,18 @@ impl Number {
 
 /// Numbers by case and name: `("irregular", "outer_ax.rms")`.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Numbers {
+pub(crate) struct Numbers {
     all: BTreeMap<(String, String), Number>,
 }
 
 impl Numbers {
     /// Adds one.
-    pub fn insert(&mut self, case: &str, name: &str, number: Number) {
+    pub(crate) fn insert(&mut self, case: &str, name: &str, number: Number) {
         self.all.insert((case.to_owned(), name.to_owned()), number);
     }
 
     /// Adds everything of a finished run.
-    pub fn add(&mut self, case: &str, row: &Row) {
+    pub(crate) fn add(&mut self, case: &str, row: &Row) {
         for quantity in row.result.as_deref().unwrap_or(&[]) {
             let Some(Estimate { value, interval }) = quantity.estimate() else {
                 continue;
@@ -60,13 +61,13 @@ impl Numbers {
     }
 
     /// A number, where the case has it.
-    pub fn get(&self, case: &str, name: &str) -> Option<Number> {
+    pub(crate) fn get(&self, case: &str, name: &str) -> Option<Number> {
         self.all.get(&(case.to_owned(), name.to_owned())).copied()
     }
 
     /// The same, RMS and peak to peak being those of a reading. What a run has no such record of is missing.
     #[must_use]
-    pub fn read(&self, reading: Reading) -> Self {
+    pub(crate) fn read(&self, reading: Reading) -> Self {
         let mut all = self.all.clone();
         if let Record::FromStart(ms) = reading.record {
             let window = format!(".first_{ms}ms");
@@ -97,7 +98,7 @@ impl Numbers {
 
 /// Share of the drop in contact stiffness that a roller meets within the first tenth of its way over the damage, `length` (rad) long around
 /// the angle 0; `None` where the pass does not tell.
-pub fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
+pub(crate) fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
     let healthy = points.iter().map(|p| p.stiffness).max_by(f64::total_cmp)?;
     let inside = |p: &&PassPoint| p.angle.abs() <= 0.5 * length;
     let lowest = points.iter().filter(inside).map(|p| p.stiffness);
@@ -191,12 +192,12 @@ mod tests {
             |reading: Reading, name: &str| numbers.read(reading).get("a", name).map(|n| n.value);
         assert_eq!(read(usual, "outer_ax.rms"), Some(3.3));
         assert_eq!(read(usual.behind_filter(), "outer_ax.rms"), Some(2.0));
-        assert_eq!(read(usual.from_start(285), "outer_ax.rms"), Some(40.0));
+        assert_eq!(read(usual.over_start(285), "outer_ax.rms"), Some(40.0));
         assert_eq!(
-            read(usual.from_start(285).behind_filter(), "outer_ax.rms"),
+            read(usual.over_start(285).behind_filter(), "outer_ax.rms"),
             Some(30.0)
         );
-        assert_eq!(read(usual.from_start(285), "inner_ax.rms"), None);
-        assert_eq!(read(usual.from_start(100), "outer_ax.rms"), None);
+        assert_eq!(read(usual.over_start(285), "inner_ax.rms"), None);
+        assert_eq!(read(usual.over_start(100), "outer_ax.rms"), None);
     }
 }

@@ -5,7 +5,7 @@ use crate::reading::Record;
 
 /// A key that a search draws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
+pub(crate) struct Range {
     /// The keys that get the value.
     pub keys: &'static [&'static str],
     /// Smallest and largest value, drawn evenly in the logarithm, or the values to choose from.
@@ -16,7 +16,7 @@ pub struct Range {
 
 /// What a search may choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Values {
+pub(crate) enum Values {
     /// Between two positive numbers, evenly in the logarithm.
     Between(f64, f64),
     /// One of these: for each key a value.
@@ -24,7 +24,7 @@ pub enum Values {
 }
 
 /// What a search varies together; beside these keys it chooses one of [`READ_AS`], one of [`RECORDS`], and whether a filter stands before.
-pub const RANGES: &[Range] = &[
+pub(crate) const RANGES: &[Range] = &[
     Range {
         keys: &["support.outer_stiffness_n_per_m"],
         values: Values::Between(1e5, 1e8),
@@ -120,7 +120,7 @@ pub const RANGES: &[Range] = &[
 ];
 
 /// Readings of Eq. (27) that a search chooses from.
-pub const READ_AS: &[Outline] = &[
+pub(crate) const READ_AS: &[Outline] = &[
     Outline::Joined,
     Outline::ThirdArc,
     Outline::LastArc,
@@ -131,7 +131,7 @@ pub const READ_AS: &[Outline] = &[
 ];
 
 /// Stretches of the record that a search chooses from.
-pub const RECORDS: &[Record] = &[
+pub(crate) const RECORDS: &[Record] = &[
     Record::Steady,
     Record::FromStart(100),
     Record::FromStart(200),

@@ -2,7 +2,7 @@
 
 /// The stretch of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Record {
+pub(crate) enum Record {
     /// After the load ramp and the first turn: the program's own statistics, with intervals.
     Steady,
     /// From t = 0 on, over so many ms. There is one start-up in a record, so its statistics have no interval.
@@ -10,11 +10,11 @@ pub enum Record {
 }
 
 /// Lengths of the records from t = 0 whose statistics are kept, ms.
-pub const WINDOWS_MS: &[u32] = &[100, 200, 285, 300, 500, 800];
+pub(crate) const WINDOWS_MS: &[u32] = &[100, 200, 285, 300, 500, 800];
 
 /// How RMS and peak to peak are read off a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Reading {
+pub(crate) struct Reading {
     /// Whether the outer ring's accelerations are those behind the anti-alias filter.
     pub filtered: bool,
     /// The stretch.
@@ -23,14 +23,14 @@ pub struct Reading {
 
 impl Reading {
     /// The program's own: instantaneous accelerations, the steady part.
-    pub const USUAL: Self = Self {
+    pub(crate) const USUAL: Self = Self {
         filtered: false,
         record: Record::Steady,
     };
 
     /// The same record behind the filter.
     #[must_use]
-    pub const fn behind_filter(self) -> Self {
+    pub(crate) const fn behind_filter(self) -> Self {
         Self {
             filtered: true,
             ..self
@@ -39,7 +39,7 @@ impl Reading {
 
     /// The same signal from t = 0 over `ms` milliseconds.
     #[must_use]
-    pub const fn from_start(self, ms: u32) -> Self {
+    pub(crate) const fn over_start(self, ms: u32) -> Self {
         Self {
             record: Record::FromStart(ms),
             ..self
@@ -49,7 +49,7 @@ impl Reading {
 
 impl Record {
     /// As tables say it.
-    pub fn words(self) -> String {
+    pub(crate) fn words(self) -> String {
         match self {
             Self::Steady => "steady part".into(),
             Self::FromStart(ms) => format!("0 to {} s", f64::from(ms) / 1e3),

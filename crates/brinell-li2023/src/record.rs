@@ -29,7 +29,7 @@ struct Sums {
 
 /// Observes a run of a case.
 #[derive(Debug, Clone)]
-pub struct FromStart {
+pub(crate) struct FromStart {
     names: Vec<String>,
     sums: Vec<Sums>,
     /// Index of the first sample that no longer belongs to each of [`WINDOWS_MS`].
@@ -43,7 +43,7 @@ pub struct FromStart {
 
 impl FromStart {
     /// For one run.
-    pub fn new(simulation: &Simulation) -> Self {
+    pub(crate) fn new(simulation: &Simulation) -> Self {
         let rate = simulation.sample_rate();
         let names: Vec<String> = simulation
             .channels()
@@ -71,14 +71,14 @@ impl FromStart {
 
     /// Mean force between roller and cage in each bin around the bearing, N: bin k spans [k, k + 1) 2 pi / [`BINS`] from +X. NaN where no
     /// roller came by.
-    pub fn pocket_forces(&self) -> Vec<f64> {
+    pub(crate) fn pocket_forces(&self) -> Vec<f64> {
         let mean = |p: &Pocket| p.sum / f64::from(p.count);
         self.pockets.iter().map(mean).collect()
     }
 
     /// The numbers: RMS and peak to peak of each channel over each of [`WINDOWS_MS`], how much a roller's spin changes around the bearing,
     /// and the mean force between cage and rollers at the ends of the load zone and elsewhere.
-    pub fn quantities(&self, findings: &Findings) -> Vec<Quantity> {
+    pub(crate) fn quantities(&self, findings: &Findings) -> Vec<Quantity> {
         let mut all = Vec::new();
         for (k, channel) in self.names.iter().enumerate() {
             for (window, ms) in WINDOWS_MS.iter().enumerate() {

@@ -9,16 +9,16 @@ use crate::{Verdict, claims, judge};
 use brinell_study::calibrate::{Answer, Target};
 
 /// Cases that every draw runs: the paper's three RMS values, at a seventh of the cost of all cases.
-pub const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];
+pub(crate) const SEARCHED: &[&str] = &["irregular", "simplified", "reference-simplified"];
 
 /// The paper's RMS of each of [`SEARCHED`], m/s^2 (section 4.5).
-pub const RMS: [f64; 3] = [30.414, 32.06, 29.01];
+pub(crate) const RMS: [f64; 3] = [30.414, 32.06, 29.01];
 /// The paper's simulated defect frequency of the irregular shape, Hz (section 4.1.3).
 const FREQUENCY: f64 = 249.40;
 
 /// One set of assumptions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Draw {
+pub(crate) struct Draw {
     /// Its number, from 1.
     pub number: usize,
     /// Where it lies in the unit cube.
@@ -33,7 +33,7 @@ pub struct Draw {
 
 /// Axes of the cube that is searched: one for each of [`RANGES`], in their order, one for the reading of Eq. (27), one for the filter, and one
 /// for the record unless that is `fixed`.
-pub fn axes(fixed: Option<Record>) -> usize {
+pub(crate) fn axes(fixed: Option<Record>) -> usize {
     RANGES.len() + 2 + usize::from(fixed.is_none())
 }
 
@@ -42,7 +42,7 @@ pub fn axes(fixed: Option<Record>) -> usize {
 ///
 /// # Panics
 /// Where the place has not as many coordinates as there are [`axes`].
-pub fn draw(number: usize, place: &[f64], fixed: Option<Record>) -> Draw {
+pub(crate) fn draw(number: usize, place: &[f64], fixed: Option<Record>) -> Draw {
     assert_eq!(place.len(), axes(fixed));
     let (places, others) = place.split_at(RANGES.len());
     let mut settings = Vec::new();
@@ -80,7 +80,7 @@ fn chosen<T: Copy>(choices: &[T], place: f64) -> T {
 
 /// What the search is to meet: the logarithms of the paper's RMS values, to 5 %, its frequency, to the 0.4 % that model and paper differ by
 /// at most in any case, and every statement about these cases, a tenth of them being worth as much as 5 % of an RMS value.
-pub fn targets() -> Vec<Target> {
+pub(crate) fn targets() -> Vec<Target> {
     let rms = SEARCHED.iter().zip(RMS).map(|(case, rms)| Target {
         name: format!("ln outer_ax.rms, {case}"),
         value: rms.ln(),
@@ -100,7 +100,7 @@ pub fn targets() -> Vec<Target> {
 }
 
 /// What a set's runs have for the [`targets`]; `None` where one of them failed.
-pub fn answers(numbers: &Numbers) -> Option<Vec<Answer>> {
+pub(crate) fn answers(numbers: &Numbers) -> Option<Vec<Answer>> {
     let distance = distance(numbers)?;
     let answer = |value: Option<f64>| Answer {
         value,
@@ -113,7 +113,7 @@ pub fn answers(numbers: &Numbers) -> Option<Vec<Answer>> {
 }
 
 /// Share of the statements about the searched cases alone that hold.
-pub fn held(numbers: &Numbers) -> f64 {
+pub(crate) fn held(numbers: &Numbers) -> f64 {
     let mut verdicts: Vec<Verdict> = Vec::new();
     for claim in claims() {
         let judged = judge(claim, numbers).statements;
@@ -133,7 +133,7 @@ pub fn held(numbers: &Numbers) -> f64 {
 
 /// How far a set of assumptions stays from the paper's figures.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Distance {
+pub(crate) struct Distance {
     /// Root mean square of ln(ours / paper's) over the three RMS values; 0.05 is 5 %.
     pub rms: f64,
     /// Ours, m/s^2, in the order of [`SEARCHED`].
@@ -143,7 +143,7 @@ pub struct Distance {
 }
 
 /// Of the outer ring's x accelerations; `None` where a run has none.
-pub fn distance(numbers: &Numbers) -> Option<Distance> {
+pub(crate) fn distance(numbers: &Numbers) -> Option<Distance> {
     let mut values = [0.0; 3];
     for (value, case) in values.iter_mut().zip(SEARCHED) {
         *value = numbers.get(case, "outer_ax.rms")?.value;
@@ -166,7 +166,8 @@ pub fn distance(numbers: &Numbers) -> Option<Distance> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BASE, CASES, Number, VARIANTS, WINDOWS_MS};
+    use crate::reading::WINDOWS_MS;
+    use crate::{BASE, CASES, Number, VARIANTS};
     use std::collections::BTreeSet;
 
     #[test]

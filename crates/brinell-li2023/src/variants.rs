@@ -5,7 +5,7 @@ use crate::reading::Reading;
 
 /// Which unstated assumption a variant changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Aspect {
+pub(crate) enum Aspect {
     /// Stiffness of the rings' supports.
     Supports,
     /// Damping of the rings' supports.
@@ -44,7 +44,7 @@ pub enum Aspect {
 
 impl Aspect {
     /// As tables say it.
-    pub fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Supports => "supports",
             Self::Damping => "damping",
@@ -69,7 +69,7 @@ impl Aspect {
 
 /// One assumption made otherwise, in every case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Variant {
+pub(crate) struct Variant {
     /// How files call it.
     pub id: &'static str,
     /// Which assumption it is about.
@@ -110,7 +110,7 @@ const fn v(
     }
 }
 
-const FROM_START: Reading = Reading::USUAL.from_start(285);
+const FROM_START: Reading = Reading::USUAL.over_start(285);
 
 const RAMP: &str = "operation.load_ramp_s";
 const START: &str = "simulation.start";
@@ -119,7 +119,7 @@ const CAGE_C: &str = "cage.contact_damping_ns_per_m";
 const SLIP: &str = "friction.slip_velocity_m_per_s";
 
 /// Every variant; the first changes nothing, at the length of the others. Those of filter and record need no run of their own.
-pub const VARIANTS: &[Variant] = &[
+pub(crate) const VARIANTS: &[Variant] = &[
     v(
         "baseline",
         Aspect::Supports,
@@ -134,14 +134,14 @@ pub const VARIANTS: &[Variant] = &[
     )
     .read(Reading::USUAL.behind_filter()),
     v("record-100", Aspect::Record, "from t = 0 over 0.1 s", &[])
-        .read(Reading::USUAL.from_start(100)),
+        .read(Reading::USUAL.over_start(100)),
     v("record-200", Aspect::Record, "from t = 0 over 0.2 s", &[])
-        .read(Reading::USUAL.from_start(200)),
+        .read(Reading::USUAL.over_start(200)),
     v("record-285", Aspect::Record, "from t = 0 over 0.285 s", &[]).read(FROM_START),
     v("record-500", Aspect::Record, "from t = 0 over 0.5 s", &[])
-        .read(Reading::USUAL.from_start(500)),
+        .read(Reading::USUAL.over_start(500)),
     v("record-800", Aspect::Record, "from t = 0 over 0.8 s", &[])
-        .read(Reading::USUAL.from_start(800)),
+        .read(Reading::USUAL.over_start(800)),
     v(
         "start-no-ramp",
         Aspect::Start,
@@ -196,7 +196,7 @@ pub const VARIANTS: &[Variant] = &[
         "from t = 0 over 0.3 s, no load ramp",
         &[(RAMP, "0.0")],
     )
-    .read(Reading::USUAL.from_start(300)),
+    .read(Reading::USUAL.over_start(300)),
     v(
         "outer-soft",
         Aspect::Supports,

@@ -66,7 +66,7 @@ impl Verdict {
 }
 
 /// The ratio of two numbers; `None` where one is not positive.
-pub fn over(of: Number, to: Number) -> Option<Ratio> {
+pub(crate) fn over(of: Number, to: Number) -> Option<Ratio> {
     let scaled = |number: Number, by: f64| {
         let (low, high) = number.interval.map(|i| (i.low * by, i.high * by))?;
         Some((low.min(high), low.max(high)))
@@ -96,7 +96,7 @@ pub fn over(of: Number, to: Number) -> Option<Ratio> {
 }
 
 /// Whether the ratio is above 1.
-pub fn greater(ratio: Option<Ratio>) -> Verdict {
+pub(crate) fn greater(ratio: Option<Ratio>) -> Verdict {
     let Some(ratio) = ratio else {
         return Verdict::Missing;
     };
@@ -107,7 +107,7 @@ pub fn greater(ratio: Option<Ratio>) -> Verdict {
 }
 
 /// Whether what lies in `interval` lies between two bounds.
-pub fn between(interval: Option<(f64, f64)>, low: f64, high: f64) -> Verdict {
+pub(crate) fn between(interval: Option<(f64, f64)>, low: f64, high: f64) -> Verdict {
     match interval {
         Some((a, b)) => Verdict::of(a >= low && b <= high, b < low || a > high),
         None => Verdict::Undecided,
@@ -141,7 +141,7 @@ impl Trend {
 }
 
 /// Whether steps follow a trend; each is the ratio of a value to the one before.
-pub fn follows(trend: Trend, steps: &[Option<Ratio>]) -> Verdict {
+pub(crate) fn follows(trend: Trend, steps: &[Option<Ratio>]) -> Verdict {
     let mut ways: Vec<Option<bool>> = Vec::new();
     for step in steps {
         let Some(step) = step else {

@@ -1,9 +1,9 @@
 //! Exceptions, with the words of the command.
 
 use crate::convert::json_to_python;
+use brinell::Error as Failure;
 use brinell::document::{Problem, Severity, pointed_out};
-use brinell::simulate::RunError as Failure;
-use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::json;
 use std::fmt::Display;
@@ -74,7 +74,7 @@ pub(crate) fn scenario_error(
     }
 }
 
-/// A scenario that makes no model is a bad one; anything else is a run that failed.
+/// A scenario that makes no model is a bad one; anything else is a run that failed, or too large a one.
 pub(crate) fn run_error(py: Python, failure: &Failure) -> PyErr {
     let none =
         |error: PyErr, name: &str, value: Py<PyAny>| match error.value(py).setattr(name, value) {
@@ -82,7 +82,8 @@ pub(crate) fn run_error(py: Python, failure: &Failure) -> PyErr {
             Err(other) => other,
         };
     match failure {
-        Failure::Model(_) | Failure::NoBalance(_) => {
+        Failure::TooLarge { .. } => PyMemoryError::new_err(failure.to_string()),
+        _ if failure.is_bad_input() => {
             let empty = pyo3::types::PyList::empty(py).into_any().unbind();
             none(
                 ScenarioError::new_err(failure.to_string()),

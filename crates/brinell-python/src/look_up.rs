@@ -8,7 +8,6 @@ use brinell::bearing::kinematics::Geometry;
 use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::scenario::Speed;
-use brinell::simulate::RunError;
 use brinell::statics::static_load_zone;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -17,7 +16,7 @@ use std::f64::consts::TAU;
 
 fn model(py: Python<'_>, scenario: &Scenario) -> PyResult<Model> {
     let model = py.detach(|| Model::new(&scenario.loaded.scenario));
-    model.map_err(|error| run_error(py, &RunError::Model(error)))
+    model.map_err(|error| run_error(py, &error.into()))
 }
 
 /// Load distribution of the static balance as the cage turns through a pitch.
@@ -25,7 +24,7 @@ fn model(py: Python<'_>, scenario: &Scenario) -> PyResult<Model> {
 pub(crate) fn statics<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
     let model = model(py, scenario)?;
     let zone = py.detach(|| static_load_zone(&model));
-    let zone = zone.map_err(|error| run_error(py, &RunError::NoBalance(error)))?;
+    let zone = zone.map_err(|error| run_error(py, &error.into()))?;
     let dict = PyDict::new(py);
     let rows: Vec<i64> = zone.points.iter().map(|p| p.0 as i64 + 1).collect();
     dict.set_item("row", numpy::IntoPyArray::into_pyarray(rows, py))?;

@@ -3,12 +3,12 @@
 use crate::convert::{array, json_to_python};
 use crate::errors::{bad_value, run_error};
 use crate::scenario::Scenario;
+use brinell::Error;
 use brinell::many::go_on;
 use brinell::plausibility::Beforehand;
-use brinell::result::{self, Finished};
-use brinell::simulate::{End, Observer, Simulation, SolverWork};
+use brinell::result::{self, RunResult};
+use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
-use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::json;
@@ -21,23 +21,15 @@ use std::time::{Duration, Instant};
 /// How long Python may have to wait for an answer to Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Channels by column, time first.
-type Columns = Vec<Vec<f64>>;
-
 /// Keeps every row; asks now and then whether to go on.
 struct Recorder<'a, F> {
-    columns: Columns,
-    rate: f64,
+    signals: Signals,
     go_on: &'a mut F,
 }
 
 impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
-    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
-        self.columns[0].push(index as f64 / self.rate);
-        for (column, value) in self.columns[1..].iter_mut().zip(row) {
-            column.push(*value);
-        }
-        ControlFlow::Continue(())
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.signals.row(index, row, filtered)
     }
 
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
@@ -47,10 +39,9 @@ impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Recorder<'_, F> {
 
 /// What a run came to.
 enum Ran {
-    Over(Box<Finished>, Columns),
-    /// There is no model, or nothing to start from.
-    Bad(brinell::simulate::RunError),
-    TooLarge(u128),
+    Over(Box<RunResult>, Signals),
+    /// There is no model, nothing to start from, or no room for the channels.
+    Bad(Error),
     /// Not begun.
     LeftOut,
 }
@@ -58,36 +49,26 @@ enum Ran {
 /// One run, on the thread that calls.
 fn run(scenario: &Scenario, mut go_on: impl FnMut(f64) -> ControlFlow<()>) -> Ran {
     let scenario = &scenario.loaded.scenario;
-    let simulation = match Simulation::new(scenario) {
-        Ok(simulation) => simulation,
+    let begun = Simulation::new(scenario).and_then(|s| Ok((Signals::new(&s)?, s)));
+    let (signals, simulation) = match begun {
+        Ok(begun) => begun,
         Err(error) => return Ran::Bad(error),
     };
-    let mut columns: Columns = vec![Vec::new(); simulation.channels().len() + 1];
-    let samples = simulation.samples();
-    for column in &mut columns {
-        let room = usize::try_from(samples).ok();
-        if room.is_none_or(|n| column.try_reserve_exact(n).is_err()) {
-            return Ran::TooLarge(
-                8 * u128::from(samples) * (simulation.channels().len() as u128 + 1),
-            );
-        }
-    }
     let mut recorder = Recorder {
-        columns,
-        rate: simulation.sample_rate(),
+        signals,
         go_on: &mut go_on,
     };
     let finished = result::finish(scenario.clone(), simulation, &mut recorder);
-    Ran::Over(Box::new(finished), recorder.columns)
+    Ran::Over(Box::new(finished), recorder.signals)
 }
 
 impl Ran {
     /// The result; where the run failed or never began, the exception.
     fn result(self, py: Python<'_>, scenario: &Py<Scenario>) -> PyResult<Run> {
         match self {
-            Self::Over(finished, columns) => {
+            Self::Over(finished, signals) => {
                 let end = finished.outcome.end.clone();
-                let run = Run::new(py, scenario.clone_ref(py), *finished, columns)?;
+                let run = Run::new(py, scenario.clone_ref(py), *finished, signals)?;
                 let End::Failed(error) = end else {
                     return Ok(run);
                 };
@@ -96,10 +77,6 @@ impl Ran {
                 Err(error)
             }
             Self::Bad(error) => Err(run_error(py, &error)),
-            Self::TooLarge(bytes) => Err(PyMemoryError::new_err(format!(
-                "the recorded channels take {:.1} GB; record fewer (simulation.record), or run shorter",
-                bytes as f64 * 1e-9
-            ))),
             Self::LeftOut => Err(bad_value("stopped before it began")),
         }
     }
@@ -233,7 +210,7 @@ pub(crate) fn simulate_many(
 #[pyclass(frozen, module = "brinell._brinell", name = "Run")]
 pub(crate) struct Run {
     scenario: Py<Scenario>,
-    finished: Finished,
+    finished: RunResult,
     signals: Py<PyDict>,
 }
 
@@ -241,17 +218,15 @@ impl Run {
     fn new(
         py: Python<'_>,
         scenario: Py<Scenario>,
-        finished: Finished,
-        columns: Columns,
+        finished: RunResult,
+        signals: Signals,
     ) -> PyResult<Self> {
-        let signals = PyDict::new(py);
-        let channels = finished.simulation.channels().iter();
-        let names = std::iter::once("t").chain(channels.map(|c| c.name.as_str()));
-        for (name, column) in names.zip(columns) {
-            signals.set_item(name, array(py, column))?;
+        let dict = PyDict::new(py);
+        for (name, column) in signals {
+            dict.set_item(name, array(py, column))?;
         }
         Ok(Self {
-            signals: signals.unbind(),
+            signals: dict.unbind(),
             scenario,
             finished,
         })

@@ -5,7 +5,9 @@ use crate::errors::bad_value;
 use crate::run::over_threads;
 use crate::scenario::Scenario;
 use brinell::document::{on_one_line, one_line};
-use brinell::result::{self, Quantity, Unfinished};
+use brinell::result::Quantity;
+use brinell::simulate::Progress;
+use brinell::simulate_with;
 use brinell_study::campaign::{Axis, Plan, columns};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -48,11 +50,10 @@ pub(crate) fn sweep<'py>(
                 .with(&plan.settings(k))
                 .load()
                 .map_err(|problems| on_one_line(&problems))?;
-            let finished = result::run(loaded.scenario, |_| brinell::many::go_on(stop));
-            match finished {
-                Ok(finished) => Ok(finished.quantities()),
-                Err(Unfinished::Failed(error)) => Err(one_line(&error.to_string())),
-                Err(Unfinished::Stopped) => Err("stopped before its end".into()),
+            let mut progress = Progress(|_| brinell::many::go_on(stop));
+            match simulate_with(&loaded.scenario, &mut progress) {
+                Ok(result) => Ok(result.quantities()),
+                Err(error) => Err(one_line(&error.to_string())),
             }
         },
         |py, k, result| {

@@ -3,6 +3,7 @@
 //! The page needs no network and is complete without its script, which only adds zoom, cursors and saving of pictures.
 //! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest value
 //! of each column; the largest alone in spectra); nothing here changes a number that was computed.
+//! The pages of a measured signal and of studies are public for the command alone, and are not listed here.
 //!
 //! ```
 //! use brinell_report::{Report, headline_png, html};
@@ -42,43 +43,55 @@ mod tables;
 mod thin;
 mod trend;
 
+#[doc(hidden)]
 pub use analysis::{AnalysisReport, Badge, analysis_html, analysis_pictures};
-pub use calibrate::{
-    CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures, course_plot,
-    key_plot,
-};
-pub use damage::{
-    DamageCurve, DamagePanel, DamageView, DepthPatch, damage_passage, damage_plan, damage_section,
-};
+#[doc(hidden)]
+pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
+pub use damage::{DamageCurve, DamagePanel, DamageView, DepthPatch};
+#[doc(hidden)]
+pub use damage::{damage_passage, damage_plan, damage_section};
 pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+#[doc(hidden)]
 pub use kurtogram::{Kurtogram, KurtogramLevel};
+#[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
-pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow, bearing_motion};
+#[doc(hidden)]
+pub use motion::bearing_motion;
+pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow};
+#[doc(hidden)]
 pub use number::short;
-pub use orbit::{CageOrbit, CageOrbits, cage_orbit};
+#[doc(hidden)]
+pub use orbit::cage_orbit;
+pub use orbit::{CageOrbit, CageOrbits};
 pub use page::html;
 pub use picture::{Error, Picture};
-pub use plots::{
-    Layout, detail_window, envelope_spectrum, headline, headline_png, overview, pass, pictures,
-    spectrum, waveform,
-};
-pub use sensor::{SensorView, sensor_response};
+#[doc(hidden)]
+pub use plots::{Layout, detail_window, headline, overview};
+pub use plots::{headline_png, pictures};
+pub use sensor::SensorView;
+#[doc(hidden)]
 pub use side_by_side::{
     Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,
     side_by_side_pictures,
 };
-pub use slip::{SlipRow, slip_over_angle, slip_over_time};
-pub use spectrogram::{Spectrogram, spectrogram};
+pub use slip::SlipRow;
+#[doc(hidden)]
+pub use slip::slip_over_time;
+pub use spectrogram::Spectrogram;
+#[doc(hidden)]
+pub use spectrogram::spectrogram;
+#[doc(hidden)]
 pub use study::{
     Chapter, ClaimCard, ClaimPart, Stack, Study, StudyPiece, Tagged, Tone, study_html,
     study_pictures,
 };
+#[doc(hidden)]
 pub use sweep::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, indicator_plot, sweep_html,
-    sweep_pictures,
+    IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures,
 };
 pub use tables::Table;
+#[doc(hidden)]
 pub use trend::{TrendReport, trend_html, trend_pictures};

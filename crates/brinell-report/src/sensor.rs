@@ -31,7 +31,7 @@ impl SensorView {
 const DEEPEST_DB: f64 = 80.0;
 
 /// Gain over frequency.
-pub fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
+pub(crate) fn sensor_response(view: &SensorView, layout: Layout) -> Picture {
     let khz: Vec<f64> = view.frequency_hz.iter().map(|f| 1e-3 * f).collect();
     let highest = range(view.gain_db.iter().copied()).map_or(0.0, |r| r.1);
     let gain: Vec<f64> = view

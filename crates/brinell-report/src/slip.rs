@@ -222,7 +222,7 @@ pub fn slip_over_time(rows: &[SlipRow], layout: Layout) -> Picture {
 }
 
 /// Orbit and spin over the place in the bearing.
-pub fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
+pub(crate) fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
     let curves = |pick: fn(&SlipRow) -> &Vec<f64>| -> Vec<Curve> {
         rows.iter()
             .map(|row| {

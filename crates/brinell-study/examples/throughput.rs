@@ -8,22 +8,13 @@
 //! machine it says more than the clock, which in turn shows what waits for the disk.
 
 use brinell::many;
-use brinell::simulate::{Observer, Simulation};
+use brinell::simulate::Simulation;
 use brinell_study::dataset::{Campaign, Shard, run};
 use brinell_study::listener::Silent;
 use std::error::Error;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
-
-struct Nobody;
-
-impl Observer for Nobody {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
 
 /// Processor time of this process so far, s, to a hundredth; 0 where /proc does not tell.
 fn processor() -> f64 {
@@ -87,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for round in 0..rounds {
         for (n, times) in (1..).zip(&mut bare) {
             let threads = threads(n)?;
-            let one = |k: usize| Simulation::new(&scenarios[k]).map(|s| s.run(&mut Nobody).rows);
+            let one = |k: usize| Simulation::new(&scenarios[k]).map(|s| s.run(&mut ()).rows);
             times.push(timed(|| {
                 let mut failed = None;
                 many::each(runs, threads, one, |_, ran| {

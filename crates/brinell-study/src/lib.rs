@@ -1,7 +1,7 @@
 //! Studies of many runs: sweeps and comparisons ([`campaign`]), fits to targets ([`calibrate`]), plans of data
 //! sets ([`design`]) and the data sets themselves ([`dataset`]).
 //!
-//! [`runner`] makes the runs of a study that can be gone on with; a [`listener`] hears of them.
+//! A [`listener`] hears of the runs.
 //!
 //! What one run is, and its numbers, is [`brinell::result`].
 
@@ -10,4 +10,5 @@ pub mod campaign;
 pub mod dataset;
 pub mod design;
 pub mod listener;
+#[doc(hidden)]
 pub mod runner;

@@ -1,10 +1,10 @@
 //! Many runs as one piece of work: company changes nothing, names are known beforehand, and numbers say what findings say.
 
 use brinell::document::read;
-use brinell::result::{self, Unfinished};
 use brinell::scenario::Scenario;
 use brinell::signal::Indicator;
 use brinell::simulate::Simulation;
+use brinell::{Error, RunResult, simulate};
 use brinell_study::campaign;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -35,14 +35,14 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     let mut finished = Vec::new();
     for (one, result) in list.iter().zip(all) {
         let together = result.expect("it runs");
-        let alone = result::run(one.clone(), |_| ControlFlow::Continue(())).unwrap();
+        let alone = simulate(one).unwrap();
         assert_eq!(together.quantities(), alone.quantities());
         finished.push(together);
     }
     for run in &finished {
         let simulation = Simulation::new(&run.scenario).unwrap();
         let names: Vec<String> = run.quantities().into_iter().map(|q| q.name).collect();
-        assert_eq!(result::names(&run.scenario, &simulation), names);
+        assert_eq!(brinell::result::names(&run.scenario, &simulation), names);
         let mut once = names.clone();
         once.sort();
         once.dedup();
@@ -53,12 +53,7 @@ fn prop_runs_side_by_side_are_those_of_each_alone() {
     let [full, lumped, healthy] = &finished[..] else {
         panic!("three runs")
     };
-    let quantity = |run: &result::Finished, name: &str| {
-        let all = run.quantities();
-        all.into_iter()
-            .find(|q| q.name == name)
-            .expect("it is told")
-    };
+    let quantity = |run: &RunResult, name: &str| run.quantity(name).expect("it is told");
     let sensor = &full.findings.channels;
     let sensor = sensor.iter().find(|c| c.name == "sensor_ay").unwrap();
     let rms = sensor.blocks.estimate(Indicator::Rms).unwrap();
@@ -104,7 +99,7 @@ fn prop_a_run_that_is_broken_off_is_none() {
         _ => ControlFlow::Continue(()),
     };
     let results = campaign::run_all(&list, NonZeroUsize::MIN, stop_first);
-    assert!(matches!(results[0], Err(Unfinished::Stopped)));
+    assert!(matches!(results[0], Err(Error::Stopped)));
     assert!(results[1].is_ok());
 }
 

@@ -6,7 +6,7 @@ mod common;
 
 use brinell::scenario::{Accuracy, Scenario};
 use brinell::simulate::Simulation;
-use common::{Nothing, rectangle};
+use common::rectangle;
 use criterion::Throughput;
 use std::time::Instant;
 
@@ -14,7 +14,7 @@ use std::time::Instant;
 const DURATION_S: f64 = 0.1;
 
 fn run(s: &Scenario) -> u64 {
-    let outcome = Simulation::new(s).expect("a run").run(&mut Nothing);
+    let outcome = Simulation::new(s).expect("a run").run(&mut ());
     outcome.work.solver.evaluations + outcome.work.sample_evaluations
 }
 

@@ -7,7 +7,7 @@ use brinell::model::{Model, Motion};
 use brinell::scenario::Accuracy;
 use brinell::simulate::Simulation;
 use brinell::solver::Stepper;
-use common::{Nothing, off_and_on_damage, rectangle};
+use common::{off_and_on_damage, rectangle};
 use criterion::{BatchSize, Throughput};
 
 /// Steps of one measurement: some 10 ms simulated, so that rollers pass the damage.
@@ -43,10 +43,10 @@ fn main() {
     s.simulation.duration_s = 0.1;
     s.simulation.sample_rate_hz = 500.0;
     let simulation = Simulation::new(&s).expect("a run");
-    let steps = simulation.run(&mut Nothing).work.solver.steps;
+    let steps = simulation.run(&mut ()).work.solver.steps;
     group.throughput(Throughput::Elements(steps));
     group.bench_function("with audits", |b| {
-        b.iter(|| simulation.run(&mut Nothing));
+        b.iter(|| simulation.run(&mut ()));
     });
     group.finish();
     criterion.final_summary();

@@ -73,6 +73,7 @@ pub struct Channel {
 }
 
 /// Unit of a contact's stiffness: N/m^n.
+#[doc(hidden)]
 pub const STIFFNESS_UNIT: &str = "N/m^n";
 
 impl Channel {
@@ -164,6 +165,7 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
 
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with which it would
 /// close (Eqs. 22, 23).
+#[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
@@ -331,6 +333,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
 }
 
 /// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own direction.
+#[doc(hidden)]
 pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
     let what = if sensor.is_on() {
         "acceleration that the sensor reads"
@@ -357,7 +360,7 @@ pub fn sensor_channels(sensor: &Sensor) -> Vec<Channel> {
 }
 
 /// Accelerations of rings and cages: the channels that an anti-alias filter makes sense of.
-pub fn filterable(model: &Model) -> Vec<Channel> {
+pub(crate) fn filterable(model: &Model) -> Vec<Channel> {
     let l = &model.layout;
     all(model, &Sensor::off())
         .into_iter()
@@ -366,6 +369,7 @@ pub fn filterable(model: &Model) -> Vec<Channel> {
 }
 
 /// Whether `name` matches `pattern`, where `*` stands for any run of characters.
+#[doc(hidden)]
 pub fn matches(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
@@ -386,6 +390,7 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 }
 
 /// The channels that `record` picks, in the order of [`all`], and the patterns that pick none.
+#[doc(hidden)]
 pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel>, Vec<String>) {
     let channels = all(model, sensor);
     let idle = record
@@ -401,6 +406,7 @@ pub fn select(model: &Model, sensor: &Sensor, record: &[String]) -> (Vec<Channel
 }
 
 /// What to say of a pattern of `record` that picks no channel; a name of earlier versions is answered with today's.
+#[doc(hidden)]
 pub fn idle_message(pattern: &str) -> String {
     let today = today_name(pattern)
         .map(|name| format!("; the channel is called \"{name}\""))
@@ -409,6 +415,7 @@ pub fn idle_message(pattern: &str) -> String {
 }
 
 /// Today's name of a channel, or of a pattern, that earlier versions called `measured_...`.
+#[doc(hidden)]
 pub fn today_name(pattern: &str) -> Option<String> {
     match pattern.strip_prefix("measured")? {
         "_sensor" => Some(OWN_CHANNEL.to_owned()),

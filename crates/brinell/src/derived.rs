@@ -41,6 +41,7 @@ pub struct Derived {
 }
 
 /// Time that a roller takes over each defect at the top speed, s.
+#[doc(hidden)]
 pub fn defect_passes(model: &Model) -> Vec<f64> {
     let kinematics = model.kinematics(model.rotation.max_speed());
     let pass = |d: &Defect| {

@@ -22,6 +22,6 @@ impl Friction {
 }
 
 /// Drag coefficient area 0.5 C_d rho_f L d of one roller, kg/m: F_d = that times v_t |v_t|, against the orbit.
-pub fn drag_factor(coefficient: f64, density: f64, length: f64, diameter: f64) -> f64 {
+pub(crate) fn drag_factor(coefficient: f64, density: f64, length: f64, diameter: f64) -> f64 {
     0.5 * coefficient * density * length * diameter
 }

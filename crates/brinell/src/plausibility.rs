@@ -16,7 +16,7 @@ use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
 use std::f64::consts::TAU;
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
-pub const PARAMETRIC_SHARE: f64 = 0.1;
+pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 /// Share of the load beyond which a weight that is left out is worth a warning.
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.

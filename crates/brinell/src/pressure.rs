@@ -9,9 +9,9 @@ use crate::scenario::Bearing;
 use std::f64::consts::PI;
 
 /// Young's modulus of rolling bearing steel, Pa.
-pub const YOUNGS_MODULUS: f64 = 206e9;
+pub(crate) const YOUNGS_MODULUS: f64 = 206e9;
 /// Poisson's ratio of steel.
-pub const POISSONS_RATIO: f64 = 0.3;
+pub(crate) const POISSONS_RATIO: f64 = 0.3;
 /// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the raceway together keep a
 /// permanent deformation of about 1/10000 of the roller's diameter.
 pub const STATIC_LIMIT: f64 = 4.0e9;
@@ -22,7 +22,7 @@ pub const STATIC_LIMIT: f64 = 4.0e9;
 /// With E = 206 GPa and nu = 0.3 this is Harris's 190 sqrt(Q Sigma-rho / L) N/mm^2, in N and mm (Rolling Bearing Analysis, chapter on
 /// contact stress). The pressure is even along L: it knows neither edge stress nor crowning nor tilt. It is elastic, so a value far above
 /// [`STATIC_LIMIT`] says that the steel yields, not how hard it is pressed.
-pub fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
+pub(crate) fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
     let modulus = 0.5 * YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
     (modulus * force.max(0.0) / length / (PI * radius)).sqrt()
 }

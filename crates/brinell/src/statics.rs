@@ -13,6 +13,7 @@ pub use load_zone::{StaticLoadZone, static_load_zone};
 
 /// Question put to the solver.
 #[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
 pub struct Problem {
     /// Speed of the inner ring, rad/s: sets the centrifugal force of rollers in pure rolling.
     pub speed: f64,
@@ -50,6 +51,7 @@ impl Problem {
 
 /// The balance.
 #[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
 pub struct Balance {
     /// Offset of the inner ring, m.
     pub inner: [f64; 2],
@@ -110,6 +112,7 @@ const MAX_ITERATIONS: usize = 200;
 ///
 /// # Errors
 /// Where the rings are not held against the load.
+#[doc(hidden)]
 pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
     let free = [
         !problem.fix_inner,

@@ -101,6 +101,7 @@ fn sensor(parts: &Parts) -> Option<Value> {
 }
 
 /// Which sensor channels went beyond the converter's ends, in words.
+#[doc(hidden)]
 pub fn clipped(parts: &Parts) -> Vec<String> {
     let channels = parts.simulation.filtered().iter();
     channels
@@ -116,6 +117,7 @@ pub fn clipped(parts: &Parts) -> Vec<String> {
 }
 
 /// Words for how a run ended.
+#[doc(hidden)]
 pub fn status(end: &End) -> Value {
     match end {
         End::Complete => json!({ "complete": true }),
@@ -125,6 +127,7 @@ pub fn status(end: &End) -> Value {
 }
 
 /// What the run's reader should know, warnings of the scenario first.
+#[doc(hidden)]
 pub fn warnings(parts: &Parts) -> Vec<String> {
     let mut all: Vec<String> = parts
         .loaded
@@ -147,6 +150,7 @@ pub fn warnings(parts: &Parts) -> Vec<String> {
 }
 
 /// What had not settled when statistics began, in words.
+#[doc(hidden)]
 pub fn unsettled(findings: &Findings) -> Vec<String> {
     let change = |x: f64| {
         format!(

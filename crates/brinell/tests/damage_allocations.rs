@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::ops::ControlFlow;
-
 use brinell::channel::Frame;
 use brinell::scenario::{EdgeReaction, Law, RollerPath, Scenario, Shape};
 use brinell::simulate::{End, Observer, Simulation};
@@ -28,10 +26,6 @@ impl Observer for Watch {
         }
         self.steps += 1;
         self.damaged += usize::from(frame.ws.contacts[1].on_damage.contains(&true));
-    }
-
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
     }
 }
 

@@ -8,7 +8,6 @@ use brinell::model::Model;
 use brinell::scenario::{Scenario, Start};
 use brinell::simulate::{End, Observer, Simulation};
 use common::cases::healthy;
-use std::ops::ControlFlow;
 
 const DURATION_S: f64 = 0.5;
 
@@ -31,10 +30,6 @@ fn mean((sum, count): (f64, u32)) -> f64 {
 }
 
 impl Observer for Speeds {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     fn sample(&mut self, _: u64, f: &Frame) {
         let l = &f.model.layout;
         let dof = l.dof();

@@ -2,9 +2,10 @@
 
 mod common;
 
+use brinell::Error;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{LoadOn, Scenario, Shape, Start};
-use brinell::simulate::{RunError, Simulation};
+use brinell::simulate::Simulation;
 use brinell::solver::System;
 use brinell::start;
 use brinell::statics::{Balance, Problem, solve};
@@ -364,7 +365,7 @@ fn prop_ring_that_nothing_holds_is_refused() {
     s.simulation.start = Start::Equilibrium;
     s.support.inner_stiffness_n_per_m = 0.0;
     s.support.outer_stiffness_n_per_m = 0.0;
-    let refused = |s: &Scenario| matches!(Simulation::new(s), Err(RunError::NoBalance(_)));
+    let refused = |s: &Scenario| matches!(Simulation::new(s), Err(Error::NoBalance(_)));
     assert!(refused(&s), "the bearing as a whole floats");
     s.support.inner_stiffness_n_per_m = 5e7;
     assert!(!refused(&s), "the inner ring is held, and holds the outer");

@@ -15,11 +15,10 @@ use brinell::accuracy::settings;
 use brinell::many;
 use brinell::model::{Kernel, Model, Motion, Workspace};
 use brinell::scenario::{Accuracy, Scenario};
-use brinell::simulate::{End, Observer, Simulation};
+use brinell::simulate::{End, Simulation};
 use brinell::solver::Stepper;
 use common::cases::{case, healthy};
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Simulated time of each count, s.
@@ -168,21 +167,13 @@ fn regress_counted_work_stays_as_recorded() {
     assert!(moved.is_empty(), "\n{moved}");
 }
 
-struct Nothing;
-
-impl Observer for Nothing {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
 #[test]
 fn regress_counted_work_of_samples() {
     // One right-hand side a sample, those under the filter's tail included; nothing chaotic in that, so exactly.
     for (name, mut s) in [("rectangle", example("rectangle")), ("healthy", healthy())] {
         s.simulation.duration_s = 0.05;
         let simulation = Simulation::new(&s).unwrap();
-        let outcome = simulation.run(&mut Nothing);
+        let outcome = simulation.run(&mut ());
         assert_eq!(outcome.end, End::Complete);
         let tail = outcome.work.sample_evaluations - simulation.samples();
         println!("{name}: {} samples and {tail} more", simulation.samples());

@@ -5,7 +5,7 @@ use crate::campaign;
 use crate::failure::Failure;
 use crate::files::Source;
 use crate::progress::Joint;
-use brinell::result::{Finished, Quantity};
+use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
 use brinell_study::calibrate::{Answer, Key, Target, Unfit};
 use brinell_study::campaign::{Row, digest, fingerprint};
@@ -66,7 +66,12 @@ impl Work for FromPoints<'_> {
         self.pattern.map(|pattern| pattern.axis)
     }
 
-    fn finished(&self, _: &Task, _: &Finished, captured: &[f64]) -> Result<Vec<Quantity>, Failure> {
+    fn finished(
+        &self,
+        _: &Task,
+        _: &RunResult,
+        captured: &[f64],
+    ) -> Result<Vec<Quantity>, Failure> {
         let own = |pattern: &Pattern| pattern.quantities(captured);
         Ok(self.pattern.map_or(Vec::new(), own))
     }

@@ -3,11 +3,11 @@
 use super::sides::Side;
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::observe::passes::{PassPoint, place};
-use brinell::result::{Finished, Impacts, impacts};
+use brinell::result::{Impacts, RunResult, impacts};
 use brinell_report::{Along, OverlaidCurve, Overlay, Piece, Vertical};
 
 /// Name of the acceleration that a run's curves show.
-fn acceleration(run: &Finished) -> String {
+fn acceleration(run: &RunResult) -> String {
     format!(
         "acceleration sensor_a{}",
         if run.findings.axis == 0 { "x" } else { "y" }
@@ -25,14 +25,14 @@ fn capital(text: &str) -> String {
 }
 
 /// A stretch of the waveforms, five strikes long, from where all are analysed.
-pub(super) fn waveform(runs: &[&Finished]) -> Overlay {
-    let kept = |run: &Finished| {
+pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
+    let kept = |run: &RunResult| {
         let (first, values) = run.findings.waveform.latest();
         (first as f64 / run.simulation.sample_rate(), values)
     };
-    let begin = |run: &&Finished| run.findings.from.max(kept(run).0);
+    let begin = |run: &&RunResult| run.findings.from.max(kept(run).0);
     let from = runs.iter().map(begin).fold(0.0, f64::max);
-    let strike = |run: &&Finished| {
+    let strike = |run: &&RunResult| {
         let model = run.simulation.model();
         let k = model.kinematics(model.rotation.max_speed());
         let struck = model.defects.iter().map(|d| k.struck_by(d.surface).1);
@@ -64,7 +64,7 @@ pub(super) fn waveform(runs: &[&Finished]) -> Overlay {
     }
 }
 
-pub(super) fn spectrum(runs: &[&Finished]) -> Piece {
+pub(super) fn spectrum(runs: &[&RunResult]) -> Piece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let s = run.findings.spectrum.as_ref()?;
         Some(even(of, s.frequency_step, s.amplitude.clone()))
@@ -91,7 +91,7 @@ fn even(of: usize, step: f64, values: Vec<f64>) -> OverlaidCurve {
     OverlaidCurve { of, along, values }
 }
 
-pub(super) fn envelope(sides: &[Side], runs: &[&Finished]) -> Piece {
+pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
     let curves = runs.iter().enumerate().filter_map(|(of, run)| {
         let (e, _) = run.findings.envelope.as_ref()?;
         let mut values = e.spectrum.amplitude.clone();
@@ -130,8 +130,8 @@ pub(super) fn envelope(sides: &[Side], runs: &[&Finished]) -> Piece {
 }
 
 /// "defect 1 (outer raceway, row 1)".
-pub(super) fn called(runs: &[&Finished], defect: usize) -> String {
-    let of = |run: &&Finished| run.simulation.model().defects.get(defect).map(place);
+pub(super) fn called(runs: &[&RunResult], defect: usize) -> String {
+    let of = |run: &&RunResult| run.simulation.model().defects.get(defect).map(place);
     let place = runs.iter().find_map(of).unwrap_or_default();
     format!("defect {} ({place})", defect + 1)
 }
@@ -145,7 +145,7 @@ type Shown = (
 );
 
 /// Contact length, stiffness and force of the heaviest pass of each run.
-pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
+pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     let passes: Vec<_> = runs
         .iter()
         .map(|run| {
@@ -159,7 +159,7 @@ pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
     if passes.iter().all(Option::is_none) {
         return vec![Piece::Words("No roller passed it from end to end.".into())];
     }
-    let usual = |run: &&Finished| (run.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9;
+    let usual = |run: &&RunResult| (run.scenario.contact.exponent - 10.0 / 9.0).abs() < 1e-9;
     let stiffness = if runs.iter().all(usual) {
         "N/m^(10/9)"
     } else {
@@ -201,7 +201,7 @@ pub(super) fn over_defect(runs: &[&Finished], defect: usize) -> Vec<Piece> {
 }
 
 /// The mean acceleration around the instants at which rollers come onto the defect and leave it.
-pub(super) fn entry_and_exit(runs: &[&Finished], defect: usize) -> Vec<Piece> {
+pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     let all: Vec<Vec<Impacts>> = runs
         .iter()
         .map(|run| impacts(&run.simulation, &run.findings))

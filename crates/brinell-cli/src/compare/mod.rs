@@ -14,8 +14,8 @@ use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
 use crate::run::{make_folder, picture_files, ready_pictures, safe_name, stop_flag};
 use crate::say::{complain, say, short};
 pub(crate) use args::CompareArgs;
-use brinell::result::{Finished, Unfinished};
 use brinell::simulate::Simulation;
+use brinell::{Error, RunResult};
 use brinell_io::{Metadata, atomic_prepare, keys};
 use brinell_study::campaign::{Compared, compare, run_all};
 use serde_json::Value;
@@ -57,7 +57,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
         let _ = std::fs::remove_dir(folder.join(SCENARIOS));
         return Ok(ExitCode::from(NOT_DONE));
     };
-    let all: Vec<&Finished> = runs.iter().collect();
+    let all: Vec<&RunResult> = runs.iter().collect();
     let compared = compare(&all);
     let report = page::report(&sides, &all, &compared);
     let table = table::table(&sides, &compared);
@@ -117,7 +117,7 @@ fn earlier(
 }
 
 /// All runs, or `None` with what went wrong told.
-fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Failure> {
+fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Failure> {
     let stop = stop_flag()?;
     let scenario = |side: &Side| side.loaded.scenario.clone();
     let list: Vec<_> = sides.iter().map(scenario).collect();
@@ -140,8 +140,8 @@ fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<Finished>>, Fail
     for (side, result) in sides.iter().zip(results) {
         match result {
             Ok(finished) => runs.push(finished),
-            Err(Unfinished::Stopped) => stopped = true,
-            Err(Unfinished::Failed(error)) => complain!("error: {}: {error}", side.label),
+            Err(Error::Stopped) => stopped = true,
+            Err(error) => complain!("error: {}: {error}", side.label),
         }
     }
     if stopped {

@@ -5,7 +5,7 @@ use super::sides::Side;
 use crate::say::{bracketed, short};
 use crate::sweep::{told, words};
 use brinell::observe::passes::place;
-use brinell::result::{Finished, Quantity};
+use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::Ratio;
 use brinell_report::{Fact, Part, Piece, SideBySide, Table, Value};
 use brinell_study::campaign::Compared;
@@ -13,7 +13,7 @@ use brinell_study::campaign::Compared;
 /// Longest value in the table of what differs.
 const LONGEST: usize = 60;
 
-pub(super) fn report(sides: &[Side], runs: &[&Finished], compared: &[Compared]) -> SideBySide {
+pub(super) fn report(sides: &[Side], runs: &[&RunResult], compared: &[Compared]) -> SideBySide {
     let names: Vec<String> = sides.iter().map(|side| side.label.clone()).collect();
     let mut parts = vec![
         part("What differs", vec![Piece::Table(differing(sides))]),
@@ -126,9 +126,9 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
 }
 
 /// What makes curves hard to hold against each other.
-fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
+fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let mut all = Vec::new();
-    let rate = |run: &Finished| run.simulation.sample_rate();
+    let rate = |run: &RunResult| run.simulation.sample_rate();
     if runs.iter().any(|run| rate(run) != rate(runs[0])) {
         all.push("The runs' sample rates differ: what lies above half the lower one is in one of them alone.".into());
     }
@@ -142,15 +142,15 @@ fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
                 .into(),
         );
     }
-    let axis = |run: &Finished| run.findings.axis;
+    let axis = |run: &RunResult| run.findings.axis;
     if runs.iter().any(|run| axis(run) != axis(runs[0])) {
         all.push("The loads point along different axes: curves show each run's own, the one nearer its load.".into());
     }
-    let exponent = |run: &Finished| run.scenario.contact.exponent;
+    let exponent = |run: &RunResult| run.scenario.contact.exponent;
     if runs.iter().any(|run| exponent(run) != exponent(runs[0])) {
         all.push("The contacts' exponents n differ: stiffnesses in N/m^n have different units and no ratio.".into());
     }
-    let band = |run: &Finished| {
+    let band = |run: &RunResult| {
         run.findings
             .envelope
             .as_ref()
@@ -169,7 +169,7 @@ fn warnings(sides: &[Side], runs: &[&Finished]) -> Vec<String> {
         .map(|run| run.simulation.model().defects.len())
         .max();
     for defect in 0..most.unwrap_or(0) {
-        let here = |run: &&Finished| run.simulation.model().defects.get(defect).map(place);
+        let here = |run: &&RunResult| run.simulation.model().defects.get(defect).map(place);
         let mut places: Vec<String> = runs.iter().filter_map(here).collect();
         places.dedup();
         if places.len() > 1 {

@@ -11,7 +11,7 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
 pub(crate) use args::ReproduceArgs;
-use brinell::result::{Finished, Quantity};
+use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_li2023::{
@@ -198,7 +198,7 @@ impl Work for CaseWork<'_> {
 }
 
 impl Beside<Failure> for CaseObserver {
-    fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, Failure> {
+    fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, Failure> {
         Ok(self.finish(finished)?)
     }
 }

@@ -14,7 +14,7 @@ use crate::signals::{check_columns, check_row, units_json};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 /// Writes a table as an npz file.
-pub struct NpzWriter {
+pub(crate) struct NpzWriter {
     file: PartialFile,
     columns: Vec<Column>,
     metadata: Metadata,
@@ -23,7 +23,7 @@ pub struct NpzWriter {
 
 impl NpzWriter {
     /// Starts the file. The names `fs` and `brinell_...` are taken.
-    pub fn create(
+    pub(crate) fn create(
         path: impl AsRef<Path>,
         columns: &[Column],
         metadata: &Metadata,

@@ -14,7 +14,7 @@ use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 const MAX_ROWS: u64 = 9_999_999_999;
 
 /// Writes a table as UFF 58b.
-pub struct UffWriter {
+pub(crate) struct UffWriter {
     file: PartialFile,
     columns: Vec<Column>,
     /// Where the columns to be written stand.
@@ -28,7 +28,7 @@ pub struct UffWriter {
 impl UffWriter {
     /// Starts the file. The metadata must hold [`crate::keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first instant and is not
     /// written itself.
-    pub fn create(
+    pub(crate) fn create(
         path: impl AsRef<Path>,
         columns: &[Column],
         metadata: &Metadata,

@@ -20,7 +20,7 @@ const DATA: u64 = FACT + 12;
 const IEEE_FLOAT: u16 = 3;
 
 /// Writes a table as WAV.
-pub struct WavWriter {
+pub(crate) struct WavWriter {
     file: PartialFile,
     columns: Vec<Column>,
     metadata: Metadata,
@@ -32,7 +32,7 @@ pub struct WavWriter {
 
 impl WavWriter {
     /// Starts the file. The metadata must hold [`keys::SAMPLE_RATE_HZ`], a whole number; a column `t` in seconds is not written.
-    pub fn create(
+    pub(crate) fn create(
         path: impl AsRef<Path>,
         columns: &[Column],
         metadata: &Metadata,

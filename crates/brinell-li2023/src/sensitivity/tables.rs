@@ -138,7 +138,7 @@ fn row(k: usize, tried: &Tried) -> Vec<String> {
         Record::Steady => SHOWN_MS,
     };
     let usual = Reading::USUAL;
-    let readings = [usual, usual.from_start(ms)];
+    let readings = [usual, usual.over_start(ms)];
     let mut row = vec![
         k.to_string(),
         format!("{}: {}", tried.variant.aspect.words(), tried.variant.words),

@@ -9,7 +9,7 @@ use crate::frame::{close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, fact_table, facts, failures, table};
-pub use plot::{course_plot, key_plot};
+pub(crate) use plot::{course_plot, key_plot};
 
 /// A run as the pictures show it.
 #[derive(Clone, Debug, PartialEq)]

@@ -71,7 +71,7 @@ fn dot(chart: &mut Chart, x: f64, y: f64, filled: bool) {
 }
 
 /// Sum of squares against one key.
-pub fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -> Picture {
+pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -> Picture {
     let about = &report.keys[key];
     let (low, high) = about.bounds;
     let x = if about.log {
@@ -121,7 +121,7 @@ pub fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -> Pictu
 }
 
 /// Sum of squares of each run in its order, and the best so far.
-pub fn course_plot(report: &CalibrationReport, layout: Layout) -> Picture {
+pub(crate) fn course_plot(report: &CalibrationReport, layout: Layout) -> Picture {
     let count = report.tried.len().max(1) as f64;
     let (y, floor) = misfits(report);
     let title = "Chi-square over the runs".to_owned();

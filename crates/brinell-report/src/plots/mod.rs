@@ -20,10 +20,11 @@ pub use headline::{headline, headline_png};
 pub use layout::Layout;
 pub(crate) use layout::{legend, time_unit};
 pub(crate) use markers::marker_lanes;
-pub use pass::pass;
+pub(crate) use pass::pass;
 pub(crate) use spectrum::envelope_domain;
-pub use spectrum::{envelope_spectrum, spectrum};
-pub use waveform::{detail_window, overview, waveform};
+pub(crate) use spectrum::{envelope_spectrum, spectrum};
+pub(crate) use waveform::waveform;
+pub use waveform::{detail_window, overview};
 pub(crate) use waveform::{event_lanes, waveform_domain, waveform_unit};
 
 /// Every picture of the report, for saving as files.

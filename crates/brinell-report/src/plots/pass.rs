@@ -6,7 +6,7 @@ use crate::data::Pass;
 use crate::picture::{Paint, Picture, ink};
 
 /// Contact length, stiffness and force of one roller over its angle from the defect's centre.
-pub fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
+pub(crate) fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
     let size = layout.size(0.0);
     let part = if layout == Layout::Wide { 130.0 } else { 120.0 };
     let other = pass.other_length_mm.as_deref();

@@ -18,7 +18,7 @@ fn envelope_top(report: &Report) -> f64 {
 }
 
 /// The whole amplitude spectrum over decades.
-pub fn spectrum(report: &Report, layout: Layout) -> Picture {
+pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let size = layout.size(if layout == Layout::Wide { 320.0 } else { 270.0 });
     let spectrum = &report.spectrum;
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
@@ -39,7 +39,7 @@ pub fn spectrum(report: &Report, layout: Layout) -> Picture {
 }
 
 /// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
-pub fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
+pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
     let height = if layout == Layout::Wide { 370.0 } else { 330.0 };
     draw_envelope(report, envelope_spec(report, layout.size(height)))
 }

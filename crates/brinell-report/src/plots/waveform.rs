@@ -134,7 +134,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
 }
 
 /// The sensor signal close up, with the instants at which rollers enter and leave defects.
-pub fn waveform(report: &Report, layout: Layout) -> Picture {
+pub(crate) fn waveform(report: &Report, layout: Layout) -> Picture {
     let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
     draw_waveform(report, waveform_spec(report, layout.size(height)))
 }

@@ -9,7 +9,7 @@ use crate::frame::{close, figure, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, failures, table};
-pub use plot::indicator_plot;
+pub(crate) use plot::indicator_plot;
 
 /// One point of a line.
 #[derive(Clone, Debug, PartialEq)]

@@ -26,7 +26,7 @@ fn paint(line: usize) -> Paint {
 }
 
 /// The plot.
-pub fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
+pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
     let mut size = layout.size(height);
     let named = !plot.x_names.is_empty();

@@ -11,6 +11,7 @@ use brinell::signal::student_t_quantile;
 use nalgebra::{DMatrix, DVector};
 
 /// An interval that covers so much of a key's range says nothing.
+#[doc(hidden)]
 pub const MOST: f64 = 0.75;
 /// Two-sided 95 % of a normal distribution.
 const NORMAL: f64 = 1.959_963_984_540_054;
@@ -58,7 +59,8 @@ pub struct Identified {
 }
 
 /// From the residuals at a point, the Jacobian there, and the noise of its columns: the standard deviation of a column's length that
-/// noise causes (see [`column_noise`]).
+/// noise causes (see `column_noise`).
+#[doc(hidden)]
 pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Identified {
     let keys = jacobian.ncols();
     let chi_square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -155,7 +157,7 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
 
 /// Standard deviation of a column's length from noise alone: `noise` is that of each residual in one run, `distance` the length of the
 /// difference.
-pub fn column_noise(noise: &[f64], distance: f64) -> f64 {
+pub(crate) fn column_noise(noise: &[f64], distance: f64) -> f64 {
     let sum: f64 = noise.iter().map(|n| 2.0 * n * n).sum();
     sum.sqrt() / distance
 }

@@ -9,11 +9,19 @@ mod error;
 mod fit;
 pub mod identify;
 mod key;
+#[doc(hidden)]
 pub mod search;
+#[doc(hidden)]
 pub mod signature;
 mod target;
 
 pub use error::CalibrateError;
-pub use fit::{Evaluation, Fit, Run, Settings, Stage, Unfit, fit, least_budget, start_size};
-pub use key::{Key, check as check_keys};
-pub use target::{Answer, MISSING, Target, check as check_targets, residuals};
+pub use fit::{Evaluation, Fit, Run, Settings, Stage, Unfit, fit};
+#[doc(hidden)]
+pub use fit::{least_budget, start_size};
+pub use key::Key;
+#[doc(hidden)]
+pub use key::check as check_keys;
+pub use target::{Answer, Target};
+#[doc(hidden)]
+pub use target::{MISSING, check as check_targets, residuals};

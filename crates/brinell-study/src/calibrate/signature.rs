@@ -15,7 +15,7 @@ const TOP: f64 = 0.4;
 /// An octave has so many bins at least.
 const FEWEST_BINS: f64 = 8.0;
 /// Harmonics of a defect frequency.
-pub const HARMONICS: usize = 5;
+pub(crate) const HARMONICS: usize = 5;
 /// Half the band about a harmonic, as a share of its frequency: what slip may do. Two bins at least, which is a line's width.
 const SLIP: f64 = 0.02;
 const LINE_BINS: f64 = 2.0;

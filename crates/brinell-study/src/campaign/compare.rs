@@ -1,6 +1,6 @@
 //! Runs side by side: every number of each, and its ratio to that of the baseline, the first run.
 
-use brinell::result::{Finished, LEAST_STIFFNESS, Quantity};
+use brinell::result::{LEAST_STIFFNESS, Quantity, RunResult};
 use brinell::signal::ratio::{Ratio, ratio};
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ pub struct Compared {
 }
 
 /// Everything that the runs have, in the order of the first that has it. A ratio is that of the two values; see [`brinell::signal::ratio`].
-pub fn compare(runs: &[&Finished]) -> Vec<Compared> {
+pub fn compare(runs: &[&RunResult]) -> Vec<Compared> {
     let mut all: Vec<Compared> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for (k, run) in runs.iter().enumerate() {

@@ -11,9 +11,13 @@ mod plan;
 mod row;
 mod run;
 
-pub use axis::{Axis, split};
+pub use axis::Axis;
+#[doc(hidden)]
+pub use axis::split;
 pub use columns::{NumberColumn, columns};
 pub use compare::{Compared, compare};
-pub use plan::{MOST_POINTS, Plan, PlanError};
-pub use row::{Row, digest, fingerprint};
+pub use plan::{Plan, PlanError};
+#[doc(hidden)]
+pub use row::digest;
+pub use row::{Row, fingerprint};
 pub use run::run_all;

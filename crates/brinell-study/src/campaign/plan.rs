@@ -3,7 +3,7 @@
 use super::axis::Axis;
 
 /// Points of a plan at most: beyond that, a plan is a slip of the keyboard.
-pub const MOST_POINTS: usize = 100_000;
+pub(super) const MOST_POINTS: usize = 100_000;
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -41,7 +41,7 @@ pub enum PlanError {
     /// One key on two axes.
     #[error("{0} varies twice; each key varies in one place")]
     Twice(String),
-    /// More points than [`MOST_POINTS`].
+    /// More points than 100 000.
     #[error("{points} points\n  allowed: 1 to {MOST_POINTS} points")]
     TooMany {
         /// Points asked for.
@@ -59,7 +59,7 @@ impl Plan {
     /// Of axes; without any it has one point, which changes nothing.
     ///
     /// # Errors
-    /// Where two axes set one key, or one inside the other, or there are more than [`MOST_POINTS`] points.
+    /// Where two axes set one key, or one inside the other, or there are more than 100 000 points.
     pub fn new(axes: Vec<Axis>) -> Result<Self, PlanError> {
         let keys: Vec<&String> = axes.iter().flat_map(Axis::keys).collect();
         for (k, key) in keys.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Scenarios from start to findings, side by side.
 
 use brinell::many;
-use brinell::result::{Finished, Unfinished, run};
-use brinell::scenario::Scenario;
+use brinell::simulate::Progress;
+use brinell::{Error, RunResult, Scenario, simulate_with};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
@@ -12,16 +12,15 @@ pub fn run_all(
     scenarios: &[Scenario],
     threads: NonZeroUsize,
     progress: impl Fn(usize, f64) -> ControlFlow<()> + Sync,
-) -> Vec<Result<Finished, Unfinished>> {
-    let mut all: Vec<Option<Result<Finished, Unfinished>>> =
-        scenarios.iter().map(|_| None).collect();
+) -> Vec<Result<RunResult, Error>> {
+    let mut all: Vec<Option<Result<RunResult, Error>>> = scenarios.iter().map(|_| None).collect();
     many::each(
         scenarios.len(),
         threads,
-        |k| run(scenarios[k].clone(), |t| progress(k, t)),
+        |k| simulate_with(&scenarios[k], &mut Progress(|t| progress(k, t))),
         |k, result| all[k] = Some(result),
     );
     all.into_iter()
-        .map(|result| result.unwrap_or(Err(Unfinished::Stopped)))
+        .map(|result| result.unwrap_or(Err(Error::Stopped)))
         .collect()
 }

@@ -17,6 +17,8 @@ mod turns;
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
 pub use plan::{Class, Design, OutOfRange, Plan, Split};
+#[doc(hidden)]
 pub use sequence::Sobol;
 pub use split::Part;
-pub use survey::{Misses, Survey, place_in_plan, unsaid};
+pub use survey::{Misses, Survey};
+pub(crate) use survey::{place_in_plan, unsaid};

@@ -149,12 +149,12 @@ fn count(all: &mut Vec<Misses>, mut problem: Problem, run: usize, times: usize) 
 }
 
 /// A message without the word that its value is an override's: in a plan every drawn value is.
-pub fn unsaid(message: &str) -> String {
+pub(crate) fn unsaid(message: &str) -> String {
     message.replace(" (given as an override)", "")
 }
 
 /// Where the plan sets the key that a problem of a run is about: a place in the plan's text. `None` where it does not: the base does.
-pub fn place_in_plan(
+pub(crate) fn place_in_plan(
     draws: &Draws,
     plan_text: &str,
     run: usize,

@@ -48,10 +48,6 @@ struct Trial {
 }
 
 impl Observer for Trial {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
         self.reached = t;
         if self.begin.elapsed() > MOMENT {

@@ -8,8 +8,12 @@ mod ledger;
 mod recorder;
 mod run;
 
+#[doc(hidden)]
 pub use cost::{estimate, mean_pace};
-pub use ledger::{JOURNAL, Kept, Ledger};
+#[doc(hidden)]
+pub use ledger::JOURNAL;
+pub use ledger::{Kept, Ledger};
+#[doc(hidden)]
 pub use recorder::{Recorder, Recording};
 pub use run::{Beside, Task, Work, run};
 

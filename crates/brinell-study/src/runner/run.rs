@@ -4,7 +4,7 @@ use super::{Ledger, Recorder, RunnerError};
 use crate::campaign::{Row, fingerprint};
 use crate::listener::Listener;
 use brinell::channel::Frame;
-use brinell::result::{Finished, Quantity, finish};
+use brinell::result::{Quantity, RunResult, finish};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, Simulation, SolverWork};
 use brinell_io::SignalWriter;
@@ -29,7 +29,7 @@ pub trait Beside<E>: Observer {
     ///
     /// # Errors
     /// Where that cannot be kept.
-    fn finished(self: Box<Self>, finished: &Finished) -> Result<Vec<Quantity>, E>;
+    fn finished(self: Box<Self>, finished: &RunResult) -> Result<Vec<Quantity>, E>;
 }
 
 /// What makes runs of tasks.
@@ -78,7 +78,7 @@ pub trait Work: Sync {
     fn finished(
         &self,
         _: &Task,
-        _: &Finished,
+        _: &RunResult,
         _captured: &[f64],
     ) -> Result<Vec<Quantity>, Self::Error> {
         Ok(Vec::new())

@@ -4,10 +4,8 @@
 use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Scenario};
-use brinell::simulate::Observer;
 use brinell::solver::Stepper;
 use criterion::Criterion;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
@@ -60,15 +58,6 @@ pub fn moments(model: &Model) -> Vec<Moment> {
         }
     }
     moments
-}
-
-/// Looks at nothing.
-pub struct Nothing;
-
-impl Observer for Nothing {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
 }
 
 /// Short measurements: these runs are long beside the clock.

@@ -15,14 +15,14 @@ pub struct Entry {
     pub title: String,
     /// Its numbers for the scenario, in the file's order.
     pub values: Vec<Value>,
-    /// Numbers that fill no key of the scenario: [`BORE`] and, where a maker's is known, [`STATIC_RATING`].
+    /// Numbers that fill no key of the scenario: `BORE` and, where a maker's is known, `STATIC_RATING`.
     pub facts: Vec<Value>,
 }
 
 /// Bore diameter, mm.
-pub const BORE: &str = "bore_diameter_mm";
+pub(crate) const BORE: &str = "bore_diameter_mm";
 /// Basic static radial load rating C0, N.
-pub const STATIC_RATING: &str = "static_load_rating_n";
+pub(crate) const STATIC_RATING: &str = "static_load_rating_n";
 
 /// One number of a bearing, and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +44,7 @@ impl Entry {
         self.values.iter().find(named)?.value.number()
     }
 
-    /// One of [`BORE`] and [`STATIC_RATING`].
+    /// One of `BORE` and `STATIC_RATING`.
     pub fn fact(&self, key: &str) -> Option<f64> {
         self.fact_of(key).map(|(value, _)| value)
     }

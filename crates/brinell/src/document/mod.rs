@@ -27,13 +27,18 @@ mod words;
 mod writer;
 
 pub use example::template;
+#[doc(hidden)]
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
-pub use pointed::{on_one_line, one_line, pointed_out};
+pub use pointed::pointed_out;
+#[doc(hidden)]
+pub use pointed::{on_one_line, one_line};
 pub use problem::{Place, Problem, Severity};
+#[doc(hidden)]
 pub use problems::{MOST_OF_A_KIND, Problems, numberless};
 pub use provenance::{Origin, Provenance};
 pub use schema::json_schema;
+#[doc(hidden)]
 pub use source::{canonical, float as toml_float, locate, quote as toml_quote};
 
 /// What another document than the scenario is read with: the plan file of `brinell-study`. No promise to anybody else.

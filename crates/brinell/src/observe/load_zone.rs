@@ -7,6 +7,7 @@ use crate::scenario::ModelKind;
 use std::f64::consts::TAU;
 
 /// Angular bins around the bearing.
+#[doc(hidden)]
 pub const BINS: usize = 72;
 
 /// The bin of an orbit angle, rad.

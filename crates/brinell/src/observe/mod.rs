@@ -3,7 +3,7 @@
 pub mod load_zone;
 pub mod motion;
 pub mod orbit;
-pub mod pass_rate;
+mod pass_rate;
 pub mod passes;
 pub mod slip;
 pub mod slip_course;
@@ -131,6 +131,7 @@ pub enum Drift {
 }
 
 /// Gathers [`Findings`] while a run goes; feed it the calls of [`crate::simulate::Observer`].
+#[doc(hidden)]
 pub struct Watch {
     sample_rate: f64,
     half_way: f64,
@@ -352,6 +353,7 @@ const LEAST_SLIP_DRIFT: f64 = 1e-3;
 const LEAST_LEVEL_DRIFT: f64 = 0.02;
 
 /// Whether statistics count what a run shows from here on: the load is on and the shaft has turned once, or `half_way` (s) is reached.
+#[doc(hidden)]
 pub fn has_settled(frame: &Frame, half_way: f64) -> bool {
     let turned = frame.model.rotation.at(frame.t).1.abs() >= TAU;
     (turned && frame.t >= frame.model.load.ramp) || frame.t >= half_way

@@ -7,6 +7,7 @@ use crate::scenario::ModelKind;
 use std::f64::consts::TAU;
 
 /// Frames kept, at most.
+#[doc(hidden)]
 pub const FRAMES: usize = 240;
 /// Fewest frames, of bearings with many rollers.
 const FEWEST: usize = 60;

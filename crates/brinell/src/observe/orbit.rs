@@ -6,6 +6,7 @@ use crate::scenario::ModelKind;
 use std::f64::consts::TAU;
 
 /// Turns of the cage that are kept.
+#[doc(hidden)]
 pub const TURNS: usize = 4;
 /// Points of a turn.
 const POINTS: usize = 256;

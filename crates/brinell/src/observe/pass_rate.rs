@@ -54,14 +54,14 @@ impl Rate {
 
 /// Of all defects.
 #[derive(Debug, Clone)]
-pub struct PassRates {
+pub(super) struct PassRates {
     last: Option<f64>,
     rates: Vec<Rate>,
 }
 
 impl PassRates {
     /// Nothing seen yet.
-    pub fn new(model: &Model) -> Self {
+    pub(super) fn new(model: &Model) -> Self {
         let l: &Layout = &model.layout;
         let rate = |d: &crate::defect::Defect| Rate {
             surface: d.surface,
@@ -85,7 +85,7 @@ impl PassRates {
     }
 
     /// Takes the instant at which statistics begin or a whole revolution of the inner ring has ended.
-    pub fn take(&mut self, f: &Frame) {
+    pub(super) fn take(&mut self, f: &Frame) {
         for rate in &mut self.rates {
             let phase = rate.phase(f);
             if let Some(last) = self.last {
@@ -99,7 +99,7 @@ impl PassRates {
 
     /// Impacts per second on a defect, counted from 0, over whole revolutions; negative where the phase falls. `None` in the lumped model, whose
     /// rollers do not slip, and before the first revolution.
-    pub fn rate(&self, defect: usize) -> Option<Estimate> {
+    pub(super) fn rate(&self, defect: usize) -> Option<Estimate> {
         self.rates.get(defect)?.averages.estimate()
     }
 
@@ -107,7 +107,7 @@ impl PassRates {
     ///
     /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb splits into lobes, and the
     /// highest lobe is not the mean rate: farther from the motion's own by more than half a percent, that one stands in its place.
-    pub fn mean_rate(
+    pub(super) fn mean_rate(
         &self,
         defect: usize,
         found: LineFrequency,

@@ -277,6 +277,7 @@ impl Watch {
 }
 
 /// Words for where a defect lies.
+#[doc(hidden)]
 pub fn place(defect: &Defect) -> String {
     let row = defect.row + 1;
     match defect.surface {

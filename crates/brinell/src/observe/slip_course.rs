@@ -6,6 +6,7 @@ use crate::observe::load_zone::{BINS, bin_at};
 use crate::scenario::ModelKind;
 
 /// Stretches of time, at most.
+#[doc(hidden)]
 pub const STRETCHES: usize = 1024;
 /// Below this share of the highest speed, slip says nothing.
 const SLOWEST: f64 = 0.05;

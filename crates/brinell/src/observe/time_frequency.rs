@@ -6,12 +6,13 @@ use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 /// Frames kept, at most.
+#[doc(hidden)]
 pub const FRAMES: usize = 400;
 /// Samples of a segment, least and most.
 const SEGMENT: [usize; 2] = [64, 1024];
 
 /// A spectrogram on its way: Hann windows that overlap by half, as in [`crate::signal::spectrogram()`].
-pub struct TimeFrequency {
+pub(crate) struct TimeFrequency {
     sample_rate: f64,
     length: usize,
     window: Vec<f64>,
@@ -30,7 +31,7 @@ pub struct TimeFrequency {
 
 impl TimeFrequency {
     /// For about `samples` samples: bins and frames in equal number.
-    pub fn new(sample_rate: f64, samples: u64) -> Self {
+    pub(crate) fn new(sample_rate: f64, samples: u64) -> Self {
         let length = ((samples.max(1) as f64).sqrt() as usize)
             .next_power_of_two()
             .clamp(SEGMENT[0], SEGMENT[1]);
@@ -58,7 +59,7 @@ impl TimeFrequency {
     }
 
     /// Takes one sample.
-    pub fn push(&mut self, x: f64) {
+    pub(crate) fn push(&mut self, x: f64) {
         self.latest[self.filled] = x;
         self.filled += 1;
         if self.filled < self.length {
@@ -109,7 +110,7 @@ impl TimeFrequency {
     }
 
     /// The frames, each the mean of as many segments; `None` where the signal was shorter than one.
-    pub fn finish(mut self) -> Option<Spectrogram> {
+    pub(crate) fn finish(mut self) -> Option<Spectrogram> {
         let bins = self.output.len();
         if self.in_frame > 0 {
             self.sums.truncate(self.sums.len() - bins);

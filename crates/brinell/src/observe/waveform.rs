@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 /// Samples kept one by one.
+#[doc(hidden)]
 pub const KEPT: usize = 65_536;
 /// Bins of the overview, at most.
 const BINS: usize = 2048;

@@ -1,10 +1,13 @@
-//! One run from its scenario to its result: [`run()`] gives [`Finished`], which [`quantities()`] boils down to named numbers with
+//! One run from its scenario to its result: [`simulate()`] gives [`RunResult`], which [`quantities()`] boils down to named numbers with
 //! intervals. Knows no files.
 
 mod impacts;
 mod quantities;
 mod run;
 
+#[doc(hidden)]
 pub use impacts::{Impacts, impacts};
-pub use quantities::{LEAST_STIFFNESS, Quantity, Spread, indicator_name, names, quantities};
-pub use run::{Finished, Unfinished, finish, run};
+#[doc(hidden)]
+pub use quantities::{LEAST_STIFFNESS, names, quantities};
+pub use quantities::{Quantity, Spread};
+pub use run::{RunResult, finish, record, simulate, simulate_with};

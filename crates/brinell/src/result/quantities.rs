@@ -94,7 +94,7 @@ pub fn quantities(
 }
 
 /// Channel, kind and indicator as one name.
-pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
+pub(super) fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
     quantity_name(channel, kind, indicator.name())
 }
 

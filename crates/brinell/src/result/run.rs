@@ -1,14 +1,26 @@
 //! A scenario from start to findings.
 
 use crate::channel::Frame;
+use crate::document;
+use crate::error::Error;
 use crate::observe::{Findings, Watch};
 use crate::scenario::Scenario;
-use crate::simulate::{End, Observer, Outcome, RunError, Simulation, SolverWork};
+use crate::simulate::{End, Observer, Outcome, Signals, Simulation, SolverWork};
 use std::ops::ControlFlow;
+
+impl Scenario {
+    /// Reads the text of a scenario file. [`document::read`] takes overrides, and gives warnings and the origin of every value too.
+    ///
+    /// # Errors
+    /// [`Error::Scenario`] with every problem of the text.
+    pub fn from_toml(text: &str) -> Result<Self, Error> {
+        Ok(document::read(text, &[])?.scenario)
+    }
+}
 
 /// A run that is over, with all that was found in it.
 #[derive(Debug)]
-pub struct Finished {
+pub struct RunResult {
     /// What was run.
     pub scenario: Scenario,
     /// The same, made a model of.
@@ -19,7 +31,7 @@ pub struct Finished {
     pub findings: Findings,
 }
 
-impl Finished {
+impl RunResult {
     /// The run as named numbers.
     pub fn quantities(&self) -> Vec<super::Quantity> {
         super::quantities(
@@ -29,21 +41,15 @@ impl Finished {
             &self.findings,
         )
     }
-}
 
-/// Why a run did not come to its end.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Unfinished {
-    /// It could not.
-    #[error(transparent)]
-    Failed(#[from] RunError),
-    /// Somebody stopped it.
-    #[error("stopped before its end")]
-    Stopped,
+    /// One of [`RunResult::quantities`] by its name, such as `sensor_ax.rms`.
+    pub fn quantity(&self, name: &str) -> Option<super::Quantity> {
+        self.quantities().into_iter().find(|q| q.name == name)
+    }
 }
 
 /// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may break it off.
-pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> Finished {
+pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> RunResult {
     let mut both = Both {
         watch: Watch::new(&scenario, &simulation),
         simulation: &simulation,
@@ -51,7 +57,7 @@ pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Obse
     };
     let outcome = simulation.run(&mut both);
     let findings = both.watch.finish(&simulation);
-    Finished {
+    RunResult {
         scenario,
         simulation,
         outcome,
@@ -59,24 +65,40 @@ pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Obse
     }
 }
 
-/// Runs one scenario to its end. `progress` is told the simulated time reached, s, and may break off.
+/// Runs one scenario to its end.
 ///
 /// # Errors
-/// Where the run fails or is broken off: there is no half-finished run among finished ones.
-pub fn run(
-    scenario: Scenario,
-    progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Finished, Unfinished> {
-    let simulation = Simulation::new(&scenario)?;
-    whole(finish(scenario, simulation, &mut Told(progress)))
+/// Where the scenario makes no model, has no equilibrium to start from, or the run fails.
+pub fn simulate(scenario: &Scenario) -> Result<RunResult, Error> {
+    simulate_with(scenario, &mut ())
+}
+
+/// Runs one scenario to its end; `observer` hears of the run as it goes, and may break it off.
+///
+/// # Errors
+/// As [`simulate`], and [`Error::Stopped`]: there is no half-finished run among results.
+pub fn simulate_with(scenario: &Scenario, observer: &mut dyn Observer) -> Result<RunResult, Error> {
+    let simulation = Simulation::new(scenario)?;
+    complete(finish(scenario.clone(), simulation, observer))
+}
+
+/// Runs one scenario to its end and keeps its recorded channels in memory: 8 bytes a channel and sample.
+///
+/// # Errors
+/// As [`simulate`], and [`Error::TooLarge`].
+pub fn record(scenario: &Scenario) -> Result<(RunResult, Signals), Error> {
+    let simulation = Simulation::new(scenario)?;
+    let mut signals = Signals::new(&simulation)?;
+    let result = complete(finish(scenario.clone(), simulation, &mut signals))?;
+    Ok((result, signals))
 }
 
 /// Only what came to its end.
-fn whole(finished: Finished) -> Result<Finished, Unfinished> {
-    match &finished.outcome.end {
-        End::Complete => Ok(finished),
-        End::Stopped => Err(Unfinished::Stopped),
-        End::Failed(error) => Err(Unfinished::Failed(error.clone())),
+fn complete(result: RunResult) -> Result<RunResult, Error> {
+    match result.outcome.end {
+        End::Complete => Ok(result),
+        End::Stopped => Err(Error::Stopped),
+        End::Failed(error) => Err(error),
     }
 }
 
@@ -104,18 +126,5 @@ impl Observer for Both<'_> {
 
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
         self.besides.progress(t, work)
-    }
-}
-
-/// Hears nothing but the time.
-struct Told<F>(F);
-
-impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Told<F> {
-    fn row(&mut self, _: u64, _: &[f64], _: &[f64]) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
-        (self.0)(t)
     }
 }

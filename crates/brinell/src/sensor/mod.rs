@@ -23,7 +23,7 @@ use filter::{Mode, Passes, Running, low_cut, low_cut_response};
 use noise::{Level, Noise};
 
 /// Name of the channel along the sensor's own direction.
-pub const OWN_CHANNEL: &str = "sensor_out";
+pub(crate) const OWN_CHANNEL: &str = "sensor_out";
 
 /// A scenario's sensor, ready for runs at a sample rate.
 #[derive(Debug, Clone, PartialEq)]
@@ -181,7 +181,7 @@ impl Line {
 
 /// The chain during one run. Nothing is allocated after the start.
 #[derive(Debug, Clone)]
-pub struct Sensing {
+pub(crate) struct Sensing {
     lines: Vec<Line>,
     noise: Vec<Noise>,
     converter: Option<Converter>,
@@ -191,7 +191,7 @@ pub struct Sensing {
 
 impl Sensing {
     /// At rest before t = 0.
-    pub fn new(chain: &Chain) -> Self {
+    pub(crate) fn new(chain: &Chain) -> Self {
         let fast = chain.rate * FACTOR as f64;
         let run = |mode: &Mode| Running::new(mode.section(fast, PASSBAND * chain.rate));
         let line = Line {
@@ -218,14 +218,14 @@ impl Sensing {
     }
 
     /// One instant of the fast grid: accelerations of the ring, one for each channel, become those at the sensor.
-    pub fn fast(&mut self, channels: &mut [f64]) {
+    pub(crate) fn fast(&mut self, channels: &mut [f64]) {
         for (line, x) in self.lines.iter_mut().zip(channels) {
             *x = line.push(*x);
         }
     }
 
     /// One sample, behind the anti-alias filter: adds noise and converts. `counts` where the load is up.
-    pub fn sample(&mut self, channels: &mut [f64], counts: bool) {
+    pub(crate) fn sample(&mut self, channels: &mut [f64], counts: bool) {
         for (k, (record, x)) in self.records.iter_mut().zip(channels).enumerate() {
             if counts {
                 record.counted += 1;
@@ -246,7 +246,7 @@ impl Sensing {
     }
 
     /// What became of the channels: x, y, and the sensor's own if it has a direction.
-    pub fn records(&self) -> &[ChannelRecord] {
+    pub(crate) fn records(&self) -> &[ChannelRecord] {
         &self.records
     }
 }

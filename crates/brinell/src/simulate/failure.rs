@@ -1,20 +1,20 @@
 //! Why the solver could not go on: which body, which contact.
 
-use super::RunError;
 use crate::defect::SIDES;
+use crate::error::Error;
 use crate::model::{Layout, Workspace};
 use crate::solver::StepError;
 
 /// What the solver ran into, in words.
-pub(super) fn explain(error: StepError, l: &Layout, ws: &Workspace) -> RunError {
+pub(super) fn explain(error: StepError, l: &Layout, ws: &Workspace) -> Error {
     let contact = suspect(l, ws);
     match error {
-        StepError::NonFinite { t, index } => RunError::NonFinite {
+        StepError::NonFinite { t, index } => Error::NonFinite {
             t,
             body: l.name(index % l.dof()),
             contact,
         },
-        StepError::Vanished { t, index } => RunError::StepVanished {
+        StepError::Vanished { t, index } => Error::StepVanished {
             t,
             body: l.name(index % l.dof()),
             contact,

@@ -7,52 +7,22 @@
 mod anti_alias;
 mod failure;
 mod going;
+mod signals;
 mod switches;
 
 use crate::channel::{self, Channel, Frame};
-use crate::model::{Energy, Model, ModelError, Power};
+use crate::error::Error;
+use crate::model::{Energy, Model, Power};
 use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::solver::Work;
 use crate::start;
-use crate::statics::NoBalance;
 use going::Run;
 use std::ops::ControlFlow;
 
+#[doc(hidden)]
 pub use anti_alias::Decimator;
-
-/// Why a run ended before its time, or never began.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The scenario makes no model.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// There is no equilibrium to start from.
-    #[error("start = \"equilibrium\": {0}")]
-    NoBalance(#[from] NoBalance),
-    /// The state stopped being finite.
-    #[error("the state stopped being finite at t = {t:.9} s: {body}; {contact}")]
-    NonFinite {
-        /// Time of the last good state, s.
-        t: f64,
-        /// Body and coordinate.
-        body: String,
-        /// The contact that went first or is pressed hardest.
-        contact: String,
-    },
-    /// No step is short enough for the tolerance.
-    #[error(
-        "no step is short enough at t = {t:.9} s: {body} changes too fast for the tolerance; {contact}"
-    )]
-    StepVanished {
-        /// Time of the last good state, s.
-        t: f64,
-        /// Body and coordinate.
-        body: String,
-        /// The contact that is pressed hardest.
-        contact: String,
-    },
-}
+pub use signals::Signals;
 
 /// Receives a run as it goes.
 pub trait Observer {
@@ -68,12 +38,28 @@ pub trait Observer {
 
     /// One complete row of the recorded channels, in order; `filtered` are the anti-aliased values of
     /// [`Simulation::filtered`] at that sample. Breaking ends the run.
-    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()>;
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        let _ = (index, row, filtered);
+        ControlFlow::Continue(())
+    }
 
     /// Every few dozen steps: the simulated time reached. Breaking ends the run.
     fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
         let _ = (t, work);
         ControlFlow::Continue(())
+    }
+}
+
+/// Observes nothing.
+impl Observer for () {}
+
+/// An observer of the simulated time reached, s; its answer may break the run off.
+#[derive(Debug, Clone)]
+pub struct Progress<F>(pub F);
+
+impl<F: FnMut(f64) -> ControlFlow<()>> Observer for Progress<F> {
+    fn progress(&mut self, t: f64, _: &SolverWork) -> ControlFlow<()> {
+        (self.0)(t)
     }
 }
 
@@ -131,7 +117,7 @@ pub enum End {
     /// The observer broke off.
     Stopped,
     /// The solver could not go on.
-    Failed(RunError),
+    Failed(Error),
 }
 
 /// What remains of a run when its rows are gone.
@@ -174,7 +160,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Where the scenario makes no model or has no equilibrium to start from.
-    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+    pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         let model = Model::new(scenario)?;
         let initial = start::state(&model)?;
         let (channels, idle_patterns) =

@@ -10,8 +10,7 @@ pub mod cases;
 pub mod counting;
 
 use brinell::scenario::Scenario;
-use brinell::simulate::{End, Observer, Outcome, Simulation};
-use std::ops::ControlFlow;
+use brinell::simulate::{End, Outcome, Signals, Simulation};
 
 /// Named columns.
 pub struct Rows {
@@ -48,40 +47,14 @@ pub fn columns(text: &str) -> Rows {
     Rows { names, data }
 }
 
-struct Keep {
-    rate: f64,
-    data: Vec<Vec<f64>>,
-}
-
-impl Observer for Keep {
-    fn row(&mut self, index: u64, row: &[f64], _: &[f64]) -> ControlFlow<()> {
-        self.data[0].push(index as f64 / self.rate);
-        for (column, value) in self.data[1..].iter_mut().zip(row) {
-            column.push(*value);
-        }
-        ControlFlow::Continue(())
-    }
-}
-
 /// Runs a scenario and keeps its rows; panics where the run does not complete.
 pub fn simulate(scenario: &Scenario) -> (Rows, Outcome) {
     let simulation = Simulation::new(scenario).unwrap();
-    let names: Vec<String> = std::iter::once("t".to_owned())
-        .chain(simulation.channels().iter().map(|c| c.name.clone()))
-        .collect();
-    let mut keep = Keep {
-        rate: simulation.sample_rate(),
-        data: vec![Vec::new(); names.len()],
-    };
-    let outcome = simulation.run(&mut keep);
+    let mut signals = Signals::new(&simulation).unwrap();
+    let outcome = simulation.run(&mut signals);
     assert_eq!(outcome.end, End::Complete);
-    (
-        Rows {
-            names,
-            data: keep.data,
-        },
-        outcome,
-    )
+    let (names, data) = signals.into_iter().unzip();
+    (Rows { names, data }, outcome)
 }
 
 /// The rows alone.
