@@ -6,7 +6,8 @@ use cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
-    Analysis, AnalysisError, NamedBearing, Options, Side, Standing, Verdict, analyze, compare,
+    Analysis, AnalysisError, Component, NamedBearing, Options, Side, Standing, Verdict, analyze,
+    compare,
 };
 use brinell_signal::random::Random;
 
@@ -288,6 +289,57 @@ fn prop_a_wrong_speed_is_pointed_to_and_blamed_on_nobody() {
         );
         assert!(told.verdict().contains("Are speed and bearing right?"));
     }
+}
+
+/// Something that strikes half or a third as often as a race would be passed has lines at the race's frequency as well.
+#[test]
+fn prop_a_slower_comb_is_told_from_damage_at_its_multiple() {
+    let fs = 12_000.0;
+    for part in 2..=6 {
+        let slower = Damage {
+            order: 3.5848 / f64::from(part),
+            modulation: 0.0,
+            jitter: 0.002,
+            snr_db: 6.0,
+        };
+        let told = look(&damaged(fs, 4.0, part as u64, &slower), fs);
+        assert_eq!(first(&told), None, "{}", told.verdict());
+        let comb = told.elsewhere.expect("a comb between the lines");
+        let off = comb.frequency / (slower.order * SHAFT) - 1.0;
+        // Slip of half a per cent, as of all that this rig is struck by.
+        assert!(off.abs() < 0.01, "{part}: {comb:?}");
+    }
+}
+
+/// An inverter's lines near BPFO are nobody's where its frequency is given.
+#[test]
+fn prop_lines_of_the_supply_are_set_aside() {
+    let fs = 12_000.0;
+    // Six poles: 3.05 times the shaft's speed, where a 6203 has its BPFO.
+    let supply = 3.05 * SHAFT;
+    let x: Vec<f64> = (healthy(fs, 4.0, 1).iter().enumerate())
+        .map(|(i, v)| {
+            let t = i as f64 / fs;
+            let sidebands = (-6..=6).map(|k| (TAU * (3000.0 + f64::from(k) * supply) * t).cos());
+            v + 0.2 * sidebands.sum::<f64>()
+        })
+        .collect();
+    let mut options = Options::new(SHAFT, NamedBearing::find("6203-2RS").unwrap().orders());
+    let told = analyze(&x, fs, &options).unwrap();
+    assert_eq!(
+        first(&told),
+        Some(Component::OuterRace),
+        "{}",
+        told.verdict()
+    );
+    options.supply = Some(1.002 * supply);
+    let told = analyze(&x, fs, &options).unwrap();
+    assert_eq!(
+        told.conclusion(),
+        Verdict::NothingFound,
+        "{}",
+        told.verdict()
+    );
 }
 
 /// A record of the healthy machine: lines too faint for damage are told where they have grown, and damage that was there before is none.

@@ -114,6 +114,10 @@ pub(crate) struct AnalyzeArgs {
     /// Range to demodulate [default: everything above three times the highest defect frequency]
     #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
     pub(crate) band: Option<Vec<f64>>,
+    /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are set aside [default: those of 50 and 60 Hz
+    /// where three stand]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub(crate) supply: Option<f64>,
     /// Skip so much of the signal's beginning
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) start: Option<f64>,

@@ -7,6 +7,10 @@ use brinell::analysis::DefectOrders;
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
 
+/// What BPFO, BPFI, BSF and FTF may be over the shaft's frequency, the outer ring at rest: Z (1 - g) / 2, Z (1 + g) / 2, (1 / g - g) / 2 and (1 - g) / 2
+/// for five or more elements and a g = (d / D) cos a up to 0.6.
+const POSSIBLE: [(f64, f64); 4] = [(1.0, 200.0), (2.5, 200.0), (0.5, 25.0), (0.19, 0.51)];
+
 /// Orders over the shaft's frequency `shaft` (Hz), of the bearing of this name where there is one, and where they come from.
 pub(super) fn orders(
     args: &AnalyzeArgs,
@@ -22,11 +26,18 @@ pub(super) fn orders(
         ("--ftf", "FTF", &args.ftf, &mut orders.ftf),
     ];
     let mut named = Vec::new();
-    for (option, name, text, order) in given {
+    for ((option, name, text, order), possible) in given.into_iter().zip(POSSIBLE) {
         if let Some(text) = text {
-            *order = Some(frequency(option, text, shaft)?);
+            *order = Some(frequency(option, text, shaft, possible)?);
             named.push(name);
         }
+    }
+    if let (Some(bpfo), Some(bpfi)) = (orders.bpfo, orders.bpfi)
+        && bpfo >= bpfi
+    {
+        return Err(Failure::Usage(format!(
+            "BPFO {bpfo:.4}x and BPFI {bpfi:.4}x: expected the inner race to be passed more often than the outer, which rests"
+        )));
     }
     if !named.is_empty() {
         let words = format!("{} as given", named.join(", "));
@@ -90,17 +101,33 @@ fn base(
     Ok((DefectOrders::default(), String::new()))
 }
 
-/// `107.4` in Hz or `3.585x` the shaft, as an order.
-fn frequency(option: &str, text: &str, shaft: f64) -> Result<f64, Failure> {
+/// `107.4` in Hz or `3.585x` the shaft, as an order within what is possible.
+fn frequency(
+    option: &str,
+    text: &str,
+    shaft: f64,
+    (least, most): (f64, f64),
+) -> Result<f64, Failure> {
     let plain = text.trim();
-    let (number, per) = match plain.strip_suffix(['x', 'X']) {
-        Some(number) => (number, 1.0),
-        None => (plain, shaft),
+    let (number, per, in_hz) = match plain.strip_suffix(['x', 'X']) {
+        Some(number) => (number, 1.0, false),
+        None => (plain, shaft, true),
     };
-    match number.trim().parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value / per),
-        _ => Err(Failure::Usage(format!(
+    let value = (number.trim().parse::<f64>().ok()).filter(|v| *v > 0.0 && v.is_finite());
+    let Some(value) = value else {
+        return Err(Failure::Usage(format!(
             "{option} {text}: expected a frequency above 0 in Hz, as 107.4, or a multiple of the shaft's, as 3.585x"
-        ))),
+        )));
+    };
+    let order = value / per;
+    if (least..=most).contains(&order) {
+        return Ok(order);
     }
+    let meant = match in_hz && (least..=most).contains(&value) {
+        true => format!("; a multiple of the shaft's is written {number}x"),
+        false => String::new(),
+    };
+    Err(Failure::Usage(format!(
+        "{option} {text}: {order:.4} times the shaft's {shaft:.3} Hz, expected {least} to {most} times for a rolling bearing whose outer ring rests{meant}"
+    )))
 }

@@ -86,6 +86,11 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             args.tolerance
         )));
     }
+    if let Some(hz) = args.supply.filter(|hz| !(1.0..=1000.0).contains(hz)) {
+        return Err(Failure::Usage(format!(
+            "--supply {hz}: expected 1 to 1000 Hz"
+        )));
+    }
     if args.bearing.len() > 1 {
         let beside = [&args.bpfo, &args.bpfi, &args.bsf, &args.ftf];
         if args.against.is_some() || beside.iter().any(|option| option.is_some()) {
@@ -185,6 +190,7 @@ fn examine(
     options.tolerance = 0.01 * args.tolerance;
     options.silent = measured.silent();
     options.exact = measured.scenario.is_some() && args.speed.is_none() && !args.names_a_bearing();
+    options.supply = args.supply;
     options.band = args.band.as_ref().map(|b| Band::between(b[0], b[1]));
     if args.speed.is_none() {
         options.rotation = rotation(&measured)?;
@@ -192,6 +198,7 @@ fn examine(
     // The rest of a long signal is read beside the analysis of its beginning.
     let reading = measured.beyond.take().map(Beyond::start);
     let mut analysis = look(&measured, &options)?;
+    (measured.warnings).extend(analysis.flaws.iter().map(ToString::to_string));
     let velocity = velocities(&measured, shaft);
     let level = Level::of(&measured, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;

@@ -2,7 +2,7 @@
 
 use super::{HEADLINES, Result_, whole_indicators};
 use crate::say::{say, short};
-use brinell::analysis::{Analysis, COLUMNS, Difference, Verdict};
+use brinell::analysis::{Analysis, COLUMNS, Difference, Family, Verdict};
 use brinell::signal::Indicator;
 use std::path::PathBuf;
 
@@ -51,9 +51,10 @@ fn own_lines(a: &Analysis) -> String {
 
 /// The damaged parts in a word or two each, or what is said instead.
 pub(super) fn called(a: &Analysis) -> String {
-    let parts: Vec<&str> = a.causes().map(|f| f.component.words()).collect();
+    let part = |f: &Family| format!("{}, {}", f.component.words(), a.clarity(f));
+    let parts: Vec<String> = a.causes().map(part).collect();
     match a.conclusion() {
-        Verdict::Damage => parts.join(", "),
+        Verdict::Damage => parts.join("; "),
         Verdict::CannotTell => "cannot tell".into(),
         Verdict::NothingFound => "no damage found".into(),
     }

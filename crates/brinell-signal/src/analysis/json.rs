@@ -39,6 +39,7 @@ pub fn to_json(
             "found_in_signal": !analysis.shaft_lines.is_empty(),
             "harmonics_found": analysis.shaft_lines,
         },
+        "flaws": analysis.flaws.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "drift": analysis.drift.as_ref().map(|d| {
             let point = |(t, hz): (f64, f64)| json!({ "at_s": t, "rpm": 60.0 * hz });
             json!({

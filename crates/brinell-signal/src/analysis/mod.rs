@@ -36,6 +36,7 @@ mod known_lines;
 mod levels;
 mod sensitivity;
 mod severity;
+mod soundness;
 mod together;
 mod unit;
 mod verdict;
@@ -54,6 +55,7 @@ pub use sensitivity::{FullScale, Sensitivity};
 pub use severity::{
     BandLevel, MachineClass, NoVelocity, NoZone, SEVERITY_BAND, Zone, band_level, severity,
 };
+pub use soundness::Flaw;
 pub use together::HARMONICS;
 pub use unit::{Quantity, Unit};
 pub use verdict::Elsewhere;
@@ -79,6 +81,8 @@ pub struct Options {
     pub tolerance: f64,
     /// The range to demodulate; `None` takes everything above three times the highest defect frequency.
     pub band: Option<Band>,
+    /// Frequency of the motor's supply, Hz, where an inverter makes it: lines at its multiples are set aside, as those of the mains are.
+    pub supply: Option<f64>,
     /// The shaft's angle over time, where its speed varies: envelopes are then taken at equal angles, and a frequency in Hz is
     /// its order times `shaft`, the mean speed. Time counts from the first sample.
     pub rotation: Option<Rotation>,
@@ -96,6 +100,7 @@ impl Options {
             orders,
             tolerance: 0.02,
             band: None,
+            supply: None,
             rotation: None,
             silent: false,
             exact: false,
@@ -168,6 +173,8 @@ pub struct Analysis {
     pub shaft: f64,
     /// Whether it is known: from lines of the signal, or as it was followed.
     pub shaft_found: bool,
+    /// What is wrong with the record itself.
+    pub flaws: Vec<Flaw>,
     /// How the speed changes during the record, where lines tell it and nobody said so.
     pub drift: Option<Drift>,
     /// Harmonics of the shaft whose lines told its speed; none where it was given or followed.
@@ -251,6 +258,10 @@ impl Analysis {
 /// sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
+    let flaws = soundness::flaws(x, fs, options.shaft);
+    // What is missing has no speed.
+    let is_whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
+    let steady = options.rotation.is_some() || options.exact || !is_whole;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
     // What asks for nothing but the samples goes side by side.
@@ -265,7 +276,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
             Some(_) => Ok(None),
             None => known_lines::shaft(&x, fs, options),
         });
-        let drift = scope.spawn(|| match options.rotation.is_some() || options.exact {
+        let drift = scope.spawn(|| match steady {
             true => None,
             false => drift::by_shaft(&x, fs, options),
         });
@@ -289,8 +300,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
     drop(x);
     let range = bands::range(fs, options)?;
     let mut envelopes = Envelopes::of(&transformed, range, shaft, options)?;
-    let known = options.rotation.is_some() || options.exact;
-    if drift.is_none() && shaft_lines.is_empty() && !known {
+    if drift.is_none() && shaft_lines.is_empty() && !steady {
         drift = drift::by_families(&envelopes, options);
     }
     let tolerance = match shaft_lines.is_empty() || options.exact {
@@ -373,6 +383,7 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
         shaft,
         shaft_found: options.rotation.is_some() || !shaft_lines.is_empty(),
         shaft_lines,
+        flaws,
         drift,
         indicators,
         kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),

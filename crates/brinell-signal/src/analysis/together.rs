@@ -31,6 +31,8 @@ const NOISE: f64 = 1.0 - 1.35e-3;
 const STANDS: f64 = 2.0;
 /// Lines of the mains that have to stand before they are set aside.
 const OF_MAINS: usize = 3;
+/// How well an inverter's frequency is known, relative.
+const SUPPLY_KNOWN: f64 = 0.005;
 /// Lines of the shaft by which its comb is placed.
 const OF_SHAFT: usize = 10;
 
@@ -120,14 +122,19 @@ impl Together {
         let lines =
             |f: f64, n: usize| (1..=n).map(move |k| this.at(k as f64 * f).ratio.unwrap_or(1.0));
         let stand = |f: &f64| lines(*f, OF_MAINS).all(|ratio| ratio >= this.standing());
-        // Of the places at which the shaft's lines may be, the one at which they stand highest.
+        // Of the places at which lines may be, the one at which they stand highest.
         let height = |f: f64| -> f64 { lines(f, OF_SHAFT).map(f64::ln).sum() };
-        let step = 0.25 * self.step / OF_SHAFT as f64;
-        let steps = (shaft.tolerance / step) as i32;
-        let places = (-steps..=steps).map(|k| shaft.hz + f64::from(k) * step);
-        let highest = places.max_by(|a, b| height(*a).total_cmp(&height(*b)));
+        let highest = |f: f64, tolerance: f64| {
+            let step = 0.25 * self.step / OF_SHAFT as f64;
+            let steps = (tolerance / step) as i32;
+            let places = (-steps..=steps).map(|k| f + f64::from(k) * step);
+            places.max_by(|a, b| height(*a).total_cmp(&height(*b)))
+        };
+        let of_shaft = (shaft.tolerance > 0.0).then(|| highest(shaft.hz, shaft.tolerance));
+        let of_supply = options.supply.map(|hz| highest(hz, SUPPLY_KNOWN * hz));
         let combs: Vec<f64> = (mains.into_iter().filter(stand))
-            .chain(highest.filter(|_| shaft.tolerance > 0.0))
+            .chain(of_shaft.flatten())
+            .chain(of_supply.flatten())
             .chain((!options.exact).then_some(shaft.hz))
             .collect();
         for comb in combs {
