@@ -29,6 +29,7 @@ mod writer;
 pub use example::template;
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
+pub(crate) use nearest::nearest;
 pub use pointed::{on_one_line, one_line, pointed_out};
 pub use problem::{Place, Problem, Severity};
 pub use problems::{MOST_OF_A_KIND, Problems, numberless};
