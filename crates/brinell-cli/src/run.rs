@@ -15,7 +15,7 @@ use crate::{files, page};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
 use brinell::plausibility::{self, Beforehand};
-use brinell::result::{RunResult, finish};
+use brinell::result::{RunResult, fields, finish};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
@@ -357,7 +357,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         loaded,
         ..
     } = *parts;
-    let reached = outcome.rows.saturating_sub(1) as f64 / parts.simulation.sample_rate();
+    let reached = outcome.reached;
     match &outcome.end {
         End::Complete => {}
         End::Stopped => told.push(format!(
@@ -372,8 +372,8 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         one_line(&loaded.scenario.name),
         short(reached, 4),
         reached / elapsed,
-        outcome.work.solver.steps,
-        outcome.work.solver.evaluations + outcome.work.sample_evaluations,
+        (fields::STEPS.of)(outcome),
+        (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
     for channel in &findings.channels {
         if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
@@ -418,18 +418,13 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             line.nominal
         ));
     }
-    let energy = &outcome.energy;
+    let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
     told.push(format!(
         "  energy audit closes to {} of the turnover, momentum to {}",
-        short(
-            energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE),
-            1
-        ),
-        outcome
-            .momentum_imbalance
-            .map_or("(rigid mount)".into(), |x| short(x, 1)),
+        part.map_or("-".into(), |x| short(x.abs(), 1)),
+        (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
     ));
-    let after = plausibility::after(&loaded.scenario, energy);
+    let after = plausibility::after(&loaded.scenario, &outcome.energy);
     told.extend(after.into_iter().map(|words| format!("warning: {words}")));
     for path in written {
         told.push(format!("  wrote {}", path.display()));

@@ -4,11 +4,11 @@
 //! decimals that read back to the same 64 bits. Parquet holds optional columns of doubles and of UTF-8; units and metadata go to its footer
 //! under the same keys as those of signals. The same table gives the same bytes.
 
-#[cfg(feature = "parquet")]
-use crate::Metadata;
 use crate::atomic::{Complete, atomic_prepare};
 use crate::signals::check_columns;
 use crate::{Column, IoError};
+#[cfg(feature = "parquet")]
+use crate::{Kind, Metadata, RecordColumn, RecordWriter, records::Cell};
 use std::path::{Path, PathBuf};
 
 /// A column's cells, one a row.
@@ -135,12 +135,28 @@ impl Table {
     ) -> Result<Complete, IoError> {
         let path = path.as_ref();
         self.check(path)?;
-        let bytes = parquet::bytes(self, metadata).map_err(|error| IoError::NotWritable {
-            path: path.to_owned(),
-            format: "Parquet",
-            why: error.to_string(),
-        })?;
-        atomic_prepare(path, bytes)
+        let columns = self.columns.iter().zip(&self.cells);
+        let columns: Vec<RecordColumn> = columns
+            .map(|(column, cells)| RecordColumn {
+                column: column.clone(),
+                kind: match cells {
+                    Cells::Numbers(_) => Kind::Number,
+                    Cells::Words(_) => Kind::Words,
+                },
+            })
+            .collect();
+        let cell = |cells: &Cells, row: usize| match cells {
+            Cells::Numbers(cells) => cells[row].map(Cell::Number),
+            Cells::Words(cells) => cells[row].clone().map(Cell::Words),
+        };
+        let row = |row: usize| -> Vec<Cell> {
+            let cells = self.cells.iter().map(|cells| cell(cells, row));
+            cells.map(|cell| cell.unwrap_or(Cell::Empty)).collect()
+        };
+        let mut writer = RecordWriter::create(path, &columns, metadata)?;
+        // One row group: a table is held whole anyway.
+        writer.write_group(&(0..self.rows()).map(row).collect::<Vec<_>>())?;
+        writer.complete()
     }
 
     /// Reads a table back from Parquet.
@@ -170,83 +186,12 @@ fn quoted(text: &str) -> String {
 #[cfg(feature = "parquet")]
 mod parquet {
     use super::{Cells, Table};
-    use crate::signals::units_json;
-    use crate::{Column, Metadata, keys};
-    use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
-    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+    use crate::{Column, keys};
+    use parquet::basic::Type as Physical;
     use parquet::errors::{ParquetError, Result};
-    use parquet::file::metadata::KeyValue;
-    use parquet::file::properties::WriterProperties;
     use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::file::writer::SerializedFileWriter;
     use parquet::record::Field;
-    use parquet::schema::types::Type;
     use std::path::Path;
-    use std::sync::Arc;
-
-    /// The file. One row group: a table is held whole anyway.
-    pub(super) fn bytes(table: &Table, metadata: &Metadata) -> Result<Vec<u8>> {
-        let fields = table
-            .columns
-            .iter()
-            .zip(&table.cells)
-            .map(|(column, cells)| {
-                let (physical, logical) = match cells {
-                    Cells::Numbers(_) => (Physical::DOUBLE, None),
-                    Cells::Words(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
-                };
-                let builder = Type::primitive_type_builder(&column.name, physical)
-                    .with_repetition(Repetition::OPTIONAL)
-                    .with_logical_type(logical);
-                Ok(Arc::new(builder.build()?))
-            });
-        let schema = Type::group_type_builder("schema")
-            .with_fields(fields.collect::<Result<_>>()?)
-            .build()?;
-        let mut pairs: Vec<KeyValue> = metadata
-            .pairs
-            .iter()
-            .map(|(key, value)| KeyValue::new(key.clone(), value.clone()))
-            .collect();
-        pairs.push(KeyValue::new(
-            keys::UNITS.into(),
-            units_json(&table.columns),
-        ));
-        let properties = WriterProperties::builder()
-            .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
-            .set_key_value_metadata(Some(pairs))
-            .build();
-        let mut bytes = Vec::new();
-        let mut file =
-            SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties))?;
-        let mut group = file.next_row_group()?;
-        for cells in &table.cells {
-            let mut column = group
-                .next_column()?
-                .ok_or_else(|| ParquetError::General("fewer columns than fields".into()))?;
-            match cells {
-                Cells::Numbers(cells) => {
-                    let values: Vec<f64> = cells.iter().flatten().copied().collect();
-                    let levels: Vec<i16> = cells.iter().map(|c| i16::from(c.is_some())).collect();
-                    column
-                        .typed::<DoubleType>()
-                        .write_batch(&values, Some(&levels), None)?;
-                }
-                Cells::Words(cells) => {
-                    let values: Vec<ByteArray> =
-                        cells.iter().flatten().map(|s| s.as_str().into()).collect();
-                    let levels: Vec<i16> = cells.iter().map(|c| i16::from(c.is_some())).collect();
-                    column
-                        .typed::<ByteArrayType>()
-                        .write_batch(&values, Some(&levels), None)?;
-                }
-            }
-            column.close()?;
-        }
-        group.close()?;
-        file.close()?;
-        Ok(bytes)
-    }
 
     pub(super) fn table(path: &Path) -> Result<Table> {
         let file = std::fs::File::open(path)?;

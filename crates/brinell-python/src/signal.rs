@@ -208,7 +208,7 @@ pub(crate) fn indicators<'py>(
             let e = blocks.estimate(i)?;
             let value = json!({
                 "value": e.value,
-                "unit": if i.has_unit() { unit } else { "" },
+                "unit": i.unit(unit),
                 "low": e.interval.map(|i| i.low),
                 "high": e.interval.map(|i| i.high),
                 "blocks": blocks.revolutions(),

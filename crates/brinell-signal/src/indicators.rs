@@ -65,9 +65,30 @@ impl Indicator {
         }
     }
 
+    /// What it is, in one sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Indicator::Rms => "root mean square, about zero",
+            Indicator::Mean => "mean",
+            Indicator::StandardDeviation => "root mean square about the mean",
+            Indicator::Peak => "largest absolute value",
+            Indicator::PeakToPeak => "largest less smallest value",
+            Indicator::CrestFactor => "peak over RMS",
+            Indicator::Kurtosis => "fourth standardised moment; 3 for a normal distribution",
+            Indicator::Skewness => "third standardised moment",
+            Indicator::ImpulseFactor => "peak over mean absolute value",
+            Indicator::ShapeFactor => "RMS over mean absolute value",
+        }
+    }
+
     /// Whether the value cannot be negative; only mean and skewness can.
     pub fn is_positive(self) -> bool {
         !matches!(self, Indicator::Mean | Indicator::Skewness)
+    }
+
+    /// Unit of the value, of a signal in `signal`; empty of a pure number.
+    pub fn unit(self, signal: &str) -> &str {
+        if self.has_unit() { signal } else { "" }
     }
 
     /// Whether the value carries the signal's unit; otherwise it is a pure number.

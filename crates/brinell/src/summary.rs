@@ -7,8 +7,9 @@ use crate::model::Model;
 use crate::observe::load_zone::BINS;
 use crate::observe::{Drift, Findings, passes};
 use crate::plausibility::{self, Beforehand};
+use crate::result::fields::{self, Field};
 use crate::scenario::{Accuracy, ModelKind, Speed};
-use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+use crate::signal::{Estimate, Indicator};
 use crate::simulate::{End, Outcome, Simulation};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -47,10 +48,10 @@ pub fn to_json(parts: &Parts) -> Value {
             "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped" },
             "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
             "duration_s": scenario.simulation.duration_s,
-            "reached_s": outcome.rows.saturating_sub(1) as f64 / simulation.sample_rate(),
-            "samples": outcome.rows,
+            "reached_s": outcome.reached,
+            "samples": (fields::SAMPLES.of)(outcome),
             "sample_rate_hz": simulation.sample_rate(),
-            "analysed_from_s": findings.from,
+            "analysed_from_s": (fields::ANALYSED_FROM.of)(findings),
         },
         "defect_frequencies": frequencies(model, &scenario.operation.speed_rpm),
         "defects": defects(parts),
@@ -59,7 +60,7 @@ pub fn to_json(parts: &Parts) -> Value {
         "load_zone": load_zone(parts),
         "solver": solver(outcome),
         "energy_audit_j": energy(outcome),
-        "momentum_audit": { "largest_relative_imbalance": outcome.momentum_imbalance },
+        "momentum_audit": { "largest_relative_imbalance": (fields::MOMENTUM_IMBALANCE.of)(outcome) },
         "assumed": loaded.provenance.iter().filter(|p| p.assumed).map(assumption).collect::<Vec<_>>(),
         "warnings": warnings(parts),
     });
@@ -239,11 +240,12 @@ fn indicators(findings: &Findings) -> Value {
             .filter_map(|i| Some((i.name().to_owned(), estimate(&channel.blocks.estimate(i)?))))
             .collect();
         let record = channel.blocks.record();
-        for (name, indicator) in [
-            (RECORD_PEAK, Indicator::Peak),
-            (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak),
-        ] {
-            values.extend(record.get(indicator).map(|x| (name.to_owned(), x.into())));
+        for field in fields::record(channel.unit) {
+            values.extend(
+                record
+                    .get(field.of)
+                    .map(|x| (field.name.to_owned(), x.into())),
+            );
         }
         let entry = channels
             .entry(channel.name.clone())
@@ -252,7 +254,7 @@ fn indicators(findings: &Findings) -> Value {
     }
     json!({
         "meaning": "value, and low to high, its 95 % interval, of averages over whole revolutions of the inner ring; peaks are those of a revolution, record_* those of the whole record",
-        "revolutions": findings.channels.first().map_or(0, |c| c.blocks.revolutions()),
+        "revolutions": (fields::ANALYSED_TURNS.of)(findings) as u64,
         "channels": channels,
     })
 }
@@ -261,12 +263,13 @@ fn slip(findings: &Findings) -> Value {
     let rows = findings.slip.rows.iter().map(|row| {
         let mut values = Map::new();
         let mut intervals = Map::new();
-        for (name, estimate) in [
-            ("cage", row.cage()),
-            ("loaded_rollers_orbit", row.loaded_orbit()),
-            ("loaded_rollers_surface", row.loaded_surface()),
-            ("unloaded_rollers_orbit", row.unloaded_orbit()),
+        for (name, field) in [
+            ("cage", fields::CAGE_SLIP),
+            ("loaded_rollers_orbit", fields::LOADED_ORBIT_SLIP),
+            ("loaded_rollers_surface", fields::LOADED_SURFACE_SLIP),
+            ("unloaded_rollers_orbit", fields::UNLOADED_ORBIT_SLIP),
         ] {
+            let estimate = (field.of)(row);
             let interval = estimate.and_then(|e| e.interval);
             values.insert(name.into(), json!(estimate.map(|e| e.value)));
             intervals.insert(name.into(), json!(interval.map(|i| [i.low, i.high])));
@@ -302,15 +305,17 @@ fn load_zone(parts: &Parts) -> Value {
 }
 
 fn solver(outcome: &Outcome) -> Value {
-    let w = &outcome.work;
+    let count = |field: Field<fn(&Outcome) -> u64>| (field.of)(outcome);
     json!({
         "method": METHOD,
         "kernel": Kernel::in_use().name(),
-        "steps": w.solver.steps,
-        "rejections": w.solver.rejections,
-        "right_hand_sides": w.solver.evaluations,
-        "right_hand_sides_for_samples": w.sample_evaluations,
-        "force_switches": { "contacts": w.contact_switches, "pockets": w.pocket_switches, "defect_edges": w.damage_switches },
+        "steps": count(fields::STEPS),
+        "rejections": count(fields::REJECTIONS),
+        "right_hand_sides": count(fields::RIGHT_HAND_SIDES),
+        "right_hand_sides_for_samples": count(fields::SAMPLE_RIGHT_HAND_SIDES),
+        "force_switches": {
+            "contacts": count(fields::CONTACT_SWITCHES), "pockets": count(fields::POCKET_SWITCHES), "defect_edges": count(fields::DAMAGE_SWITCHES),
+        },
     })
 }
 
@@ -330,9 +335,9 @@ fn energy(outcome: &Outcome) -> Value {
             "contact_damping": f.contact, "raceway_friction": f.friction, "pocket_damping": f.pocket,
             "pocket_friction": f.pocket_friction, "land_damping": f.land, "supports": f.support, "drag": f.drag,
         },
-        "parametric_work_of_defects": e.parametric,
+        "parametric_work_of_defects": (fields::PARAMETRIC_ENERGY.of)(outcome),
         "centred_levers": f.lever,
-        "residual": e.residual(),
-        "residual_over_turnover": if e.turnover() > 0.0 { e.residual() / e.turnover() } else { 0.0 },
+        "residual": (fields::ENERGY_RESIDUAL.of)(outcome),
+        "residual_over_turnover": (fields::RELATIVE_RESIDUAL.of)(outcome),
     })
 }

@@ -1,5 +1,8 @@
-//! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which.
+//! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which. The book's list of a
+//! run's numbers against the engine's.
 
+use brinell::result::fields::{self, Field};
+use brinell::signal::Indicator;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -151,4 +154,54 @@ fn prop_architecture_says_which_crate_depends_on_which() {
         assert_eq!(stale, None, "{name} does not depend on it");
     }
     assert_eq!(cycle(&uses), None, "crates that depend on each other");
+}
+
+/// Rows of the book's table.
+fn rows<F>(subject: &str, list: &[Field<F>]) -> Vec<String> {
+    let row = |f: &Field<F>| {
+        let interval = if f.estimator.has_interval() {
+            "95 %"
+        } else {
+            ""
+        };
+        let estimator = format!("{:?}", f.estimator).to_lowercase();
+        let meaning = f.meaning.replace('|', "\\|");
+        format!(
+            "| `{subject}{}` | {} | {meaning} | {estimator} | {interval} |\n",
+            f.name, f.unit
+        )
+    };
+    list.iter().map(row).collect()
+}
+
+#[test]
+fn regress_the_book_lists_every_number() {
+    let unit = "of the channel";
+    let all = [
+        rows(
+            "CHANNEL.",
+            &Indicator::ALL.map(|i| fields::indicator(i, unit)),
+        ),
+        rows("CHANNEL.", &fields::record(unit)),
+        rows("envelope.", fields::LINES),
+        rows("defectN.", fields::DEFECT),
+        rows("defectN.", fields::IMPACTS),
+        rows("rowN.", fields::SLIP),
+        rows("rowN.", fields::LOAD),
+        rows("audit.", fields::AUDITS),
+        rows("work.", fields::WORK),
+        rows("", fields::ANALYSED),
+        rows("", fields::COURSE),
+    ];
+    let all = all.concat();
+    let mut once: Vec<&String> = all.iter().collect();
+    once.sort();
+    once.dedup();
+    assert_eq!(once.len(), all.len(), "every name is there once");
+    let page = fs::read_to_string(root().join("docs/src/results/numbers.md")).unwrap();
+    let table = all.concat();
+    assert!(
+        page.contains(&table),
+        "docs/src/results/numbers.md should hold\n{table}"
+    );
 }

@@ -189,11 +189,7 @@ fn facts(result: &Result_) -> Vec<Fact> {
     }
     for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
         if let Some((_, e)) = a.indicators.iter().find(|(k, _)| *k == i) {
-            let unit = if i.has_unit() {
-                m.unit.name.as_str()
-            } else {
-                ""
-            };
+            let unit = i.unit(&m.unit.name);
             let label = i.name().replace('_', " ");
             let note = match i {
                 Indicator::Peak => "mean over revolutions",
@@ -256,11 +252,7 @@ fn indicators(result: &Result_) -> Table {
     let unit = &result.measured.unit.name;
     let mut rows: Vec<Vec<String>> = (result.analysis.indicators.iter())
         .map(|(i, e)| {
-            let unit = if i.has_unit() {
-                unit.clone()
-            } else {
-                String::new()
-            };
+            let unit = i.unit(unit).to_owned();
             vec![
                 capital(&i.name().replace('_', " ")),
                 short(e.value, 4),
@@ -311,11 +303,7 @@ fn differences(result: &Result_) -> Vec<Table> {
     let unit = &result.measured.unit.name;
     let indicators = (c.indicators.iter())
         .map(|d| {
-            let unit = if d.indicator.has_unit() {
-                unit.clone()
-            } else {
-                String::new()
-            };
+            let unit = d.indicator.unit(unit).to_owned();
             let apart = match d.apart {
                 Some(true) => "intervals apart",
                 Some(false) => "intervals overlap",

@@ -18,6 +18,7 @@ use crate::say::{complain, say, short};
 use crate::sweep::{duration, plural};
 pub(crate) use args::CalibrateArgs;
 use brinell::document::Loaded;
+use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_study::calibrate::search::latin_hypercube;
 use brinell_study::calibrate::{
@@ -172,9 +173,10 @@ impl Plan {
         });
         let units = units.collect();
         let simulation = Simulation::new(&middle.scenario).map_err(Failure::Run)?;
-        let names = brinell::result::names(&middle.scenario, &simulation);
+        let names = names(&middle.scenario, &simulation);
         for target in &targets {
-            known(&target.name, &names)?;
+            check_name(&target.name, &names)
+                .map_err(|error| Failure::Usage(format!("--target {error}")))?;
         }
         let pattern = measured::pattern(args, &middle.scenario, &simulation)?;
         if let Some(pattern) = &pattern {
@@ -281,25 +283,6 @@ impl Plan {
             );
         }
     }
-}
-
-/// A target is a number that runs have.
-fn known(name: &str, names: &[String]) -> Result<(), Failure> {
-    if names.iter().any(|n| n == name) {
-        return Ok(());
-    }
-    let part = name.split('.').next_back().unwrap_or(name);
-    let mut near: Vec<&str> = (names.iter().map(String::as_str))
-        .filter(|n| n.ends_with(part) || n.starts_with(name))
-        .take(8)
-        .collect();
-    if near.is_empty() {
-        near = vec!["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"];
-    }
-    Err(Failure::Usage(format!(
-        "--target {name}: no such number of a run\n  allowed: the columns of `brinell sweep`, such as {}",
-        near.join(", ")
-    )))
 }
 
 /// The folder's journal is of something else.

@@ -135,11 +135,7 @@ pub(crate) fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> 
 
 pub(super) fn indicators(parts: &Parts) -> IndicatorTable {
     let cell = |channel: &ChannelStatistics, indicator: Indicator| {
-        let unit = if indicator.has_unit() {
-            channel.unit
-        } else {
-            ""
-        };
+        let unit = indicator.unit(channel.unit);
         match channel.blocks.estimate(indicator) {
             Some(e) => Estimate {
                 value: e.value,

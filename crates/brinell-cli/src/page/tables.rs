@@ -5,8 +5,9 @@ use crate::say::short;
 use brinell::accuracy::METHOD;
 use brinell::observe::Kind;
 use brinell::observe::passes::place;
-use brinell::scenario::Accuracy;
+use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
+use brinell::simulate::Outcome;
 use brinell::summary::Parts;
 use brinell_report::{Assumption, Fact};
 
@@ -32,11 +33,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             let Some(e) = channel.blocks.estimate(indicator) else {
                 continue;
             };
-            let unit = if indicator.has_unit() {
-                channel.unit
-            } else {
-                ""
-            };
+            let unit = indicator.unit(channel.unit);
             let note = e.interval.map_or("anti-aliased".to_owned(), |i| {
                 format!(
                     "anti-aliased; 95 %: {} to {}",
@@ -92,25 +89,25 @@ pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
     let percent = |x: f64| brinell_report::Value::Text(short(100.0 * x, 3));
     for (row, slip) in parts.findings.slip.rows.iter().enumerate() {
         let entries = [
-            ("cage", slip.cage(), "behind its pure-rolling speed"),
+            ("cage", fields::CAGE_SLIP, "behind its pure-rolling speed"),
             (
                 "loaded rollers, orbit",
-                slip.loaded_orbit(),
+                fields::LOADED_ORBIT_SLIP,
                 "behind their pure-rolling orbit speed",
             ),
             (
                 "loaded rollers, inner contact",
-                slip.loaded_surface(),
+                fields::LOADED_SURFACE_SLIP,
                 "mean |slip| over the raceway's surface speed",
             ),
             (
                 "unloaded rollers, orbit",
-                slip.unloaded_orbit(),
+                fields::UNLOADED_ORBIT_SLIP,
                 "behind their pure-rolling orbit speed",
             ),
         ];
-        for (label, value, note) in entries {
-            if let Some(estimate) = value {
+        for (label, field, note) in entries {
+            if let Some(estimate) = (field.of)(slip) {
                 let interval = estimate.interval.map_or(String::new(), |i| {
                     format!(
                         "; 95 %: {} to {} %",
@@ -146,20 +143,21 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
         )
     };
     let mut facts = Vec::new();
-    if let Some(x) = parts.outcome.momentum_imbalance {
+    if let Some(x) = (fields::MOMENTUM_IMBALANCE.of)(parts.outcome) {
         let value = brinell_report::Value::Text(short(x, 2));
         let note =
             "largest force without a reaction, relative to all forces; round-off is about 1e-15";
         facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
     }
-    let relative = e.residual().abs() / e.turnover().max(f64::MIN_POSITIVE);
+    // Where nothing moved, no residual is left over.
+    let relative = (fields::RELATIVE_RESIDUAL.of)(parts.outcome);
     facts.push(
         mj(
             "Energy residual",
             e.residual(),
             "change less everything booked: the integrator's error",
         )
-        .judged(relative < ENERGY_LIMIT),
+        .judged(relative.is_none_or(|x| x.abs() < ENERGY_LIMIT)),
     );
     facts.push(mj(
         "Change of energy held",
@@ -201,27 +199,24 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
 }
 
 pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
-    let w = &parts.outcome.work;
-    let count = |label: &str, n: u64, note: &str| {
-        Fact::new(label, brinell_report::Value::Text(n.to_string()), "", note)
+    let count = |label: &str, field: Field<fn(&Outcome) -> u64>, note: &str| {
+        let n = (field.of)(parts.outcome).to_string();
+        Fact::new(label, brinell_report::Value::Text(n), "", note)
     };
-    let accuracy = match parts.loaded.scenario.simulation.accuracy {
-        Accuracy::Standard => "standard",
-        Accuracy::Reference => "reference",
-    };
+    let accuracy = parts.loaded.scenario.simulation.accuracy.word();
     vec![
         Fact::new("Accuracy", accuracy, "", METHOD),
-        count("Steps", w.solver.steps, ""),
-        count("Rejected steps", w.solver.rejections, ""),
-        count("Right-hand sides", w.solver.evaluations, "for steps"),
+        count("Steps", fields::STEPS, ""),
+        count("Rejected steps", fields::REJECTIONS, ""),
+        count("Right-hand sides", fields::RIGHT_HAND_SIDES, "for steps"),
         count(
             "Right-hand sides for samples",
-            w.sample_evaluations,
+            fields::SAMPLE_RIGHT_HAND_SIDES,
             "one a sample of the instantaneous channels",
         ),
-        count("Contacts opened or closed", w.contact_switches, ""),
-        count("Pockets opened or closed", w.pocket_switches, ""),
-        count("Contacts onto or off damage", w.damage_switches, ""),
+        count("Contacts opened or closed", fields::CONTACT_SWITCHES, ""),
+        count("Pockets opened or closed", fields::POCKET_SWITCHES, ""),
+        count("Contacts onto or off damage", fields::DAMAGE_SWITCHES, ""),
     ]
 }
 

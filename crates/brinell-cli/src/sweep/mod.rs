@@ -13,6 +13,7 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
+use brinell::result::{check_name, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
 use brinell_study::campaign::fingerprint;
@@ -152,27 +153,10 @@ fn plan(
 /// What is plotted; a name that no point will have is refused before anything runs.
 fn plots(args: &SweepArgs, points: &Points) -> Result<Vec<String>, Failure> {
     // A point without a model is a row with its reason, and says nothing of the others' numbers.
-    let names = Simulation::new(&points.example).map_or(Vec::new(), |simulation| {
-        brinell::result::names(&points.example, &simulation)
-    });
-    for name in &args.plot {
-        if names.is_empty() || names.contains(name) {
-            continue;
-        }
-        let part = name.split('.').next_back().unwrap_or(name);
-        let mut near: Vec<&str> = names
-            .iter()
-            .map(String::as_str)
-            .filter(|n| n.ends_with(part) || n.starts_with(name.as_str()))
-            .take(8)
-            .collect();
-        if near.is_empty() {
-            near = vec!["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"];
-        }
-        return Err(Failure::Usage(format!(
-            "--plot {name}: no such number\n  allowed: the columns of sweep.csv, such as {}",
-            near.join(", ")
-        )));
+    let names = Simulation::new(&points.example)
+        .map_or(Vec::new(), |simulation| names(&points.example, &simulation));
+    for name in args.plot.iter().filter(|_| !names.is_empty()) {
+        check_name(name, &names).map_err(|error| Failure::Usage(format!("--plot {error}")))?;
     }
     Ok(match &args.plot[..] {
         [] => usual(&points.example, &names),

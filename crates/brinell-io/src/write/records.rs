@@ -3,7 +3,7 @@
 //! Every column is optional; lists are Parquet's LIST with required elements, so that pandas, polars, Arrow and Spark read arrays. Numbers
 //! are plain under Zstandard (fastparquet cannot read byte-stream-split ones, which would save a tenth), words have dictionaries. The same rows in the same groups give the same bytes.
 
-use crate::atomic::PartialFile;
+use crate::atomic::{Complete, PartialFile};
 use crate::records::{Cell, Kind, RecordColumn, hexadecimal};
 use crate::signals::{check_columns, units_json};
 use crate::{IoError, Metadata, keys};
@@ -177,16 +177,23 @@ impl RecordWriter {
     /// # Errors
     /// Where the disk refuses.
     pub fn finish(self) -> std::result::Result<Written, IoError> {
-        let target = self
-            .file
-            .into_inner()
-            .map_err(|error| failed(&self.path, error))?;
+        let target = self.end()?;
         let (bytes, sha256) = (target.bytes, hexadecimal(&target.sum.finalize()));
         Ok(Written {
             path: target.file.commit()?,
             bytes,
             sha256,
         })
+    }
+
+    /// Writes the footer; [`Complete::publish`] gives the file its name.
+    pub(crate) fn complete(self) -> std::result::Result<Complete, IoError> {
+        self.end()?.file.complete()
+    }
+
+    fn end(self) -> std::result::Result<Summed, IoError> {
+        let ended = self.file.into_inner();
+        ended.map_err(|error| failed(&self.path, error))
     }
 }
 

@@ -64,10 +64,9 @@ pub fn to_json(
             "low_hz": k.band.low, "high_hz": k.band.high, "kurtosis": k.kurtosis, "noise_scatter": k.noise_scatter,
         })),
         "indicators": analysis.indicators.iter().map(|(i, e)| {
-            let unit = if i.has_unit() { unit.name.as_str() } else { "" };
             (i.name().to_owned(), json!({
                 "value": e.value,
-                "unit": unit,
+                "unit": i.unit(&unit.name),
                 "interval_95": e.interval.map(|v| [v.low, v.high]),
             }))
         }).collect::<Map<_, _>>(),

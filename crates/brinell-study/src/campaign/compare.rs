@@ -1,6 +1,7 @@
 //! Runs side by side: every number of each, and its ratio to that of the baseline, the first run.
 
-use brinell::result::{LEAST_STIFFNESS, Quantity, RunResult};
+use brinell::result::fields::LEAST_STIFFNESS;
+use brinell::result::{Quantity, RunResult};
 use brinell::signal::ratio::{Ratio, ratio};
 use std::collections::HashMap;
 
@@ -40,7 +41,7 @@ pub fn compare(runs: &[&RunResult]) -> Vec<Compared> {
         for k in 1..runs.len() {
             let estimate = |k: usize| compared.of[k].as_ref().and_then(Quantity::estimate);
             let exponent = |k: usize| runs[k].scenario.contact.exponent;
-            if compared.name.ends_with(LEAST_STIFFNESS) && exponent(k) != exponent(0) {
+            if compared.name.ends_with(LEAST_STIFFNESS.name) && exponent(k) != exponent(0) {
                 continue;
             }
             compared.ratios[k] =

@@ -1,417 +1,248 @@
-//! The columns of a data set, once: what each is called, what it holds, and whether it gives a label away.
+//! The columns of a data set, once: what each is called, what it holds, what it is read from, and whether it gives a label away.
 
+use crate::campaign::fingerprint;
+use crate::dataset::row::{Run, largest};
 use crate::design::Draws;
-use brinell_io::{Column, Kind, RecordColumn};
+use brinell::defect::Shape;
+use brinell::kernel::Kernel;
+use brinell::observe::slip::RowSlip;
+use brinell::result::fields::{self, Field};
+use brinell::scenario::{Speed, Surface};
+use brinell::signal::Estimate;
+use brinell::simulate::Outcome;
+use brinell_io::{Cell, Column, Kind, RecordColumn};
 
 /// A column of a data set's files.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct DataColumn {
     /// Name, unit, description, kind.
     pub record: RecordColumn,
     /// Whether it is a label or gives one away: for runs that are held out it lies in the other file.
     pub tells: bool,
+    source: Source,
 }
 
-/// Name, unit and kind of a column that every data set has.
-type Fixed = (&'static str, &'static str, Kind, &'static str);
+/// What a column's cells are read from; a cell is empty where there is nothing to read.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    Whole(fn(&Run) -> Option<usize>),
+    Number(fn(&Run) -> Option<f64>),
+    Words(fn(&Run) -> Option<String>),
+    Wholes(fn(&Run) -> Option<Vec<usize>>),
+    Numbers(fn(&Run) -> Option<Vec<f64>>),
+    WordsList(fn(&Run) -> Option<Vec<String>>),
+    Count(Field<fn(&Outcome) -> u64>),
+    Sum(Field<fn(&Outcome) -> Option<f64>>),
+    Slip(Field<fn(&RowSlip) -> Option<Estimate>>),
+    Signal(usize),
+    Parameter(usize, Kind),
+}
+
+use Source::{Count, Number, Numbers, Slip, Sum, Whole, Wholes, Words, WordsList};
+
+impl Source {
+    fn kind(&self) -> Kind {
+        match self {
+            Whole(_) | Count(_) => Kind::Whole,
+            Number(_) | Sum(_) => Kind::Number,
+            Words(_) => Kind::Words,
+            Wholes(_) => Kind::Wholes,
+            Numbers(_) | Slip(_) => Kind::Numbers,
+            WordsList(_) => Kind::WordsList,
+            Self::Signal(_) => Kind::Signal,
+            Self::Parameter(_, kind) => *kind,
+        }
+    }
+}
+
+impl DataColumn {
+    fn new(
+        name: &str,
+        unit: &str,
+        description: impl Into<String>,
+        tells: bool,
+        source: Source,
+    ) -> Self {
+        Self {
+            record: RecordColumn {
+                column: Column::new(name, unit, description.into()),
+                kind: source.kind(),
+            },
+            tells,
+            source,
+        }
+    }
+
+    /// The cell of a run; a signal moves out of it.
+    pub(crate) fn cell(&self, run: &mut Run) -> Cell {
+        let wholes = |x: Vec<usize>| Cell::Wholes(x.into_iter().map(|x| x as i64).collect());
+        let cell = match &self.source {
+            Whole(of) => of(run).map(|x| Cell::Whole(x as i64)),
+            Number(of) => Some(Cell::number(of(run))),
+            Words(of) => of(run).map(Cell::Words),
+            Wholes(of) => of(run).map(wholes),
+            Numbers(of) => of(run).map(Cell::Numbers),
+            WordsList(of) => of(run).map(Cell::WordsList),
+            Count(field) => run.outcome().map(|o| Cell::Whole((field.of)(o) as i64)),
+            Sum(field) => Some(Cell::number(run.outcome().and_then(field.of))),
+            Slip(field) => run.slip(field.of).map(Cell::Numbers),
+            Source::Signal(k) => run.signal(*k).map(Cell::Signal),
+            Source::Parameter(k, kind) => run.parameter(*k).map(|value| match kind {
+                Kind::Number => Cell::number(value.number),
+                _ => Cell::Words(value.words().to_owned()),
+            }),
+        };
+        cell.unwrap_or(Cell::Empty)
+    }
+}
+
+/// Name, unit, description and source of a column that every data set has.
+type Fixed = (&'static str, &'static str, &'static str, Source);
+
+/// Place of `status` in a row.
+pub(crate) const STATUS: usize = 2;
 
 /// Before the signals: what a run is.
-pub(crate) const HEAD: [Fixed; 3] = [
-    ("run", "1", Kind::Whole, "index of the run, from 0"),
-    (
-        "split",
-        "1",
-        Kind::Words,
-        "train, validation or test; open where the plan does not divide; held-out where the labels lie apart",
-    ),
-    ("status", "1", Kind::Words, "complete or failed"),
+#[rustfmt::skip]
+const HEAD: [Fixed; 3] = [
+    ("run", "1", "index of the run, from 0", Whole(|r| Some(r.index))),
+    ("split", "1", "train, validation or test; open where the plan does not divide; held-out where the labels lie apart",
+        Words(|r| Some(r.draws().part(r.index).word().into()))),
+    ("status", "1", "complete or failed", Words(|r| Some(if r.failed.is_some() { "failed" } else { "complete" }.into()))),
 ];
 
 /// After the signals: what is known of a run whose labels are held out as well.
-pub(crate) const KNOWN: [Fixed; 11] = [
-    (
-        "sample_rate_hz",
-        "Hz",
-        Kind::Number,
-        "samples a second of the signals",
-    ),
-    (
-        "duration_s",
-        "s",
-        Kind::Number,
-        "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
-    ),
-    (
-        "bearing",
-        "1",
-        Kind::Words,
-        "catalogue name, where one was given",
-    ),
-    ("rows", "1", Kind::Whole, "rows of rollers"),
-    ("rollers_per_row", "1", Kind::Whole, "rollers of a row"),
-    (
-        "speed_rpm",
-        "r/min",
-        Kind::Number,
-        "speed of the inner ring, where it is constant",
-    ),
-    (
-        "load_n",
-        "N",
-        Kind::Numbers,
-        "load [x, y], from the centre to the load zone",
-    ),
-    (
-        "ftf_hz",
-        "Hz",
-        Kind::Number,
-        "cage frequency in pure rolling at constant speed",
-    ),
-    (
-        "bpfo_hz",
-        "Hz",
-        Kind::Number,
-        "outer race frequency, likewise",
-    ),
-    (
-        "bpfi_hz",
-        "Hz",
-        Kind::Number,
-        "inner race frequency, likewise",
-    ),
-    (
-        "bsf_hz",
-        "Hz",
-        Kind::Number,
-        "roller spin frequency, likewise; damage on a roller strikes at twice this",
-    ),
+#[rustfmt::skip]
+const KNOWN: [Fixed; 11] = [
+    ("sample_rate_hz", "Hz", "samples a second of the signals", Number(|r| Some(r.scenario()?.simulation.sample_rate_hz))),
+    ("duration_s", "s", "simulated time; sample k is at k / sample_rate_hz, and the last one just before the end",
+        Number(|r| Some(r.scenario()?.simulation.duration_s))),
+    ("bearing", "1", "catalogue name, where one was given", Words(|r| r.scenario()?.bearing.preset.clone())),
+    ("rows", "1", "rows of rollers", Whole(|r| Some(r.scenario()?.bearing.rows))),
+    ("rollers_per_row", "1", "rollers of a row", Whole(|r| Some(r.scenario()?.bearing.rollers_per_row))),
+    ("speed_rpm", "r/min", "speed of the inner ring, where it is constant", Number(|r| match r.scenario()?.operation.speed_rpm {
+        Speed::Constant(rpm) => Some(rpm),
+        Speed::Profile(_) => None,
+    })),
+    ("load_n", "N", "load [x, y], from the centre to the load zone", Numbers(|r| Some(r.scenario()?.operation.load_n.to_vec()))),
+    ("ftf_hz", "Hz", "cage frequency in pure rolling at constant speed", Number(|r| Some(r.kinematics()?.ftf))),
+    ("bpfo_hz", "Hz", "outer race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfo))),
+    ("bpfi_hz", "Hz", "inner race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfi))),
+    ("bsf_hz", "Hz", "roller spin frequency, likewise; damage on a roller strikes at twice this", Number(|r| Some(r.kinematics()?.bsf))),
 ];
 
 /// Last: labels, and what no test rig tells.
-pub(crate) const TRUTH: [Fixed; 53] = [
-    ("class", "1", Kind::Words, "label of the run"),
-    (
-        "label",
-        "1",
-        Kind::Whole,
-        "the same as a number: place of the class in the plan, from 0",
-    ),
-    ("reason", "1", Kind::Words, "why the run failed"),
-    (
-        "defect_on",
-        "1",
-        Kind::WordsList,
-        "of each defect: outer-raceway, inner-raceway or roller",
-    ),
-    (
-        "defect_row",
-        "1",
-        Kind::Wholes,
-        "of each defect: row, from 1",
-    ),
-    (
-        "defect_roller",
-        "1",
-        Kind::Wholes,
-        "of each defect: roller of the row, from 1; 0 on a raceway",
-    ),
-    (
-        "defect_center_deg",
-        "deg",
-        Kind::Numbers,
-        "of each defect: psi, counter-clockwise from +x",
-    ),
-    (
-        "defect_shape",
-        "1",
-        Kind::WordsList,
-        "of each defect: kind of its shape",
-    ),
-    (
-        "defect_length_mm",
-        "mm",
-        Kind::Numbers,
-        "of each defect: extent along the rolling direction",
-    ),
-    (
-        "defect_width_mm",
-        "mm",
-        Kind::Numbers,
-        "of each defect: largest damaged length along the axis",
-    ),
-    (
-        "defect_depth_um",
-        "um",
-        Kind::Numbers,
-        "of each defect: largest depth",
-    ),
-    (
-        "defect_area_mm2",
-        "mm^2",
-        Kind::Numbers,
-        "of each defect: damaged area",
-    ),
-    (
-        "defect_frequency_hz",
-        "Hz",
-        Kind::Numbers,
-        "of each defect: how often it is struck, in pure rolling at constant speed",
-    ),
-    (
-        "entry_t_s",
-        "s",
-        Kind::Numbers,
-        "instants at which a roller comes onto a defect: ends of solver steps",
-    ),
-    (
-        "entry_defect",
-        "1",
-        Kind::Wholes,
-        "of each entry: which defect, from 1",
-    ),
-    (
-        "entry_row",
-        "1",
-        Kind::Wholes,
-        "of each entry: row of the roller, from 1",
-    ),
-    (
-        "entry_roller",
-        "1",
-        Kind::Wholes,
-        "of each entry: the roller, from 1",
-    ),
-    (
-        "entry_side",
-        "1",
-        Kind::WordsList,
-        "of each entry: contact of the roller, inner or outer",
-    ),
-    (
-        "entry_force_n",
-        "N",
-        Kind::Numbers,
-        "of each entry: force of that contact then",
-    ),
-    (
-        "exit_t_s",
-        "s",
-        Kind::Numbers,
-        "instants at which a roller leaves a defect",
-    ),
-    (
-        "exit_defect",
-        "1",
-        Kind::Wholes,
-        "of each exit: which defect, from 1",
-    ),
-    (
-        "exit_row",
-        "1",
-        Kind::Wholes,
-        "of each exit: row of the roller, from 1",
-    ),
-    (
-        "exit_roller",
-        "1",
-        Kind::Wholes,
-        "of each exit: the roller, from 1",
-    ),
-    (
-        "exit_side",
-        "1",
-        Kind::WordsList,
-        "of each exit: contact of the roller, inner or outer",
-    ),
-    (
-        "exit_force_n",
-        "N",
-        Kind::Numbers,
-        "of each exit: force of that contact then",
-    ),
-    (
-        "analysed_from_s",
-        "s",
-        Kind::Number,
-        "forces and slip below count from here on",
-    ),
-    (
-        "largest_contact_force_n",
-        "N",
-        Kind::Number,
-        "largest force of a contact at a sample",
-    ),
-    (
-        "roller_mean_outer_force_n",
-        "N",
-        Kind::Numbers,
-        "of each roller, row by row: mean force of its outer contact",
-    ),
-    (
-        "roller_largest_outer_force_n",
-        "N",
-        Kind::Numbers,
-        "of each roller, row by row: largest force of its outer contact",
-    ),
-    (
-        "load_zone_mean_n",
-        "N",
-        Kind::Numbers,
-        "mean outer contact force by 5 deg from +x, counter-clockwise, row after row",
-    ),
-    (
-        "load_zone_largest_n",
-        "N",
-        Kind::Numbers,
-        "largest outer contact force, likewise",
-    ),
-    (
-        "cage_slip",
-        "1",
-        Kind::Numbers,
-        "of each row: 1 - cage speed / pure rolling, mean",
-    ),
-    (
-        "loaded_orbit_slip",
-        "1",
-        Kind::Numbers,
-        "of each row: the same of rollers that the inner raceway presses",
-    ),
-    (
-        "unloaded_orbit_slip",
-        "1",
-        Kind::Numbers,
-        "of each row: the same of the other rollers",
-    ),
-    (
-        "loaded_surface_slip",
-        "1",
-        Kind::Numbers,
-        "of each row: |slip| at the inner contact / speed of the inner raceway",
-    ),
-    ("samples", "1", Kind::Whole, "samples of a signal"),
-    ("solver_steps", "1", Kind::Whole, "steps of the integrator"),
-    (
-        "solver_rejections",
-        "1",
-        Kind::Whole,
-        "steps that were taken again",
-    ),
-    (
-        "solver_right_hand_sides",
-        "1",
-        Kind::Whole,
-        "evaluations of the equations of motion, those for samples included",
-    ),
-    (
-        "contact_switches",
-        "1",
-        Kind::Whole,
-        "contacts that opened or closed",
-    ),
-    (
-        "pocket_switches",
-        "1",
-        Kind::Whole,
-        "pockets that opened or closed",
-    ),
-    (
-        "damage_switches",
-        "1",
-        Kind::Whole,
-        "contacts that went onto or off damage",
-    ),
-    (
-        "accuracy",
-        "1",
-        Kind::Words,
-        "tolerance of the integrator: standard or reference",
-    ),
-    (
-        "kernel",
-        "1",
-        Kind::Words,
-        "instructions of the simulation's arithmetic: plain, portable, avx2 or avx512; runs of different kernels differ in round-off, which impacts \
-         amplify",
-    ),
-    (
-        "energy_residual_j",
-        "J",
-        Kind::Number,
-        "energy that no entry of the audit explains",
-    ),
-    (
-        "energy_residual_over_turnover",
-        "1",
-        Kind::Number,
-        "the same over all that moved",
-    ),
-    (
-        "energy_parametric_j",
-        "J",
-        Kind::Number,
-        "work of damage passing under rollers",
-    ),
-    (
-        "momentum_imbalance",
-        "1",
-        Kind::Number,
-        "largest relative imbalance of momentum",
-    ),
-    (
-        "reached_s",
-        "s",
-        Kind::Number,
-        "simulated time of the last sample",
-    ),
-    (
-        "redrawn",
-        "1",
-        Kind::Whole,
-        "how often the run was drawn again because its values did not fit",
-    ),
-    (
-        "settings",
-        "1",
-        Kind::Words,
-        "what the run sets over the base scenario: a JSON object of TOML values by key",
-    ),
-    (
-        "scenario",
-        "1",
-        Kind::Words,
-        "the whole scenario of the run, TOML: `brinell run` repeats the run with it",
-    ),
-    (
-        "scenario_sha256",
-        "1",
-        Kind::Words,
-        "fingerprint of the scenario: SHA-256 over every key and value, without what was assumed and why",
-    ),
+#[rustfmt::skip]
+const TRUTH: [Fixed; 53] = [
+    ("class", "1", "label of the run", Words(|r| Some(r.campaign.plan().classes[r.class()].name.clone()))),
+    ("label", "1", "the same as a number: place of the class in the plan, from 0", Whole(|r| Some(r.class()))),
+    ("reason", "1", "why the run failed", Words(|r| r.failed.clone())),
+    ("defect_on", "1", "of each defect: outer-raceway, inner-raceway or roller", WordsList(|r| r.defects(|d, _| d.on.word().to_owned()))),
+    ("defect_row", "1", "of each defect: row, from 1", Wholes(|r| r.defects(|d, _| d.row))),
+    ("defect_roller", "1", "of each defect: roller of the row, from 1; 0 on a raceway", Wholes(|r| r.defects(|d, _| match d.on {
+        Surface::Roller(number) => number,
+        _ => 0,
+    }))),
+    ("defect_center_deg", "deg", "of each defect: psi, counter-clockwise from +x", Numbers(|r| r.defects(|d, _| d.center_deg))),
+    ("defect_shape", "1", "of each defect: kind of its shape", WordsList(|r| r.defects(|d, _| d.shape.word().to_owned()))),
+    ("defect_length_mm", "mm", "of each defect: extent along the rolling direction", Numbers(|r| r.defects(|_, d| {
+        let (first, last) = d.shape.arc();
+        1e3 * (last - first)
+    }))),
+    ("defect_width_mm", "mm", "of each defect: largest damaged length along the axis",
+        Numbers(|r| r.defects(|_, d| 1e3 * largest(d, |s| d.damaged_length(s))))),
+    ("defect_depth_um", "um", "of each defect: largest depth", Numbers(|r| r.defects(|_, d| match &d.shape {
+        Shape::DepthMap(grid) => 1e6 * grid.extremes().0.max(grid.extremes().1),
+        _ => 1e6 * largest(d, |s| d.depth_at(s)),
+    }))),
+    ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.shape.area()))),
+    ("defect_frequency_hz", "Hz", "of each defect: how often it is struck, in pure rolling at constant speed", Numbers(|r| {
+        let k = r.kinematics()?;
+        r.defects(|d, _| k.struck_by(d.on).1)
+    })),
+    ("entry_t_s", "s", "instants at which a roller comes onto a defect: ends of solver steps", Numbers(|r| r.instants(true, |i, _| i.event.t))),
+    ("entry_defect", "1", "of each entry: which defect, from 1", Wholes(|r| r.instants(true, |i, _| i.event.defect + 1))),
+    ("entry_row", "1", "of each entry: row of the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.row(i.event.slot) + 1))),
+    ("entry_roller", "1", "of each entry: the roller, from 1", Wholes(|r| r.instants(true, |i, l| l.roller(i.event.slot) + 1))),
+    ("entry_side", "1", "of each entry: contact of the roller, inner or outer", WordsList(|r| r.instants(true, |i, _| i.side()))),
+    ("entry_force_n", "N", "of each entry: force of that contact then", Numbers(|r| r.instants(true, |i, _| i.force))),
+    ("exit_t_s", "s", "instants at which a roller leaves a defect", Numbers(|r| r.instants(false, |i, _| i.event.t))),
+    ("exit_defect", "1", "of each exit: which defect, from 1", Wholes(|r| r.instants(false, |i, _| i.event.defect + 1))),
+    ("exit_row", "1", "of each exit: row of the roller, from 1", Wholes(|r| r.instants(false, |i, l| l.row(i.event.slot) + 1))),
+    ("exit_roller", "1", "of each exit: the roller, from 1", Wholes(|r| r.instants(false, |i, l| l.roller(i.event.slot) + 1))),
+    ("exit_side", "1", "of each exit: contact of the roller, inner or outer", WordsList(|r| r.instants(false, |i, _| i.side()))),
+    ("exit_force_n", "N", "of each exit: force of that contact then", Numbers(|r| r.instants(false, |i, _| i.force))),
+    ("analysed_from_s", "s", "forces and slip below count from here on", Number(|r| r.gathered()?.from)),
+    ("largest_contact_force_n", "N", "largest force of a contact at a sample", Number(|r| Some(r.gathered()?.largest))),
+    ("roller_mean_outer_force_n", "N", "of each roller, row by row: mean force of its outer contact", Numbers(|r| {
+        let truth = r.gathered()?;
+        let samples = truth.samples.max(1) as f64;
+        Some(truth.outer.iter().map(|(sum, _)| sum / samples).collect())
+    })),
+    ("roller_largest_outer_force_n", "N", "of each roller, row by row: largest force of its outer contact",
+        Numbers(|r| Some(r.gathered()?.outer.iter().map(|(_, most)| *most).collect()))),
+    ("load_zone_mean_n", "N", "mean outer contact force by 5 deg from +x, counter-clockwise, row after row",
+        Numbers(|r| Some(r.gathered()?.load_zone.rows.iter().flat_map(|z| z.mean()).collect()))),
+    ("load_zone_largest_n", "N", "largest outer contact force, likewise",
+        Numbers(|r| Some(r.gathered()?.load_zone.rows.iter().flat_map(|z| z.max.clone()).collect()))),
+    listed("cage_slip", Slip(fields::CAGE_SLIP)),
+    listed("loaded_orbit_slip", Slip(fields::LOADED_ORBIT_SLIP)),
+    listed("unloaded_orbit_slip", Slip(fields::UNLOADED_ORBIT_SLIP)),
+    listed("loaded_surface_slip", Slip(fields::LOADED_SURFACE_SLIP)),
+    ("samples", "1", "samples of a signal", Whole(|r| r.kept())),
+    listed("solver_steps", Count(fields::STEPS)),
+    listed("solver_rejections", Count(fields::REJECTIONS)),
+    listed("solver_right_hand_sides", Count(fields::RIGHT_HAND_SIDES)),
+    listed("contact_switches", Count(fields::CONTACT_SWITCHES)),
+    listed("pocket_switches", Count(fields::POCKET_SWITCHES)),
+    listed("damage_switches", Count(fields::DAMAGE_SWITCHES)),
+    ("accuracy", "1", "tolerance of the integrator: standard or reference", Words(|r| Some(r.scenario()?.simulation.accuracy.word().into()))),
+    ("kernel", "1", "instructions of the simulation's arithmetic: plain, portable, avx2 or avx512; runs of different kernels differ in round-off, which impacts \
+         amplify", Words(|r| r.scenario().and(Kernel::chosen().ok()).map(|kernel| kernel.name().to_owned()))),
+    listed("energy_residual_j", Sum(fields::ENERGY_RESIDUAL)),
+    listed("energy_residual_over_turnover", Sum(fields::RELATIVE_RESIDUAL)),
+    listed("energy_parametric_j", Sum(fields::PARAMETRIC_ENERGY)),
+    listed("momentum_imbalance", Sum(fields::MOMENTUM_IMBALANCE)),
+    listed("reached_s", Sum(fields::REACHED)),
+    ("redrawn", "1", "how often the run was drawn again because its values did not fit", Whole(|r| Some(r.draw.as_ref()?.redrawn as usize))),
+    ("settings", "1", "what the run sets over the base scenario: a JSON object of TOML values by key", Words(|r| r.settings())),
+    ("scenario", "1", "the whole scenario of the run, TOML: `brinell run` repeats the run with it", Words(|r| Some(r.loaded.as_ref()?.to_toml()))),
+    ("scenario_sha256", "1", "fingerprint of the scenario: SHA-256 over every key and value, without what was assumed and why",
+        Words(|r| r.scenario().map(fingerprint))),
 ];
 
-fn fixed((name, unit, kind, description): &Fixed, tells: bool) -> DataColumn {
-    DataColumn {
-        record: RecordColumn {
-            column: Column::new(*name, *unit, *description),
-            kind: *kind,
-        },
-        tells,
-    }
+/// A column of the engine's list of a run's numbers.
+const fn listed(name: &'static str, source: Source) -> Fixed {
+    let (unit, meaning) = match &source {
+        Count(field) => (field.unit, field.meaning),
+        Sum(field) => (field.unit, field.meaning),
+        Slip(field) => (field.unit, field.meaning),
+        _ => ("1", ""),
+    };
+    (name, unit, meaning, source)
+}
+
+fn fixed((name, unit, description, source): &Fixed, tells: bool) -> DataColumn {
+    let rows = match source {
+        Slip(_) => "of each row: ",
+        _ => "",
+    };
+    DataColumn::new(name, unit, format!("{rows}{description}"), tells, *source)
 }
 
 /// The columns of a campaign: head, signals, known, parameters, truth.
 pub(crate) fn columns(draws: &Draws, signals: &[Column]) -> Vec<DataColumn> {
     let head = HEAD.iter().map(|c| fixed(c, false));
-    let signals = signals.iter().map(|column| DataColumn {
+    let signals = signals.iter().enumerate().map(|(k, column)| DataColumn {
         record: RecordColumn {
             column: column.clone(),
             kind: Kind::Signal,
         },
         tells: false,
+        source: Source::Signal(k),
     });
     let known = KNOWN.iter().map(|c| fixed(c, false));
-    let parameters = draws.parameters().iter().map(|parameter| {
+    let parameters = draws.parameters().iter().enumerate().map(|(k, parameter)| {
         let kind = if parameter.numeric {
             Kind::Number
         } else {
@@ -419,14 +250,16 @@ pub(crate) fn columns(draws: &Draws, signals: &[Column]) -> Vec<DataColumn> {
         };
         let unit = brinell::document::unit_of_key(&parameter.key);
         let unit = if unit.is_empty() { "1" } else { unit };
-        DataColumn {
-            record: RecordColumn {
-                column: Column::new(&parameter.key, unit, "drawn: key of the scenario"),
-                kind,
-            },
-            // What only some classes draw, or what is drawn for damage, tells the class.
-            tells: !parameter.common || parameter.key.starts_with("defects"),
-        }
+        // What only some classes draw, or what is drawn for damage, tells the class.
+        let tells = !parameter.common || parameter.key.starts_with("defects");
+        let source = Source::Parameter(k, kind);
+        DataColumn::new(
+            &parameter.key,
+            unit,
+            "drawn: key of the scenario",
+            tells,
+            source,
+        )
     });
     let truth = TRUTH.iter().map(|c| fixed(c, true));
     head.chain(signals)

@@ -18,8 +18,15 @@ pub(crate) struct Instant {
     pub(crate) force: f64,
 }
 
+impl Instant {
+    /// Contact of the roller: inner or outer.
+    pub(crate) fn side(&self) -> String {
+        format!("{:?}", self.event.side).to_lowercase()
+    }
+}
+
 pub(crate) struct Truth<'a> {
-    listener: &'a mut dyn RunListener,
+    listener: Box<dyn RunListener + 'a>,
     half_way: f64,
     passes: Passes,
     pub(crate) instants: Vec<Instant>,
@@ -45,7 +52,7 @@ impl<'a> Truth<'a> {
         scenario: &Scenario,
         simulation: &Simulation,
         signals: &[Column],
-        listener: &'a mut dyn RunListener,
+        listener: Box<dyn RunListener + 'a>,
     ) -> Self {
         let layout = &simulation.model().layout;
         let place = |signal: &Column| {

@@ -30,6 +30,7 @@ pub use example::template;
 #[doc(hidden)]
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
+pub(crate) use nearest::nearest;
 pub use pointed::pointed_out;
 #[doc(hidden)]
 pub use pointed::{on_one_line, one_line};

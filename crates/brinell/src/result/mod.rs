@@ -1,6 +1,7 @@
 //! One run from its scenario to its result: [`simulate()`] gives [`RunResult`], which [`quantities()`] boils down to named numbers with
-//! intervals. Knows no files.
+//! intervals, as the list in [`fields`] says. Knows no files.
 
+pub mod fields;
 mod impacts;
 mod quantities;
 mod run;
@@ -8,6 +9,6 @@ mod run;
 #[doc(hidden)]
 pub use impacts::{Impacts, impacts};
 #[doc(hidden)]
-pub use quantities::{LEAST_STIFFNESS, names, quantities};
+pub use quantities::{UnknownName, check_name, indicator_name, names, quantities};
 pub use quantities::{Quantity, Spread};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

@@ -5,12 +5,16 @@
 //! names; what a run does not have (slip in the lumped model, a defect's frequency in a short run) is there without a value.
 //! No wall time is among them: the same scenario gives the same numbers.
 
-use super::impacts::{Impacts, impacts};
-use crate::channel::STIFFNESS_UNIT;
-use crate::observe::{DefectLine, Findings, Kind};
+use super::fields::{
+    ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect,
+    LINES, LOAD, SLIP, WORK, exact, indicator, record,
+};
+use super::impacts::impacts;
+use crate::document::nearest;
+use crate::observe::{Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::{Peak, peak_near};
-use crate::signal::{Estimate, Indicator, Interval, LineSearch, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+use crate::signal::{Estimate, Indicator, Interval, LineSearch};
 use crate::simulate::{Outcome, Simulation};
 
 /// One number of a run.
@@ -38,22 +42,6 @@ pub enum Spread {
 }
 
 impl Quantity {
-    fn new(name: impl Into<String>, unit: &str, value: Option<f64>) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            value: value.filter(|x| x.is_finite()),
-            spread: Spread::Without,
-        }
-    }
-
-    fn estimated(name: impl Into<String>, unit: &str, estimate: Option<Estimate>) -> Self {
-        let mut quantity = Self::new(name, unit, estimate.map(|e| e.value));
-        let interval = estimate.and_then(|e| e.interval);
-        quantity.spread = interval.map_or(Spread::Unknown, Spread::Interval);
-        quantity
-    }
-
     /// Value and interval; `None` without a value.
     pub fn estimate(&self) -> Option<Estimate> {
         let interval = match self.spread {
@@ -70,11 +58,24 @@ impl Quantity {
     }
 }
 
-/// Least stiffness of a contact over a defect, as the name's last part.
-pub const LEAST_STIFFNESS: &str = "least_stiffness";
-
-/// Harmonics of a defect frequency whose level is told.
-const HARMONICS: usize = 3;
+impl<F> Field<F> {
+    /// The number of `subject` (a channel, a defect, a row; empty for the run's own), as estimated.
+    fn quantity(&self, subject: &str, estimate: Option<Estimate>) -> Quantity {
+        let interval = estimate.and_then(|e| e.interval);
+        Quantity {
+            name: match subject {
+                "" => self.name.to_owned(),
+                subject => format!("{subject}.{}", self.name),
+            },
+            unit: self.unit.to_owned(),
+            value: estimate.map(|e| e.value).filter(|x| x.is_finite()),
+            spread: match self.estimator.has_interval() {
+                true => interval.map_or(Spread::Unknown, Spread::Interval),
+                false => Spread::Without,
+            },
+        }
+    }
+}
 
 /// Everything that is told of a run, in a fixed order.
 pub fn quantities(
@@ -88,51 +89,46 @@ pub fn quantities(
     lines(scenario, simulation, findings, &mut all);
     defects(simulation, findings, &mut all);
     rows(findings, &mut all);
-    audits(outcome, &mut all);
-    all.push(Quantity::new("analysed_from", "s", Some(findings.from)));
+    let audit = |f: &Field<fn(&Outcome) -> _>| f.quantity("audit", exact((f.of)(outcome)));
+    all.extend(AUDITS.iter().map(audit));
+    let work =
+        |f: &Field<fn(&Outcome) -> u64>| f.quantity("work", exact(Some((f.of)(outcome) as f64)));
+    all.extend(WORK.iter().map(work));
+    all.push(analysed(&ANALYSED_FROM, findings));
     all
 }
 
-/// Channel, kind and indicator as one name.
-pub(super) fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
-    quantity_name(channel, kind, indicator.name())
+fn analysed(field: &Field<fn(&Findings) -> f64>, findings: &Findings) -> Quantity {
+    field.quantity("", exact(Some((field.of)(findings))))
 }
 
-fn quantity_name(channel: &str, kind: Kind, what: &str) -> String {
+/// Channel, kind and indicator as one name.
+pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
+    format!("{}.{}", of_kind(channel, kind), indicator.name())
+}
+
+fn of_kind(channel: &str, kind: Kind) -> String {
     let filtered = match kind {
         Kind::AntiAliased if !channel.starts_with("sensor_") => ".anti_aliased",
         _ => "",
     };
-    format!("{channel}{filtered}.{what}")
+    format!("{channel}{filtered}")
 }
 
 fn indicators(findings: &Findings, all: &mut Vec<Quantity>) {
     for channel in &findings.channels {
-        for indicator in Indicator::ALL {
-            let estimate = channel.blocks.estimate(indicator);
-            let unit = if indicator.has_unit() {
-                channel.unit
-            } else {
-                "1"
-            };
-            let name = indicator_name(&channel.name, channel.kind, indicator);
-            all.push(Quantity::estimated(name, unit, estimate));
-        }
+        let of = of_kind(&channel.name, channel.kind);
+        all.extend(
+            Indicator::ALL
+                .map(|i| indicator(i, channel.unit).quantity(&of, channel.blocks.estimate(i))),
+        );
     }
-    // The largest of the record grows with its length: no interval.
     for channel in &findings.channels {
-        let record = channel.blocks.record();
-        for (what, value) in [
-            (RECORD_PEAK, record.get(Indicator::Peak)),
-            (RECORD_PEAK_TO_PEAK, record.get(Indicator::PeakToPeak)),
-        ] {
-            let name = quantity_name(&channel.name, channel.kind, what);
-            all.push(Quantity::new(name, channel.unit, value));
-        }
+        let of = of_kind(&channel.name, channel.kind);
+        let values = channel.blocks.record();
+        all.extend(record(channel.unit).map(|f| f.quantity(&of, exact(values.get(f.of)))));
     }
-    let turns = findings.channels.first();
-    let turns = turns.map_or(0, |c| c.blocks.revolutions());
-    all.push(Quantity::new("analysed_turns", "1", Some(turns as f64)));
+    all.push(analysed(&ANALYSED_TURNS, findings));
 }
 
 /// Levels of the envelope spectrum at the defect frequencies and their harmonics, within the share that [`LineSearch`] looks in. Where
@@ -146,29 +142,19 @@ fn lines(
     let model = simulation.model();
     let constant = matches!(scenario.operation.speed_rpm, Speed::Constant(_));
     let k = model.kinematics(model.rotation.at(0.0).0);
-    let (mut names, mut found) = (Vec::new(), Vec::new());
-    for (name, frequency) in [("bpfo", k.bpfo), ("bpfi", k.bpfi), ("2bsf", 2.0 * k.bsf)] {
-        for n in 1..=HARMONICS {
-            let at = frequency * n as f64;
-            let envelope = findings.envelope.as_ref().filter(|_| constant && at > 0.0);
-            let peak = envelope.and_then(|(e, _)| {
-                let tolerance = LineSearch::new(frequency).tolerance;
-                peak_near(&e.spectrum, at, tolerance * at)
-            });
-            names.push(match n {
-                1 => format!("envelope.{name}"),
-                n => format!("envelope.{name}_x{n}"),
-            });
-            found.push((at, peak));
-        }
-    }
-    let levels = own_levels(&found).into_iter();
-    all.extend(
-        names
-            .into_iter()
-            .zip(levels)
-            .map(|(n, level)| Quantity::new(n, "m/s^2", level)),
-    );
+    let found = LINES.iter().map(|line| {
+        let (frequency, n) = ((line.of.0)(&k), line.of.1);
+        let at = frequency * f64::from(n);
+        let envelope = findings.envelope.as_ref().filter(|_| constant && at > 0.0);
+        let peak = envelope.and_then(|(e, _)| {
+            let tolerance = LineSearch::new(frequency).tolerance;
+            peak_near(&e.spectrum, at, tolerance * at)
+        });
+        (at, peak)
+    });
+    let found: Vec<_> = found.collect();
+    let levels = LINES.iter().zip(own_levels(&found));
+    all.extend(levels.map(|(line, level)| line.quantity("envelope", exact(level))));
 }
 
 /// Height of the line found at each frequency, Hz; none where another frequency has the same line and lies nearer to it.
@@ -187,104 +173,35 @@ fn own_levels(found: &[(f64, Option<Peak>)]) -> Vec<Option<f64>> {
     found.iter().map(own).collect()
 }
 
-/// `defect1.entry_peak` or `defect1.exit_peak`.
-pub(super) fn impact_name(impacts: &Impacts) -> String {
-    let what = if impacts.enters { "entry" } else { "exit" };
-    format!("defect{}.{what}_peak", impacts.defect + 1)
-}
-
 fn defects(simulation: &Simulation, findings: &Findings, all: &mut Vec<Quantity>) {
     let passes = findings.passes.best();
+    let named = |index: usize| format!("defect{}", index + 1);
     for index in 0..simulation.model().defects.len() {
-        let line = findings.lines.iter().find(|l| l.defect == index);
-        let named = |name: &str| format!("defect{}.{name}", index + 1);
-        let rate = line.and_then(DefectLine::estimate);
-        all.push(Quantity::estimated(named("frequency"), "Hz", rate));
-        let nominal = line.map(|l| l.nominal);
-        all.push(Quantity::new(
-            named("pure_rolling_frequency"),
-            "Hz",
-            nominal,
-        ));
-        let pass = passes.iter().find(|p| p.defect == index);
-        let least = |of: fn(&crate::observe::passes::PassPoint) -> f64| {
-            pass.and_then(|p| p.points.iter().map(of).min_by(f64::total_cmp))
+        let found = FoundDefect {
+            line: findings.lines.iter().find(|l| l.defect == index),
+            pass: passes.iter().find(|p| p.defect == index),
         };
-        all.push(Quantity::new(
-            named("least_contact_length"),
-            "m",
-            least(|p| p.length),
-        ));
-        all.push(Quantity::new(
-            named(LEAST_STIFFNESS),
-            STIFFNESS_UNIT,
-            least(|p| p.stiffness),
-        ));
-        all.push(Quantity::new(
-            named("peak_force"),
-            "N",
-            pass.map(|p| p.peak),
-        ));
+        let one = |f: &Field<fn(&FoundDefect) -> _>| f.quantity(&named(index), (f.of)(&found));
+        all.extend(DEFECT.iter().map(one));
     }
-    for one in impacts(simulation, findings) {
-        all.push(Quantity::estimated(impact_name(&one), "m/s^2", one.peak));
-    }
+    all.extend(impacts(simulation, findings).iter().map(|impacts| {
+        let field = if impacts.enters {
+            ENTRY_PEAK
+        } else {
+            EXIT_PEAK
+        };
+        field.quantity(&named(impacts.defect), (field.of)(impacts))
+    }));
 }
 
 fn rows(findings: &Findings, all: &mut Vec<Quantity>) {
+    let named = |row: usize| format!("row{}", row + 1);
     for (row, slip) in findings.slip.rows.iter().enumerate() {
-        for (name, estimate) in [
-            ("cage_slip", slip.cage()),
-            ("loaded_orbit_slip", slip.loaded_orbit()),
-            ("loaded_surface_slip", slip.loaded_surface()),
-            ("unloaded_orbit_slip", slip.unloaded_orbit()),
-        ] {
-            let name = format!("row{}.{name}", row + 1);
-            all.push(Quantity::estimated(name, "1", estimate));
-        }
+        all.extend(SLIP.iter().map(|f| f.quantity(&named(row), (f.of)(slip))));
     }
     for (row, load) in findings.load_zone.rows.iter().enumerate() {
-        let largest = load.max.iter().copied().max_by(f64::total_cmp);
-        let name = format!("row{}.largest_outer_force", row + 1);
-        all.push(Quantity::new(name, "N", largest));
-    }
-}
-
-fn audits(outcome: &Outcome, all: &mut Vec<Quantity>) {
-    let energy = &outcome.energy;
-    let turnover = energy.turnover();
-    let relative = (turnover > 0.0).then(|| energy.residual() / turnover);
-    all.push(Quantity::new(
-        "audit.energy_residual",
-        "J",
-        Some(energy.residual()),
-    ));
-    all.push(Quantity::new(
-        "audit.energy_residual_over_turnover",
-        "1",
-        relative,
-    ));
-    all.push(Quantity::new(
-        "audit.momentum_imbalance",
-        "1",
-        outcome.momentum_imbalance,
-    ));
-    let work = &outcome.work;
-    for (name, count) in [
-        ("steps", work.solver.steps),
-        ("rejections", work.solver.rejections),
-        ("right_hand_sides", work.solver.evaluations),
-        ("right_hand_sides_for_samples", work.sample_evaluations),
-        ("contact_switches", work.contact_switches),
-        ("pocket_switches", work.pocket_switches),
-        ("damage_switches", work.damage_switches),
-        ("samples", outcome.rows),
-    ] {
-        all.push(Quantity::new(
-            format!("work.{name}"),
-            "1",
-            Some(count as f64),
-        ));
+        let one = |f: &Field<fn(&_) -> _>| f.quantity(&named(row), exact((f.of)(load)));
+        all.extend(LOAD.iter().map(one));
     }
 }
 
@@ -295,6 +212,7 @@ pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
         end: crate::simulate::End::Stopped,
         rows: 0,
         t: 0.0,
+        reached: 0.0,
         work: crate::simulate::SolverWork::default(),
         energy: crate::simulate::EnergyAudit::default(),
         momentum_imbalance: None,
@@ -302,6 +220,44 @@ pub fn names(scenario: &Scenario, simulation: &Simulation) -> Vec<String> {
     };
     let all = quantities(scenario, simulation, &outcome, &findings);
     all.into_iter().map(|q| q.name).collect()
+}
+
+/// A name that no run of a scenario has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{name}: no such number of a run{}\n  allowed: the columns of `brinell sweep`, such as {}", .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?")), .such_as.join(", "))]
+pub struct UnknownName {
+    /// The name.
+    pub name: String,
+    /// The nearest that there is, if any is near.
+    pub near: Option<String>,
+    /// Others that are much alike, or usual ones.
+    pub such_as: Vec<String>,
+}
+
+/// Whether `name` is one of `names`, which [`names()`] gives.
+///
+/// # Errors
+/// Where it is not.
+pub fn check_name(name: &str, names: &[String]) -> Result<(), UnknownName> {
+    if names.iter().any(|n| n == name) {
+        return Ok(());
+    }
+    let part = name.split('.').next_back().unwrap_or(name);
+    let alike = names
+        .iter()
+        .filter(|n| n.ends_with(part) || n.starts_with(name));
+    let mut such_as: Vec<String> = alike.take(8).cloned().collect();
+    if such_as.is_empty() {
+        such_as = ["sensor_ax.rms", "envelope.bpfo", "row1.cage_slip"]
+            .map(str::to_owned)
+            .into();
+    }
+    let near = nearest(name, names.iter().map(String::as_str));
+    Err(UnknownName {
+        name: name.to_owned(),
+        near: near.map(str::to_owned),
+        such_as,
+    })
 }
 
 #[cfg(test)]

@@ -116,6 +116,7 @@ impl<'a> Run<'a> {
             end,
             rows: self.rows,
             t,
+            reached: self.rows.saturating_sub(1) as f64 / self.simulation.sample_rate,
             work: self.work,
             energy: self.energy,
             momentum_imbalance: self.imbalance,

@@ -129,6 +129,8 @@ pub struct Outcome {
     pub rows: u64,
     /// Simulated time reached, s; the filter's tail past the last sample included.
     pub t: f64,
+    /// Time of the last complete row, s.
+    pub reached: f64,
     /// Counted work.
     pub work: SolverWork,
     /// Energy audit.

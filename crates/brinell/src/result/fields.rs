@@ -1,0 +1,201 @@
+//! The list of a run's numbers: name, unit, meaning, estimator, and what each is read from. Terminal, `summary.json`, sweeps, data
+//! sets, the page and Python take names, units and values from here.
+
+use super::impacts::Impacts;
+use crate::bearing::kinematics::Kinematics;
+use crate::channel::STIFFNESS_UNIT;
+use crate::observe::load_zone::RowLoad;
+use crate::observe::passes::{Pass, PassPoint};
+use crate::observe::slip::RowSlip;
+use crate::observe::{DefectLine, Findings};
+use crate::signal::{Estimate, Indicator, RECORD_PEAK, RECORD_PEAK_TO_PEAK};
+use crate::simulate::Outcome;
+
+/// How a number is estimated from a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Estimator {
+    /// Follows from the scenario, or is counted or summed over the run: it does not scatter.
+    Exact,
+    /// Largest or least of the analysed time: it grows with that time, and has no interval.
+    Extreme,
+    /// Height of a line of the averaged envelope spectrum; no interval.
+    Line,
+    /// Average over whole revolutions of the inner ring, with a 95 % interval.
+    Revolutions,
+    /// Mean over the entries or exits of rollers, with a 95 % interval.
+    Passes,
+    /// Rate of the comb of harmonics in the envelope spectrum, with a 95 % interval.
+    Comb,
+}
+
+impl Estimator {
+    /// Whether the number comes with a 95 % interval where the run is long enough.
+    pub fn has_interval(self) -> bool {
+        matches!(self, Self::Revolutions | Self::Passes | Self::Comb)
+    }
+}
+
+/// One number of the list; `of` reads it.
+#[derive(Debug, Clone, Copy)]
+pub struct Field<F> {
+    /// Name, without the channel, defect or row that it is of.
+    pub name: &'static str,
+    /// SI unit; 1 where it has none.
+    pub unit: &'static str,
+    /// What it is, in one sentence.
+    pub meaning: &'static str,
+    /// How it is estimated.
+    pub estimator: Estimator,
+    /// Reads it from what a run found.
+    pub of: F,
+}
+
+/// What a run found of one defect.
+#[derive(Debug, Clone, Copy)]
+pub struct FoundDefect<'a> {
+    /// Its line in the envelope.
+    pub line: Option<&'a DefectLine>,
+    /// The pass with the largest contact force.
+    pub pass: Option<&'a Pass>,
+}
+
+impl FoundDefect<'_> {
+    fn least(&self, of: fn(&PassPoint) -> f64) -> Option<f64> {
+        self.pass?.points.iter().map(of).min_by(f64::total_cmp)
+    }
+}
+
+/// A constant for each number, and one for all of them.
+macro_rules! fields {
+    ($about:literal $list:ident: $read:ty; $($id:ident $name:literal $unit:tt $estimator:ident $meaning:literal $of:expr;)*) => {
+        $(
+            #[doc = $meaning]
+            pub const $id: Field<$read> = Field {
+                name: $name, unit: $unit, meaning: $meaning, estimator: Estimator::$estimator, of: $of,
+            };
+        )*
+        #[doc = $about]
+        pub const $list: &[Field<$read>] = &[$($id),*];
+    };
+}
+
+fields! {
+    "Counted work."
+    WORK: fn(&Outcome) -> u64;
+    STEPS "steps" "1" Exact "steps of the integrator" |o| o.work.solver.steps;
+    REJECTIONS "rejections" "1" Exact "steps that were taken again" |o| o.work.solver.rejections;
+    RIGHT_HAND_SIDES "right_hand_sides" "1" Exact
+        "evaluations of the equations of motion for steps" |o| o.work.solver.evaluations;
+    SAMPLE_RIGHT_HAND_SIDES "right_hand_sides_for_samples" "1" Exact
+        "evaluations of the equations of motion for samples of the instantaneous channels" |o| o.work.sample_evaluations;
+    CONTACT_SWITCHES "contact_switches" "1" Exact "contacts that opened or closed" |o| o.work.contact_switches;
+    POCKET_SWITCHES "pocket_switches" "1" Exact "pockets that opened or closed" |o| o.work.pocket_switches;
+    DAMAGE_SWITCHES "damage_switches" "1" Exact "contacts that went onto or off damage" |o| o.work.damage_switches;
+    SAMPLES "samples" "1" Exact "complete rows of the recorded channels" |o| o.rows;
+}
+
+fields! {
+    "Audits of energy and momentum."
+    AUDITS: fn(&Outcome) -> Option<f64>;
+    ENERGY_RESIDUAL "energy_residual" "J" Exact "energy that no entry of the audit explains" |o| Some(o.energy.residual());
+    RELATIVE_RESIDUAL "energy_residual_over_turnover" "1" Exact "energy that no entry of the audit explains, over all that moved"
+        |o| (o.energy.turnover() > 0.0).then(|| o.energy.residual() / o.energy.turnover());
+    MOMENTUM_IMBALANCE "momentum_imbalance" "1" Extreme "largest relative imbalance of momentum" |o| o.momentum_imbalance;
+}
+
+fields! {
+    "What `summary.json` and data sets tell besides."
+    COURSE: fn(&Outcome) -> Option<f64>;
+    PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
+    REACHED "reached" "s" Exact "simulated time of the last sample" |o| Some(o.reached);
+}
+
+fields! {
+    "Where statistics begin."
+    ANALYSED: fn(&Findings) -> f64;
+    ANALYSED_TURNS "analysed_turns" "1" Exact "whole revolutions of the inner ring that averages are taken over"
+        |f| f.channels.first().map_or(0, |c| c.blocks.revolutions()) as f64;
+    ANALYSED_FROM "analysed_from" "s" Exact "averages, forces and slip count from here on" |f| f.from;
+}
+
+fields! {
+    "Slip of a row."
+    SLIP: fn(&RowSlip) -> Option<Estimate>;
+    CAGE_SLIP "cage_slip" "1" Revolutions "1 - cage speed / pure rolling, mean" RowSlip::cage;
+    LOADED_ORBIT_SLIP "loaded_orbit_slip" "1" Revolutions
+        "1 - orbit speed / pure rolling, mean of rollers that the inner raceway presses" RowSlip::loaded_orbit;
+    LOADED_SURFACE_SLIP "loaded_surface_slip" "1" Revolutions
+        "|slip| at the inner contact / speed of the inner raceway, mean of rollers that the inner raceway presses" RowSlip::loaded_surface;
+    UNLOADED_ORBIT_SLIP "unloaded_orbit_slip" "1" Revolutions
+        "1 - orbit speed / pure rolling, mean of the other rollers" RowSlip::unloaded_orbit;
+}
+
+fields! {
+    "Load of a row."
+    LOAD: fn(&RowLoad) -> Option<f64>;
+    LARGEST_OUTER_FORCE "largest_outer_force" "N" Extreme "largest force of an outer contact of the row"
+        |row| row.max.iter().copied().max_by(f64::total_cmp);
+}
+
+fields! {
+    "Lines of the envelope spectrum: the frequency in pure rolling, Hz, and which harmonic of it."
+    LINES: (fn(&Kinematics) -> f64, u32);
+    BPFO "bpfo" "m/s^2" Line "line of the envelope spectrum at BPFO" (|k| k.bpfo, 1);
+    BPFO_X2 "bpfo_x2" "m/s^2" Line "line of the envelope spectrum at 2 BPFO" (|k| k.bpfo, 2);
+    BPFO_X3 "bpfo_x3" "m/s^2" Line "line of the envelope spectrum at 3 BPFO" (|k| k.bpfo, 3);
+    BPFI "bpfi" "m/s^2" Line "line of the envelope spectrum at BPFI" (|k| k.bpfi, 1);
+    BPFI_X2 "bpfi_x2" "m/s^2" Line "line of the envelope spectrum at 2 BPFI" (|k| k.bpfi, 2);
+    BPFI_X3 "bpfi_x3" "m/s^2" Line "line of the envelope spectrum at 3 BPFI" (|k| k.bpfi, 3);
+    BSF2 "2bsf" "m/s^2" Line "line of the envelope spectrum at 2 BSF" (|k| 2.0 * k.bsf, 1);
+    BSF2_X2 "2bsf_x2" "m/s^2" Line "line of the envelope spectrum at 4 BSF" (|k| 2.0 * k.bsf, 2);
+    BSF2_X3 "2bsf_x3" "m/s^2" Line "line of the envelope spectrum at 6 BSF" (|k| 2.0 * k.bsf, 3);
+}
+
+fields! {
+    "Of a defect."
+    DEFECT: fn(&FoundDefect) -> Option<Estimate>;
+    FREQUENCY "frequency" "Hz" Comb "rate of the impacts" |d| d.line?.estimate();
+    PURE_ROLLING "pure_rolling_frequency" "Hz" Exact "rate of the impacts in pure rolling" |d| exact(d.line.map(|l| l.nominal));
+    LEAST_LENGTH "least_contact_length" "m" Extreme "least effective contact length over the defect" |d| exact(d.least(|p| p.length));
+    LEAST_STIFFNESS "least_stiffness" STIFFNESS_UNIT Extreme "least contact stiffness over the defect" |d| exact(d.least(|p| p.stiffness));
+    PEAK_FORCE "peak_force" "N" Extreme "largest contact force over the defect" |d| exact(d.pass.map(|p| p.peak));
+}
+
+fields! {
+    "Of a defect's entries and of its exits, in this order."
+    IMPACTS: fn(&Impacts) -> Option<Estimate>;
+    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller comes onto the defect" |i| i.peak;
+    EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect" |i| i.peak;
+}
+
+/// A value that does not scatter, as an estimate.
+pub(super) fn exact(value: Option<f64>) -> Option<Estimate> {
+    value.map(|value| Estimate {
+        value,
+        interval: None,
+    })
+}
+
+/// An indicator of a channel whose unit is `unit`; [`Blocks::estimate`](crate::signal::Blocks::estimate) gives its value.
+pub fn indicator(indicator: Indicator, unit: &'static str) -> Field<Indicator> {
+    Field {
+        name: indicator.name(),
+        unit: if indicator.has_unit() { unit } else { "1" },
+        meaning: indicator.meaning(),
+        estimator: Estimator::Revolutions,
+        of: indicator,
+    }
+}
+
+/// The extremes of a channel's whole record: its largest |value|, and its largest less its smallest value.
+pub fn record(unit: &'static str) -> [Field<Indicator>; 2] {
+    [
+        (RECORD_PEAK, Indicator::Peak),
+        (RECORD_PEAK_TO_PEAK, Indicator::PeakToPeak),
+    ]
+    .map(|(name, of)| Field {
+        name,
+        estimator: Estimator::Extreme,
+        ..indicator(of, unit)
+    })
+}
