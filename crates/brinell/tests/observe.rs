@@ -5,7 +5,7 @@ mod common;
 use brinell::channel::Frame;
 use brinell::defect::{Side, wrap};
 use brinell::model::{Model, Workspace};
-use brinell::observe::load_zone::{BINS, LoadZone};
+use brinell::observe::load_zone::{BINS, LoadZone, Places};
 use brinell::observe::motion::{FRAMES, Motion};
 use brinell::observe::orbit::{CageOrbit, TURNS};
 use brinell::observe::slip_course::{STRETCHES, SlipCourse};
@@ -76,7 +76,7 @@ fn analytic_slip_over_time_is_the_mean_of_each_stretch() {
         &model,
         samples,
         |t, y, _| slipping(&model, y, ramp(t), -0.5 * ramp(t), 0.01),
-        |f| course.take(f, false),
+        |f| course.take(f, Places::default().at(f), false),
     );
     assert_eq!(course.samples_per_stretch(), 4);
     for row in 0..model.layout.rows {
@@ -116,8 +116,8 @@ fn analytic_slip_over_the_place_is_found_where_it_was() {
             }
         },
         |f| {
-            course.take(f, true);
-            zone.take(f);
+            course.take(f, Places::default().at(f), true);
+            zone.take(f, Places::default().at(f));
         },
     );
     for row in 0..l.rows {
@@ -147,9 +147,19 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
         s.operation.speed_rpm = Speed::Profile(vec![[0.0, 0.0], [0.1, 0.0], [0.2, 1800.0]]);
     });
     let mut course = SlipCourse::new(&from_rest.layout);
-    go(&from_rest, 500, |_, _, _| (), |f| course.take(f, true));
+    go(
+        &from_rest,
+        500,
+        |_, _, _| (),
+        |f| course.take(f, Places::default().at(f), true),
+    );
     assert!(course.over_time(0).cage.is_empty());
-    go(&from_rest, 6000, |_, _, _| (), |f| course.take(f, true));
+    go(
+        &from_rest,
+        6000,
+        |_, _, _| (),
+        |f| course.take(f, Places::default().at(f), true),
+    );
     let slip = course.over_time(0);
     // Cage and rollers stand still all the time: NaN before the shaft turns, then all of its speed is missing.
     assert!(slip.cage[0].is_nan() && slip.orbit[0].is_nan());
@@ -164,7 +174,7 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
         500,
         |_, _, _| (),
         |f| {
-            course.take(f, true);
+            course.take(f, Places::default().at(f), true);
             orbit.take(f);
         },
     );

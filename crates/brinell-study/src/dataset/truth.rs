@@ -4,7 +4,7 @@ use crate::listener::RunListener;
 use brinell::channel::Frame;
 use brinell::defect::{SIDES, Side};
 use brinell::observe::has_settled;
-use brinell::observe::load_zone::LoadZone;
+use brinell::observe::load_zone::{LoadZone, Places};
 use brinell::observe::passes::{Event, Passes};
 use brinell::observe::slip::Slip;
 use brinell::scenario::Scenario;
@@ -32,6 +32,7 @@ pub(crate) struct Truth<'a> {
     pub(crate) instants: Vec<Instant>,
     /// The analysed time begins here, s.
     pub(crate) from: Option<f64>,
+    rollers: Places,
     pub(crate) load_zone: LoadZone,
     pub(crate) slip: Slip,
     /// Of each roller's outer contact: sum and largest force over samples, N.
@@ -74,6 +75,7 @@ impl<'a> Truth<'a> {
             passes: Passes::new(simulation.model()),
             instants: Vec::new(),
             from: None,
+            rollers: Places::default(),
             load_zone: LoadZone::new(layout),
             slip: Slip::new(layout),
             outer: vec![(0.0, 0.0); layout.rollers()],
@@ -108,7 +110,7 @@ impl Observer for Truth<'_> {
         if self.from.is_none() {
             return;
         }
-        self.load_zone.take(frame);
+        self.load_zone.take(frame, self.rollers.at(frame));
         self.slip.take(frame);
         self.samples += 1;
         for side in SIDES {

@@ -10,8 +10,27 @@ use std::f64::consts::TAU;
 #[doc(hidden)]
 pub const BINS: usize = 72;
 
+/// Where the rollers are at one instant, by bins: what [`LoadZone`] and the course of slip both ask.
+#[derive(Debug, Clone, Default)]
+pub struct Places(Vec<usize>);
+
+impl Places {
+    /// The bin of each roller, by slot.
+    pub fn at(&mut self, f: &Frame) -> &[usize] {
+        let l = &f.model.layout;
+        let orbits = match f.model.kind {
+            ModelKind::Full => &f.y[l.theta()..],
+            ModelKind::Lumped => &f.ws.kinematic_orbit[..],
+        };
+        self.0.clear();
+        self.0
+            .extend(orbits[..l.rollers()].iter().map(|orbit| bin_at(*orbit)));
+        &self.0
+    }
+}
+
 /// The bin of an orbit angle, rad.
-pub(super) fn bin_at(orbit: f64) -> usize {
+fn bin_at(orbit: f64) -> usize {
     let turn = wrap(orbit) * (1.0 / TAU);
     let turn = if turn < 0.0 { turn + 1.0 } else { turn };
     ((turn * BINS as f64) as usize).min(BINS - 1)
@@ -62,20 +81,16 @@ impl LoadZone {
         }
     }
 
-    /// Takes one instant.
-    pub fn take(&mut self, f: &Frame) {
-        let l = &f.model.layout;
+    /// Takes one instant, at which the rollers are in these bins.
+    pub fn take(&mut self, f: &Frame, bins: &[usize]) {
         let force = &f.ws.contacts[Side::Outer as usize].force;
-        for slot in 0..l.rollers() {
-            let orbit = match f.model.kind {
-                ModelKind::Full => f.y[l.theta() + slot],
-                ModelKind::Lumped => f.ws.kinematic_orbit[slot],
-            };
-            let bin = bin_at(orbit);
-            let row = &mut self.rows[l.row(slot)];
-            row.sum[bin] += force[slot];
-            row.max[bin] = row.max[bin].max(force[slot]);
-            row.count[bin] += 1;
+        let rows = self.rows.len();
+        for (bins, force) in bins.chunks_exact(rows).zip(force.chunks_exact(rows)) {
+            for ((row, bin), force) in self.rows.iter_mut().zip(bins).zip(force) {
+                row.sum[*bin] += force;
+                row.max[*bin] = row.max[*bin].max(*force);
+                row.count[*bin] += 1;
+            }
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::signal::{
     Spectrum, StreamSpectra,
 };
 use crate::simulate::Simulation;
-use load_zone::LoadZone;
+use load_zone::{LoadZone, Places};
 use motion::Motion;
 use orbit::CageOrbit;
 use pass_rate::PassRates;
@@ -146,6 +146,7 @@ pub struct Watch {
     axis: usize,
     recorded: usize,
     channels: Vec<ChannelStatistics>,
+    places: Places,
     load_zone: LoadZone,
     slip: Slip,
     slip_course: SlipCourse,
@@ -224,6 +225,7 @@ impl Watch {
             axis: usize::from(load[1].abs() > load[0].abs()),
             recorded,
             channels,
+            places: Places::default(),
             load_zone: LoadZone::new(&model.layout),
             slip: Slip::new(&model.layout),
             slip_course: SlipCourse::new(&model.layout),
@@ -251,7 +253,8 @@ impl Watch {
             self.start_angle = frame.model.rotation.at(frame.t).1;
             self.rates.take(frame);
         }
-        self.slip_course.take(frame, self.started.is_some());
+        let bins = self.places.at(frame);
+        self.slip_course.take(frame, bins, self.started.is_some());
         self.cage_orbit.take(frame);
         self.motion.take(frame);
         if self.started.is_some() {
@@ -260,7 +263,7 @@ impl Watch {
                 self.turn = turn;
                 self.rates.take(frame);
             }
-            self.load_zone.take(frame);
+            self.load_zone.take(frame, bins);
             self.slip.take(frame);
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::channel::Frame;
 use crate::model::Layout;
-use crate::observe::load_zone::{BINS, bin_at};
+use crate::observe::load_zone::BINS;
 use crate::scenario::ModelKind;
 
 /// Stretches of time, at most.
@@ -69,8 +69,8 @@ impl SlipCourse {
         }
     }
 
-    /// Takes one sample instant; places are counted where `settled`.
-    pub fn take(&mut self, f: &Frame, settled: bool) {
+    /// Takes one sample instant, at which the rollers are in these bins; places are counted where `settled`.
+    pub fn take(&mut self, f: &Frame, bins: &[usize], settled: bool) {
         if self.in_stretch == 0 {
             if self.stretches.len() == STRETCHES * self.rows {
                 self.merge();
@@ -92,25 +92,27 @@ impl SlipCourse {
         let per_rolling = 1.0 / f.model.rolling_orbit_speed(w);
         let per_spinning = 1.0 / f.model.rolling_spin_speed(w);
         let first = self.stretches.len() - self.rows;
-        for row in 0..self.rows {
-            let sums = &mut self.stretches[first + row];
+        let orbits = &f.y[dof + l.theta()..];
+        let spins = &f.y[dof + l.phi()..];
+        for (row, stretch) in self.stretches[first..].iter_mut().enumerate() {
+            let mut sums = *stretch;
             sums.cage += 1.0 - f.y[dof + l.cage(row) + 2] * per_rolling;
             sums.cages += 1;
-        }
-        for slot in 0..l.rollers() {
-            let row = l.row(slot);
-            let orbit = 1.0 - f.y[dof + l.theta() + slot] * per_rolling;
-            let spin = 1.0 - f.y[dof + l.phi() + slot] * per_spinning;
-            let sums = &mut self.stretches[first + row];
-            sums.orbit += orbit;
-            sums.spin += spin;
-            sums.rollers += 1;
-            if settled {
-                let sums = &mut self.places[row * BINS + bin_at(f.y[l.theta() + slot])];
+            let places = &mut self.places[row * BINS..][..BINS];
+            for slot in (row..bins.len()).step_by(self.rows) {
+                let orbit = 1.0 - orbits[slot] * per_rolling;
+                let spin = 1.0 - spins[slot] * per_spinning;
                 sums.orbit += orbit;
                 sums.spin += spin;
-                sums.rollers += 1;
+                if settled {
+                    let place = &mut places[bins[slot]];
+                    place.orbit += orbit;
+                    place.spin += spin;
+                    place.rollers += 1;
+                }
             }
+            sums.rollers += l.rollers_per_row as u32;
+            *stretch = sums;
         }
     }
 
