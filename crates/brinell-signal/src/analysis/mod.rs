@@ -31,6 +31,7 @@ mod drift;
 mod error;
 mod family;
 mod frequencies;
+mod hypotheses;
 mod json;
 mod known_lines;
 mod levels;
@@ -66,8 +67,9 @@ use crate::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     Transformed, VelocityBands, kurtogram, psd,
 };
+use hypotheses::{Best, Told};
 use std::thread::{self, ScopedJoinHandle};
-use together::{Envelopes, Shaft};
+use together::Envelopes;
 use verdict::Record;
 
 /// What is known beside the samples, and how sure to be.
@@ -111,8 +113,6 @@ impl Options {
 /// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
 const LARGEST: f64 = 1e60;
 
-/// How well the shaft's own lines tell its speed, relative.
-const SHAFT_KNOWN: f64 = 0.002;
 /// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance), which
@@ -259,108 +259,93 @@ impl Analysis {
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
     let flaws = soundness::flaws(x, fs, options.shaft);
-    // What is missing has no speed.
-    let is_whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
-    let steady = options.rotation.is_some() || options.exact || !is_whole;
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
-    // What asks for nothing but the samples goes side by side.
-    let (indicators, map, shaft, mut drift, transformed) = thread::scope(|scope| {
-        let indicators = scope.spawn(|| indicators(&x, fs / options.shaft));
+    // What is missing has no speed.
+    let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
+    let Heard {
+        indicators,
+        map,
+        told,
+        transformed,
+    } = hear(&x, fs, options, whole)?;
+    let samples = x.len();
+    drop(x);
+    let Best {
+        record,
+        envelopes,
+        shaft_lines,
+        drift,
+    } = hypotheses::best(&transformed, told, options)?;
+    let view = view(&record, &envelopes, &transformed)?;
+    Ok(Analysis {
+        sample_rate: fs,
+        samples,
+        mean,
+        shaft: record.shaft,
+        shaft_found: record.options.rotation.is_some() || !shaft_lines.is_empty(),
+        shaft_lines,
+        flaws,
+        drift,
+        indicators,
+        kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
+        map,
+        view,
+        bands: record.together.bands(),
+        families: record.families,
+        elsewhere: record.elsewhere,
+        options: record.options,
+    })
+}
+
+/// What is taken from the samples themselves.
+struct Heard {
+    indicators: Vec<(Indicator, Estimate)>,
+    map: Option<Kurtogram>,
+    told: Told,
+    transformed: Transformed,
+}
+
+/// All that asks for nothing but the samples, side by side; the speed's drift is sought where the record is `whole`.
+fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, AnalysisError> {
+    let may_drift = whole && options.rotation.is_none() && !options.exact;
+    thread::scope(|scope| {
+        let indicators = scope.spawn(|| indicators(x, fs / options.shaft));
         let map = scope.spawn(|| match options.band {
             Some(_) => Ok(None),
             None => kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH).map(Some),
         });
-        let shaft = scope.spawn(|| match options.rotation {
+        let lines = scope.spawn(|| match options.rotation {
             // Followed, it is known.
             Some(_) => Ok(None),
-            None => known_lines::shaft(&x, fs, options),
+            None => known_lines::shaft(x, fs, options),
         });
-        let drift = scope.spawn(|| match steady {
-            true => None,
-            false => drift::by_shaft(&x, fs, options),
-        });
+        let drift = scope.spawn(|| may_drift.then(|| drift::by_shaft(x, fs, options))?);
         // As much as is transformed fast, with a trace of noise.
         let transformed = Transformed::of(&x[..fast_up_to(x.len())], fs);
-        (
-            done(indicators),
-            done(map),
-            done(shaft),
-            done(drift),
-            transformed,
-        )
-    });
-    let map = map?;
-    let (shaft, mut shaft_lines) = match shaft? {
-        Some(found) => (found.speed, found.orders),
-        None => (options.shaft, Vec::new()),
-    };
-    let transformed = transformed?.dithered(DITHER);
-    let samples = x.len();
-    drop(x);
-    let range = bands::range(fs, options)?;
-    let mut envelopes = Envelopes::of(&transformed, range, shaft, options)?;
-    if drift.is_none() && shaft_lines.is_empty() && !steady {
-        drift = drift::by_families(&envelopes, options);
-    }
-    let tolerance = match shaft_lines.is_empty() || options.exact {
-        true => 0.0,
-        // Half a bin of the finest spectrum.
-        false => (0.5 * fs / samples as f64).max(SHAFT_KNOWN * shaft),
-    };
-    let known = Shaft {
-        hz: shaft,
-        tolerance,
-    };
-    let own;
-    let mut record = Record::of(&envelopes, known, options)?;
-    if !shaft_lines.is_empty() && !options.exact && !record.is_damage() {
-        // Lines that agree by chance, or another shaft's, may have told a wrong speed.
-        let given = Shaft {
-            hz: options.shaft,
-            tolerance: 0.0,
-        };
-        let as_given = Record::of(&envelopes, given, options)?;
-        // At a speed that is off, lines of the shaft are not hidden: only what is very clear counts.
-        let clear = |f: &Family| f.standing == Standing::Damage && f.is_very_clear();
-        if as_given.families.iter().any(clear) {
-            shaft_lines.clear();
-            record = as_given;
-        }
-    }
-    if let Some(drift) = &mut drift {
-        drift.smear = record.together.smear(&drift.course);
-        own = Options {
-            rotation: Some(drift.rotation()?),
-            ..options.clone()
-        };
-        let known = Shaft {
-            hz: drift.mean(),
-            tolerance: SHAFT_KNOWN * drift.mean(),
-        };
-        let at_angles = Record::of(&envelopes, known, &own)?;
-        if at_angles.evidence() > record.evidence() {
-            drift.followed = true;
-            record = at_angles;
-        }
-    }
-    if options.band.is_none() && !options.exact && !record.is_damage() {
-        for part in bands::lower(range) {
-            let there = Envelopes::of(&transformed, part, record.shaft, record.options)?;
-            let known = Shaft {
-                hz: record.shaft,
-                tolerance,
-            };
-            let lower = Record::of(&there, known, record.options)?;
-            if lower.is_damage() {
-                record = lower;
-                envelopes = there;
-                break;
-            }
-        }
-    }
-    let Record { shaft, options, .. } = record;
-    let (band, choice, (mean_of_envelope, spectrum)) = match (options.band, record.lead()) {
+        Ok(Heard {
+            indicators: done(indicators),
+            map: done(map)?,
+            told: Told {
+                lines: done(lines)?,
+                drift: done(drift),
+                may_drift,
+                // Half a bin of the finest spectrum.
+                bin: 0.5 * fs / x.len() as f64,
+            },
+            transformed: transformed?.dithered(DITHER),
+        })
+    })
+}
+
+/// The envelope spectrum to show: of the band in which the family that leads stands highest; of the whole range where none leads.
+fn view(
+    record: &Record,
+    envelopes: &Envelopes,
+    transformed: &Transformed,
+) -> Result<View, AnalysisError> {
+    let (shaft, options) = (record.shaft, &record.options);
+    let (band, choice, (mean, spectrum)) = match (options.band, record.lead()) {
         (None, Some(lead)) => {
             let (band, envelope) = &envelopes.each[record.together.clearest(lead)];
             let spectrum = envelopes.spectrum(envelope, shaft, options)?;
@@ -371,32 +356,16 @@ pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, Analys
                 Some(_) => BandChoice::Given,
                 None => BandChoice::Broad,
             };
-            let spectrum = together::envelope_spectrum(&transformed, range, shaft, options)?;
+            let range = bands::range(transformed.sample_rate(), options)?;
+            let spectrum = together::envelope_spectrum(transformed, range, shaft, options)?;
             (range, choice, spectrum)
         }
     };
-    Ok(Analysis {
-        options: options.clone(),
-        sample_rate: fs,
-        samples,
+    Ok(View {
+        band,
+        choice,
+        spectrum,
         mean,
-        shaft,
-        shaft_found: options.rotation.is_some() || !shaft_lines.is_empty(),
-        shaft_lines,
-        flaws,
-        drift,
-        indicators,
-        kurtogram: (map.as_ref()).and_then(|m| m.best(bands::NARROWEST * bands::highest(options))),
-        map,
-        view: View {
-            band,
-            choice,
-            spectrum,
-            mean: mean_of_envelope,
-        },
-        bands: record.together.bands(),
-        families: record.families,
-        elsewhere: record.elsewhere,
     })
 }
 

@@ -57,23 +57,23 @@ pub struct Nearest {
 }
 
 /// What was looked at, how long it is, and what was found.
-pub(super) struct Record<'a> {
+pub(super) struct Record {
     pub(super) together: Together,
     revolutions: f64,
     /// Shaft speed, Hz.
     pub(super) shaft: f64,
-    pub(super) options: &'a Options,
+    pub(super) options: Options,
     /// Those that are damage first, the one that leads before the others.
     pub(super) families: Vec<Family>,
     /// Where there is one, nothing is damage.
     pub(super) elsewhere: Option<Elsewhere>,
 }
 
-impl<'a> Record<'a> {
+impl Record {
     pub(super) fn of(
         envelopes: &Envelopes,
         known: Shaft,
-        options: &'a Options,
+        options: &Options,
     ) -> Result<Self, AnalysisError> {
         let samples = envelopes.each.first().map_or(0, |(_, e)| e.values.len());
         let seconds = samples as f64 / envelopes.rate;
@@ -81,7 +81,7 @@ impl<'a> Record<'a> {
             together: Together::of(envelopes, known, options)?,
             revolutions: seconds * known.hz,
             shaft: known.hz,
-            options,
+            options: options.clone(),
             families: Vec::new(),
             elsewhere: None,
         };
@@ -113,7 +113,7 @@ impl<'a> Record<'a> {
     }
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
-        let mut all = read(&self.together, self.shaft, self.options);
+        let mut all = read(&self.together, self.shaft, &self.options);
         for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
             if self.is_short_for(family.component) {
                 family.standing = Standing::Open;
@@ -132,7 +132,7 @@ impl<'a> Record<'a> {
         };
         let lead = all.remove(lead);
         self.take_out(lead.frequency);
-        let left = read(&self.together, self.shaft, self.options);
+        let left = read(&self.together, self.shaft, &self.options);
         // Frequencies that slip may bring together are not told apart.
         let apart =
             |f: &Family| (f.expected / lead.expected - 1.0).abs() > 2.0 * self.options.tolerance;
@@ -170,7 +170,7 @@ impl<'a> Record<'a> {
             Component::Cage if self.options.exact => 0.0,
             Component::Cage => TELLING_CAGE,
         };
-        self.revolutions * cage(self.shaft, self.options) < needed * self.shaft
+        self.revolutions * cage(self.shaft, &self.options) < needed * self.shaft
     }
 
     /// The deepest comb that is deeper than the family that leads and hardly lower in score, at no frequency of the bearing: then the bearing or the speed is
@@ -257,7 +257,7 @@ impl<'a> Record<'a> {
             (frequency - at).abs() <= self.options.tolerance * at + self.together.step()
         };
         let mut strikes = self.options.orders.strikes();
-        let cage = cage(self.shaft, self.options);
+        let cage = cage(self.shaft, &self.options);
         strikes.any(|(_, _, order)| own(order))
             || lead.is_some_and(|lead| {
                 let f = lead.frequency;
@@ -275,7 +275,7 @@ impl<'a> Record<'a> {
 
     /// Harmonics of a frequency and their sidebands are nobody's from now on.
     fn take_out(&mut self, frequency: f64) {
-        let cage = cage(self.shaft, self.options);
+        let cage = cage(self.shaft, &self.options);
         let most = self.together.top();
         let mut k = 0.0;
         while k * frequency < most + f64::from(SIDES) * (self.shaft + cage) {
