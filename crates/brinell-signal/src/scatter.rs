@@ -76,11 +76,12 @@ const BEGINNING: f64 = 0.2;
 /// Chance that a steady series is called drifting.
 const FALSE_ALARM: f64 = 2e-3;
 
-/// By how much the mean of the first fifth of a series lies above that of its last half, where that is more than its scatter explains: then it
-/// was not steady when it began. `None` where it is not, or the series is too short to tell.
+/// By how much the mean of the first fifth of a series lies above that of its last half, where that is more than its scatter explains, or where
+/// the series has a trend: then it was not steady when it began. `None` where it is not, or the series is too short to tell.
 ///
 /// J. Geweke's comparison ("Evaluating the accuracy of sampling-based approaches", Bayesian Statistics 4, 1992), with the scatter of the
-/// last half, autocorrelation included, and Student's t at a chance of one in five hundred.
+/// last half, autocorrelation included, and Student's t; and, because a trend that goes on inflates that scatter, the trend of the whole. Each
+/// has a false-alarm probability of one in five hundred.
 pub fn drift(series: &[f64]) -> Option<f64> {
     let n = series.len();
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
@@ -93,7 +94,27 @@ pub fn drift(series: &[f64]) -> Option<f64> {
     let difference = mean(first) - mean(last);
     let error = steady.error * (1.0 + last.len() as f64 / first.len() as f64).sqrt();
     let limit = student_t_quantile(1.0 - 0.5 * FALSE_ALARM, steady.freedom) * error;
-    (difference.abs() > limit).then_some(difference)
+    (difference.abs() > limit || has_trend(series)).then_some(difference)
+}
+
+/// Whether a series has a linear trend: its projection on the line, over the mean square of cosines of even order, all of which have the variance S where
+/// it is steady. A line has none of the even cosines, so that a trend does not hide in the scatter that it is held against.
+fn has_trend(series: &[f64]) -> bool {
+    let n = series.len();
+    let terms = (n / 4).min(TERMS);
+    if terms < 2 {
+        return false;
+    }
+    let (about, middle) = (series[0], 0.5 * (n as f64 - 1.0));
+    let places = series.iter().enumerate();
+    let projection: f64 = places.map(|(i, z)| (z - about) * (i as f64 - middle)).sum();
+    let length = (n as f64 * (n as f64 * n as f64 - 1.0) / 12.0).sqrt();
+    let variance = (1..=terms)
+        .map(|k| cosine(series, 2 * k).powi(2))
+        .sum::<f64>()
+        / terms as f64;
+    let limit = student_t_quantile(1.0 - 0.5 * FALSE_ALARM, terms as u32);
+    (projection / length).abs() > limit * variance.sqrt()
 }
 
 /// The value that Student's t with `freedom` degrees of freedom stays below with probability `p`.

@@ -123,4 +123,23 @@ fn analytic_drift_is_called_when_there_is_one() {
         assert!(called[1] > trials / 3, "{n} {rho}: {called:?}");
     }
     assert_eq!(drift(&[1.0, 9.0]), None);
+    assert_eq!(drift(&[3.0; 40]), None);
+}
+
+/// What drifts all along, and by the same law to the end, inflates the scatter of the last half as well.
+#[test]
+fn analytic_a_drift_that_goes_on_is_called() {
+    let mut noise = Noise::new(23);
+    for n in [20, 60, 400] {
+        for constant in [0.3, 1.0, 10.0] {
+            let z = autoregressive(&mut noise, n, 0.5);
+            let decaying: Vec<f64> = (z.iter().enumerate())
+                .map(|(i, z)| 0.01 * z + 3.0 * (-(i as f64) / (constant * n as f64)).exp())
+                .collect();
+            assert!(
+                drift(&decaying).is_some_and(|by| by > 0.0),
+                "{n} {constant}"
+            );
+        }
+    }
 }
