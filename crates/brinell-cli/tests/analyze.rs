@@ -80,7 +80,11 @@ fn regress_words_and_json_of_outer_race_damage() {
     );
     assert!(family["score"].as_f64().unwrap() > family["limit"].as_f64().unwrap());
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    for part in [">outer race</span>", "id=\"kurtogram\"", "id=\"envelope\""] {
+    let badge = format!(
+        ">outer race, {}</span>",
+        found["verdict"]["clarity"].as_str().unwrap()
+    );
+    for part in [badge.as_str(), "id=\"kurtogram\"", "id=\"envelope\""] {
         assert!(page.contains(part), "{part}");
     }
     assert!(folder.path().join("look/plots/kurtogram.svg").is_file());
