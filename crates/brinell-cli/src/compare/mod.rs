@@ -80,6 +80,9 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
     let written = earlier.give_way(ready)?;
     if !args.quiet {
+        for warning in page::unsettled(&sides, &all) {
+            complain!("warning: {warning}");
+        }
         tell(&sides, &compared);
         for path in &written {
             say!("  wrote {}", path.display());

@@ -125,9 +125,20 @@ fn facts(names: &[String], compared: &[Compared]) -> Vec<Fact> {
     facts
 }
 
+/// Which runs' averages hold part of the start.
+pub(super) fn unsettled(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
+    (sides.iter().zip(runs))
+        .filter(|(_, run)| !run.findings.drifts.is_empty())
+        .map(|(side, _)| {
+            let label = &side.label;
+            format!("{label} has not settled: its averages hold part of the start; simulate longer")
+        })
+        .collect()
+}
+
 /// What makes curves hard to hold against each other.
 fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
-    let mut all = Vec::new();
+    let mut all = unsettled(sides, runs);
     let rate = |run: &RunResult| run.simulation.sample_rate();
     if runs.iter().any(|run| rate(run) != rate(runs[0])) {
         all.push("The runs' sample rates differ: what lies above half the lower one is in one of them alone.".into());

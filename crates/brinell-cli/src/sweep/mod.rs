@@ -13,10 +13,10 @@ use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
-use brinell::result::{check_name, names};
+use brinell::result::{check_name, fields, names};
 use brinell::simulate::Simulation;
 use brinell_io::{Metadata, atomic_write, keys};
-use brinell_study::campaign::fingerprint;
+use brinell_study::campaign::{Row, fingerprint};
 use brinell_study::runner::{JOURNAL, Kept, Task, estimate};
 
 use page::usual;
@@ -82,6 +82,9 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
         }
     }
     tell_failures(&points, &standings);
+    if !args.quiet {
+        tell_unsettled(&standings);
+    }
     if went.is_break() {
         complain!(
             "interrupted: {} kept, {missing} to go; the same command goes on where this one stopped",
@@ -93,6 +96,21 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// How many points' averages hold part of the start.
+fn tell_unsettled(standings: &[Standing]) {
+    let name = fields::NOT_SETTLED.name;
+    let of = |row: &Row| row.quantity(name)?.value;
+    let count = (standings.iter())
+        .filter(|s| matches!(s, Standing::Complete(row) if of(row) == Some(1.0)))
+        .count();
+    if count > 0 {
+        complain!(
+            "warning: not settled: in {} averages hold part of the start (column `{name}`); simulate longer",
+            plural(count, "point")
+        );
+    }
 }
 
 /// That no signals will be written over, or taken for a point's, that are not of the same scenario.

@@ -116,6 +116,8 @@ fields! {
     ANALYSED_TURNS "analysed_turns" "1" Exact "whole revolutions of the inner ring that averages are taken over"
         |f| f.channels.first().map_or(0, |c| c.blocks.revolutions()) as f64;
     ANALYSED_FROM "analysed_from" "s" Exact "averages, forces and slip count from here on" |f| f.from;
+    NOT_SETTLED "not_settled" "1" Exact "1 where slip of a cage or level of the sensor still drifted, so that averages hold part of the start; else 0"
+        |f| f64::from(u8::from(!f.drifts.is_empty()));
 }
 
 fields! {

@@ -7,7 +7,7 @@
 
 use super::fields::{
     ANALYSED_FROM, ANALYSED_TURNS, AUDITS, DEFECT, ENTRY_PEAK, EXIT_PEAK, Field, FoundDefect,
-    LINES, LOAD, SLIP, WORK, exact, indicator, record,
+    LINES, LOAD, NOT_SETTLED, SLIP, WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
 use crate::document::nearest;
@@ -95,6 +95,7 @@ pub fn quantities(
         |f: &Field<fn(&Outcome) -> u64>| f.quantity("work", exact(Some((f.of)(outcome) as f64)));
     all.extend(WORK.iter().map(work));
     all.push(analysed(&ANALYSED_FROM, findings));
+    all.push(analysed(&NOT_SETTLED, findings));
     all
 }
 
