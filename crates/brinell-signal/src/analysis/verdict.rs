@@ -225,7 +225,7 @@ impl Record {
             .map(|m| lead.frequency / m as f64)
             .map(|f| (f, score(together, f)))
             .filter(|(_, score)| *score >= lead.score - HARDLY)
-            .last()
+            .next_back()
             .map(|(frequency, score)| Elsewhere {
                 frequency,
                 score,
