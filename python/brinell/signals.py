@@ -371,16 +371,37 @@ class Analysis:
     machine's class was given; levels of the ``band_shown``."""
     drift: dict[str, Any] | None
     """How the shaft's speed changes during the record, ``lowest`` and ``highest`` in r/min and when, where lines tell it; None where it is steady."""
+    flaws: list[str]
+    """What is wrong with the record itself, in words: samples clipped or held, one event with most of the energy; empty of a sound one."""
     envelope: Spectrum
     """The envelope spectrum of the band in which the damage stands highest, or of all."""
     report: dict[str, Any] = field(repr=False)
     """Everything, as ``brinell analyze --json`` writes it."""
+    _findings: _brinell.Findings | None = field(repr=False)
+
+    def to_html(self, title: str = "signal") -> str:
+        """The page that ``brinell analyze -o`` writes as ``report.html``: one file that needs no network. Write it as UTF-8.
+
+        It shows the array that was analysed, which is not copied: the page is right as long as nobody writes to it. A verdict that came from another
+        process has no page.
+
+        Parameters
+        ----------
+        title : str
+            What the signal is called.
+        """
+        if self._findings is None:
+            raise RuntimeError("this verdict came from another process: its page is to be asked for there")
+        return self._findings.to_html(title)
 
     def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
         """The envelope spectrum with what was looked for."""
         from brinell import plot
 
         return plot.analysis(self, to_hz=to_hz, ax=ax)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_findings": None}
 
     def __repr__(self) -> str:
         return f"<brinell.Analysis: {', '.join(self.damage) or _SAYS[self.says]}>"
@@ -402,6 +423,7 @@ def analyze(
     simulated: bool = False,
     machine_class: _MachineClass | None = None,
     sensitivity: str | None = None,
+    supply_hz: float | None = None,
 ) -> Analysis:
     """Which component of a bearing is damaged, by a vibration signal, or that nothing shows it.
 
@@ -426,11 +448,14 @@ def analyze(
         Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
     sensitivity : str, optional
         The sensor's, of a signal in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
+    supply_hz : float, optional
+        Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are set aside. Those of 50 and
+        60 Hz where three stand, unless told.
 
     Raises
     ------
     ValueError
-        Where a name is not known, or a sensitivity does not fit the unit.
+        Where a name is not known, a sensitivity does not fit the unit, or a frequency of the supply is out of its range.
     SignalError
         Where the signal is too short, its rate too low, or a sample not finite.
 
@@ -448,8 +473,8 @@ def analyze(
     name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
     samples = np.asarray(x, dtype=float)
     orders = [bpfo, bpfi, bsf, ftf]
-    report, found = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, machine_class, sensitivity
+    report, found, findings = _brinell.analyze(
+        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, machine_class, sensitivity, supply_hz
     )
     verdict, unit = report["verdict"], report["signal"]["unit"]
     return Analysis(
@@ -459,8 +484,10 @@ def analyze(
         report["families"],
         report["severity"],
         report["drift"],
+        report["flaws"],
         Spectrum._of(found, unit),
         report,
+        findings,
     )
 
 

@@ -29,7 +29,9 @@ mod _brinell {
     #[pymodule_export]
     use scenario::{Scenario, bearings, schema, template};
     #[pymodule_export]
-    use signal::{analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram};
+    use signal::{
+        Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram,
+    };
     #[pymodule_export]
     use sweep::sweep;
 
