@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
+from brinell.analysis import Analysis, analyze
 from brinell.scenario import Scenario
-from brinell.signals import Analysis, Spectrum, analyze
+from brinell.signals import Spectrum
 
 if TYPE_CHECKING:
     import matplotlib.axes
