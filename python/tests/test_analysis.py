@@ -186,6 +186,29 @@ def test_regress_sweeps_of_keys_in_step_and_across(base):
     assert len(table.to_pandas()) == 4
 
 
+def test_prop_a_sweep_in_a_folder_resumes(base, tmp_path):
+    vary = {"operation.speed_rpm": [900.0, 1800.0], "bearing.radial_clearance_um": [5.0, -500.0]}
+    done = []
+
+    def stop_after_one(count, total):
+        done.append((count, total))
+        if len(done) > 1:
+            raise LookupError
+
+    with pytest.raises(LookupError):
+        brinell.sweep(base, vary, folder=tmp_path, jobs=1, progress=stop_after_one)
+    finished = len((tmp_path / "journal.jsonl").read_text().splitlines())
+    assert finished >= 2
+    counts = []
+    table = brinell.sweep(base, vary, folder=tmp_path, progress=lambda count, total: counts.append(count))
+    whole = brinell.sweep(base, vary)
+    assert counts[0] >= done[0][0] + 1 and counts[-1] == len(whole) and table.failed == whole.failed
+    for name in whole.columns:
+        np.testing.assert_array_equal(table[name], whole[name], err_msg=name)
+    with pytest.raises(ValueError, match="something else"):
+        brinell.sweep(base, {"operation.speed_rpm": [900.0]}, folder=tmp_path)
+
+
 @pytest.mark.parametrize(
     ("vary", "together"),
     [

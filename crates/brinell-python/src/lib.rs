@@ -4,6 +4,7 @@
 mod convert;
 mod dataset;
 mod errors;
+mod kept;
 mod look_up;
 mod read;
 mod run;

@@ -20,7 +20,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 /// How long Python may have to wait for an answer to Ctrl-C.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Keeps every row; asks now and then whether to go on.
 struct Recorder<'a, F> {
