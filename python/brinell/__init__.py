@@ -20,18 +20,17 @@ Examples
 """
 
 from brinell._brinell import ReadError, RunError, ScenarioError, SignalError, __version__
+from brinell.analysis import Analysis, analyze
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
 from brinell.datasets import DataSet, Plan
 from brinell.result import Result
 from brinell.runs import simulate, simulate_many
 from brinell.scenario import Scenario, ScenarioWarning, bearings, schema, template
 from brinell.signals import (
-    Analysis,
     Kurtogram,
     Signal,
     Spectrogram,
     Spectrum,
-    analyze,
     envelope,
     envelope_spectrum,
     indicators,

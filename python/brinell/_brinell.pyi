@@ -11,6 +11,7 @@ _State = tuple[str, str, str | None, list[tuple[str, str]], str | None]
 
 __all__ = [
     "Campaign",
+    "Findings",
     "ReadError",
     "Run",
     "RunError",
@@ -98,6 +99,11 @@ class Run:
     def events(self) -> dict[str, npt.NDArray[Any]]: ...
     def passes(self) -> list[dict[str, Any]]: ...
     def defects(self) -> list[dict[str, Any]]: ...
+    def to_html(self) -> str: ...
+
+@final
+class Findings:
+    def to_html(self, title: str) -> str: ...
 
 @final
 class Campaign:
@@ -141,6 +147,7 @@ def sweep(
     axes: Sequence[tuple[Sequence[str], Sequence[Sequence[Any]]]],
     jobs: int | None,
     progress: Callable[[int, int], object] | None,
+    folder: str | PathLike[str] | None,
 ) -> tuple[list[list[int]], list[str | None], list[tuple[str, str, _Array]]]: ...
 def statics(scenario: Scenario) -> dict[str, Any]: ...
 def derived(scenario: Scenario) -> dict[str, Any]: ...
@@ -171,4 +178,5 @@ def analyze(
     simulated: bool,
     machine_class: str | None,
     sensitivity: str | None,
-) -> tuple[dict[str, Any], dict[str, Any]]: ...
+    supply_hz: float | None,
+) -> tuple[dict[str, Any], dict[str, Any], Findings]: ...

@@ -11,8 +11,9 @@ from brinell import tables
 if TYPE_CHECKING:
     import matplotlib.axes
 
+    from brinell.analysis import Analysis
     from brinell.result import Result
-    from brinell.signals import Analysis, Kurtogram, Spectrogram, Spectrum
+    from brinell.signals import Kurtogram, Spectrogram, Spectrum
     from brinell.statics import LoadZone
     from brinell.sweeps import Table
 

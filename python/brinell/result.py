@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
+from brinell.analysis import Analysis, analyze
 from brinell.scenario import Scenario
-from brinell.signals import Analysis, Spectrum, analyze
+from brinell.signals import Spectrum
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -66,7 +67,7 @@ class Result:
 
     def _native(self) -> _brinell.Run:
         if self._run is None:
-            raise RuntimeError("this result was made elsewhere, and all that it holds came with it")
+            raise RuntimeError("this result came from another process: what needs the run itself, such as to_html, is to be asked for there")
         return self._run
 
     def __getitem__(self, channel: str) -> npt.NDArray[np.float64]:
@@ -216,6 +217,21 @@ class Result:
         for name, text in self.descriptions.items():
             dataset[name].attrs["long_name"] = text
         return dataset
+
+    def to_html(self) -> str:
+        """The page that ``brinell run`` writes as ``report.html``: one file that needs no network.
+
+        A result that came from another process has none.
+
+        Examples
+        --------
+        >>> import brinell, pathlib, tempfile
+        >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
+        >>> page = pathlib.Path(tempfile.mkdtemp(), "report.html")
+        >>> page.write_text(brinell.simulate(scenario).to_html(), encoding="utf-8") > 100_000
+        True
+        """
+        return self._native().to_html()
 
     def plot_signal(
         self, channel: str | None = None, *, from_s: float | None = None, to_s: float | None = None, ax: Any = None

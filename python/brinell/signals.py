@@ -1,4 +1,4 @@
-"""Analysis of signals: spectra, envelopes, kurtogram, indicators, and which component's defect frequencies stand out.
+"""Analysis of signals: spectra, envelopes, kurtogram, indicators; and signals from files.
 
 Every function takes samples with their rate and, where a result carries one, their unit: nothing is guessed. Frequencies are Hz. Arrays of
 doubles are not copied; do not write to one while it is analysed in another thread.
@@ -7,14 +7,13 @@ doubles are not copied; do not write to one while it is analysed in another thre
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from brinell import _brinell, tables
-from brinell.scenario import Scenario
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -22,15 +21,12 @@ if TYPE_CHECKING:
 
     _Window = Literal["rectangular", "hann", "hamming", "blackman-harris", "flat-top"]
     _Detrend = Literal["none", "mean", "linear"]
-    _MachineClass = Literal["1-rigid", "1-flexible", "2-rigid", "2-flexible"]
 
 __all__ = [
-    "Analysis",
     "Kurtogram",
     "Signal",
     "Spectrogram",
     "Spectrum",
-    "analyze",
     "envelope",
     "envelope_spectrum",
     "indicators",
@@ -349,119 +345,6 @@ def indicators(x: npt.ArrayLike, *, rate_hz: float, unit: str, block_s: float) -
     (0.7071, 'm/s^2', 10)
     """
     return _brinell.indicators(np.asarray(x, dtype=float), rate_hz, unit, block_s)
-
-
-_SAYS = {"damage": "damage", "cannot_tell": "cannot tell", "nothing_found": "no damage found"}
-
-
-@dataclass(frozen=True, eq=False)
-class Analysis:
-    """A verdict on one signal, with its evidence."""
-
-    verdict: str
-    """In words."""
-    says: str
-    """``damage``, ``cannot_tell`` or ``nothing_found``, which is not the same as healthy."""
-    damage: list[str]
-    """Damaged components, the one that leads first: ``outer_race``, ``inner_race``, ``rolling_element``, ``cage``."""
-    families: list[dict[str, Any]]
-    """Each defect frequency with its harmonics and sidebands, score and modulation; what is damage comes first."""
-    severity: dict[str, Any]
-    """``velocity_rms_10_1000_hz`` with ``value``, ``unit`` and ``interval_95``, or ``why`` there is none; ``iso_20816_3`` with the ``zone`` where a
-    machine's class was given; levels of the ``band_shown``."""
-    drift: dict[str, Any] | None
-    """How the shaft's speed changes during the record, ``lowest`` and ``highest`` in r/min and when, where lines tell it; None where it is steady."""
-    envelope: Spectrum
-    """The envelope spectrum of the band in which the damage stands highest, or of all."""
-    report: dict[str, Any] = field(repr=False)
-    """Everything, as ``brinell analyze --json`` writes it."""
-
-    def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
-        """The envelope spectrum with what was looked for."""
-        from brinell import plot
-
-        return plot.analysis(self, to_hz=to_hz, ax=ax)
-
-    def __repr__(self) -> str:
-        return f"<brinell.Analysis: {', '.join(self.damage) or _SAYS[self.says]}>"
-
-
-def analyze(
-    x: npt.ArrayLike,
-    *,
-    rate_hz: float,
-    unit: str,
-    speed_rpm: float,
-    bearing: str | Scenario | None = None,
-    bpfo: float | None = None,
-    bpfi: float | None = None,
-    bsf: float | None = None,
-    ftf: float | None = None,
-    tolerance: float = 0.02,
-    band_hz: tuple[float, float] | None = None,
-    simulated: bool = False,
-    machine_class: _MachineClass | None = None,
-    sensitivity: str | None = None,
-) -> Analysis:
-    """Which component of a bearing is damaged, by a vibration signal, or that nothing shows it.
-
-    Parameters
-    ----------
-    x, rate_hz, unit
-        As in `psd`.
-    speed_rpm : float
-        Of the shaft.
-    bearing : str or Scenario, optional
-        A name that ``brinell analyze --bearing`` takes, or a scenario with this bearing.
-    bpfo, bpfi, bsf, ftf : float, optional
-        Frequencies as multiples of the shaft's, over those of the bearing.
-    tolerance : float
-        How far slip and an inexact speed may move a frequency, relative.
-    band_hz : (float, float), optional
-        Range to demodulate; everything above three times the highest defect frequency unless told.
-    simulated : bool
-        Whether a simulation made the signal: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
-        that enter the load are heard too, and weak lines of the outer race say less.
-    machine_class : str, optional
-        Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
-    sensitivity : str, optional
-        The sensor's, of a signal in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
-
-    Raises
-    ------
-    ValueError
-        Where a name is not known, or a sensitivity does not fit the unit.
-    SignalError
-        Where the signal is too short, its rate too low, or a sample not finite.
-
-    Examples
-    --------
-    >>> import brinell, numpy as np
-    >>> since = np.arange(24000) / 12000.0 % (1.0 / (3.585 * 30.0))
-    >>> x = np.exp(-since / 4e-4) * np.sin(6.283 * 3000.0 * since) + 0.05 * np.random.default_rng(1).normal(size=24000)
-    >>> found = brinell.analyze(x, rate_hz=12000.0, unit="g", speed_rpm=1800.0, bearing="6205-2RS")
-    >>> found.says, found.damage
-    ('damage', ['outer_race'])
-    >>> round(found.severity["velocity_rms_10_1000_hz"]["value"], 1)
-    0.3
-    """
-    name, scenario = (None, bearing._native) if isinstance(bearing, Scenario) else (bearing, None)
-    samples = np.asarray(x, dtype=float)
-    orders = [bpfo, bpfi, bsf, ftf]
-    report, found = _brinell.analyze(
-        samples, rate_hz, unit, speed_rpm, name, scenario, orders, tolerance, band_hz, simulated, machine_class, sensitivity
-    )
-    verdict, unit = report["verdict"], report["signal"]["unit"]
-    return Analysis(
-        verdict["text"],
-        verdict["says"],
-        verdict["damage"],
-        report["families"],
-        report["severity"],
-        report["drift"],
-        Spectrum._of(found, unit),
-        report,
-    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -101,8 +102,9 @@ def sweep(
     together: Sequence[Mapping[str, Sequence[Any]]] = (),
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
+    folder: str | os.PathLike[str] | None = None,
 ) -> Table:
-    """Runs every combination of settings side by side. Ctrl-C stops it; ``brinell sweep`` is the one that goes on where it stopped.
+    """Runs every combination of settings side by side. Ctrl-C stops it; with a `folder`, the same call resumes it.
 
     Parameters
     ----------
@@ -116,6 +118,8 @@ def sweep(
         Runs at a time; as many as there are cores unless told.
     progress : callable, optional
         Gets how many points are done, and of how many.
+    folder : path, optional
+        Where finished points are kept, in ``journal.jsonl`` as by ``brinell sweep``: they are not run again. One sweep to a folder.
 
     Returns
     -------
@@ -125,7 +129,9 @@ def sweep(
     Raises
     ------
     ValueError
-        Where there is no plan: a key twice, a value twice, too many points.
+        Where there is no plan: a key twice, a value twice, too many points. Where the folder is another sweep's.
+    ReadError
+        Where the folder's journal cannot be read or written.
 
     Examples
     --------
@@ -148,7 +154,7 @@ def sweep(
             told = ", ".join(f"{key} has {len(values)}" for key, values in zip(keys, lists, strict=True))
             raise ValueError(f"keys that vary together have equally many values; {told}")
         axes.append((keys, [list(setting) for setting in zip(*lists, strict=True)]))
-    places, reasons, numbers = _brinell.sweep(given(scenario)._native, axes, jobs, progress)
+    places, reasons, numbers = _brinell.sweep(given(scenario)._native, axes, jobs, progress, folder)
     columns: dict[str, npt.NDArray[Any]] = {}
     for number, (keys, settings) in enumerate(axes):
         for at, key in enumerate(keys):

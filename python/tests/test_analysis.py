@@ -1,5 +1,7 @@
 """Signals, statics, sweeps, pictures."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -98,11 +100,42 @@ def test_prop_a_verdict_says_which_kind_it_is():
     assert [family["name"] for family in found.families]
 
 
+def test_prop_lines_of_the_supply_are_set_aside():
+    # Six poles: 3.05 times the shaft's speed, where a 6203 has its BPFO.
+    t = np.arange(48000) / 12000.0
+    sidebands = sum(np.cos(2 * np.pi * (3000.0 + k * 3.05 * 30.0) * t) for k in range(-6, 7))
+    x = np.random.default_rng(6).normal(size=len(t)) + 0.2 * sidebands
+    given = {"unit": "g", **KNOWN, "bearing": "6203-2RS"}
+    assert brinell.analyze(x, **given).damage == ["outer_race"]
+    assert brinell.analyze(x, supply_hz=1.002 * 3.05 * 30.0, **given).says == "nothing_found"
+
+
+def test_prop_what_is_wrong_with_a_record_is_told():
+    x = outer_race()
+    assert brinell.analyze(x, unit="g", **KNOWN).flaws == []
+    clipped = brinell.analyze(np.clip(x, -0.5, 0.5), unit="g", **KNOWN)
+    assert len(clipped.flaws) == 1 and "clipped" in clipped.flaws[0]
+    assert "clipped" in clipped.to_html()
+
+
+def test_prop_a_verdict_has_a_page_where_it_was_found():
+    x = outer_race()
+    found = brinell.analyze(0.1 * x, unit="V", sensitivity="100mV/g", **KNOWN)
+    page = found.to_html("motor <1>")
+    assert page.startswith("<!DOCTYPE html>") and "motor &lt;1&gt;" in page and found.verdict in page
+    assert "sensitivity 100 mV/g, as given" in page and "shaft speed 1800 r/min, as given" in page
+    again = pickle.loads(pickle.dumps(found))
+    assert again.verdict == found.verdict and again.flaws == found.flaws
+    with pytest.raises(RuntimeError, match="another process"):
+        again.to_html()
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
         ({"unit": "g", "machine_class": "3-rigid"}, "machine_class = \"3-rigid\".*2-flexible"),
         ({"unit": "V", "sensitivity": "100"}, "100mV/g"),
+        ({"unit": "g", "supply_hz": 0.0}, "supply_hz = 0: expected 1 to 1000 Hz"),
         ({"unit": "g", "sensitivity": "100mV/g"}, "expected a signal that is a voltage"),
     ],
 )
@@ -151,6 +184,29 @@ def test_regress_sweeps_of_keys_in_step_and_across(base):
     assert float(grid["sensor_ax.rms"].sel({"simulation.model": "full", "operation.speed_rpm": 1800.0})) == alone.quantities["sensor_ax.rms"]
     pytest.importorskip("pandas")
     assert len(table.to_pandas()) == 4
+
+
+def test_prop_a_sweep_in_a_folder_resumes(base, tmp_path):
+    vary = {"operation.speed_rpm": [900.0, 1800.0], "bearing.radial_clearance_um": [5.0, -500.0]}
+    done = []
+
+    def stop_after_one(count, total):
+        done.append((count, total))
+        if len(done) > 1:
+            raise LookupError
+
+    with pytest.raises(LookupError):
+        brinell.sweep(base, vary, folder=tmp_path, jobs=1, progress=stop_after_one)
+    finished = len((tmp_path / "journal.jsonl").read_text().splitlines())
+    assert finished >= 2
+    counts = []
+    table = brinell.sweep(base, vary, folder=tmp_path, progress=lambda count, total: counts.append(count))
+    whole = brinell.sweep(base, vary)
+    assert counts[0] >= done[0][0] + 1 and counts[-1] == len(whole) and table.failed == whole.failed
+    for name in whole.columns:
+        np.testing.assert_array_equal(table[name], whole[name], err_msg=name)
+    with pytest.raises(ValueError, match="something else"):
+        brinell.sweep(base, {"operation.speed_rpm": [900.0]}, folder=tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The same physics, bits and words as the command's."""
 
 import json
+import re
 import subprocess
 
 import numpy as np
@@ -29,6 +30,12 @@ def test_xval_signals_and_summary_have_the_bits_of_the_command(command, examples
     assert sorted(summary.pop("files")) == sorted(path.name for path in tmp_path.iterdir())
     assert result.summary == summary
     assert result.scenario.to_toml() == (tmp_path / "scenario.toml").read_text()
+
+
+def test_xval_the_page_of_a_run_is_that_of_the_command(command, examples, tmp_path):
+    run(command, "run", examples / "rectangle.toml", "--set", "simulation.duration_s=0.3", "-o", tmp_path, "--signals", "none", "-q")
+    result = brinell.simulate(examples / "rectangle.toml", settings={"simulation.duration_s": 0.3})
+    assert result.to_html() == (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
@@ -113,3 +120,13 @@ def test_xval_analysis_is_that_of_the_command(command, examples, tmp_path):
     for part in ("verdict", "families", "bands", "indicators", "velocity_bands", "kurtogram"):
         assert found.report[part] == expected[part], part
     assert brinell.simulate(scenario).analyze().damage[0] == "outer_race"
+    # The pages tell from where signal, speed and bearing come, and differ there alone.
+    run(command, "analyze", tmp_path / "signals.npz", "--channel", "sensor_ax", "-o", tmp_path / "page", "-q")
+    page = (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
+    title = re.search("<title>(.*?) · brinell</title>", page)[1]
+    own = found.to_html(title)
+
+    def sections(page):
+        return re.sub(r"<li>.*?</li>\s*", "", page, flags=re.DOTALL)
+
+    assert sections(own) == sections(page)

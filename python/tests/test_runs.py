@@ -148,6 +148,8 @@ def test_prop_results_can_be_sent_away(result):
     np.testing.assert_array_equal(again.events["t"], result.events["t"])
     assert len(again.passes) == len(result.passes) == 1
     assert again.units == result.units
+    with pytest.raises(RuntimeError, match="another process"):
+        again.to_html()
 
 
 def test_regress_ground_truth_of_entries_and_exits(result):

@@ -4,10 +4,8 @@ use crate::args::{
     ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, ScenarioArgs,
     SimpleShape, SimplifyArgs, Written,
 };
-use crate::damage::{self, Damage};
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::plan::{self, Contour};
 use crate::results::{PREVIEW, Place, Results, names_below};
 use crate::run::{make_folder, safe_name};
 use crate::say::{complain, document, one_line, say, short};
@@ -16,8 +14,9 @@ use brinell::defect::fit::{Fit, FitSettings};
 use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
+use brinell_damage::plan::{self, Contour};
 use brinell_io::{Complete, atomic_prepare};
-use brinell_report::{DamagePanel, Picture};
+use brinell_report::{Damage, DamagePanel, Picture, damage_of};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -77,7 +76,7 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
             "--ring-thickness-mm {x}: expected a thickness above 0, in mm"
         )));
     }
-    let all = damage::all(s, args.ring_thickness_mm)?;
+    let all = damage_of(s, args.ring_thickness_mm)?;
     let previewed = |index: usize| args.defect.is_none_or(|n| n == index + 1);
     for (index, damage) in all.iter().enumerate().filter(|(k, _)| previewed(*k)) {
         let deepest_mm = 1e-3 * damage.measures.deepest_um;

@@ -7,6 +7,8 @@ use brinell_io::IoError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Exit code of bad input.
+pub(crate) const BAD_INPUT: u8 = 2;
 /// Exit code of an interrupted run: 128 + SIGINT, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
 
@@ -34,18 +36,18 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// 2 for bad input, 1 for a failed run.
+    /// [`BAD_INPUT`], or 1 for a failed run.
     pub(crate) fn code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => 2,
-            Self::Run(error) if error.is_bad_input() => 2,
+            Self::Scenario { .. } | Self::Usage(_) | Self::Read(..) => BAD_INPUT,
+            Self::Run(error) if error.is_bad_input() => BAD_INPUT,
             // The place is wrong, not the writing.
             Self::Write(
                 IoError::NotPermitted { .. }
                 | IoError::NoFolder { .. }
                 | IoError::NotAFileName { .. }
                 | IoError::Busy { .. },
-            ) => 2,
+            ) => BAD_INPUT,
             Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::Unsaid(_) => 1,
         })
     }

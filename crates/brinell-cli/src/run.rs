@@ -4,6 +4,7 @@ mod many;
 
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
+use crate::files;
 use crate::files::Source;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
@@ -11,7 +12,6 @@ use crate::results::{
     Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
 use crate::say::{complain, one_line, say, short};
-use crate::{files, page};
 use brinell::document::Loaded;
 use brinell::observe::Kind;
 use brinell::plausibility::{self, Beforehand};
@@ -20,6 +20,7 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
+use brinell_report::Report;
 use brinell_study::runner::Recorder;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -163,7 +164,7 @@ fn execute(
         findings: &findings,
         beforehand,
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| page::report(&parts));
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| Report::of_run(&parts));
     let pictures = match &report {
         Some(report) if !args.plots.is_empty() => pictures(report),
         _ => Vec::new(),

@@ -43,6 +43,8 @@ mod holes;
 mod kind;
 mod loaded;
 mod outline;
+#[doc(hidden)]
+pub mod plan;
 mod resolve;
 
 #[cfg(feature = "image")]

@@ -4,6 +4,7 @@
 mod convert;
 mod dataset;
 mod errors;
+mod kept;
 mod look_up;
 mod read;
 mod run;
@@ -29,7 +30,9 @@ mod _brinell {
     #[pymodule_export]
     use scenario::{Scenario, bearings, schema, template};
     #[pymodule_export]
-    use signal::{analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram};
+    use signal::{
+        Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram,
+    };
     #[pymodule_export]
     use sweep::sweep;
 

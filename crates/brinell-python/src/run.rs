@@ -9,6 +9,7 @@ use brinell::plausibility::Beforehand;
 use brinell::result::{self, RunResult};
 use brinell::simulate::{End, Observer, Signals, Simulation, SolverWork};
 use brinell::summary::{self, Parts};
+use brinell_report::{Report, html};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde_json::json;
@@ -19,7 +20,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 /// How long Python may have to wait for an answer to Ctrl-C.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Keeps every row; asks now and then whether to go on.
 struct Recorder<'a, F> {
@@ -232,6 +233,21 @@ impl Run {
         })
     }
 
+    /// Everything that summary and page are made of.
+    fn with_parts<T: Send>(&self, py: Python<'_>, of: impl FnOnce(&Parts) -> T + Send) -> T {
+        let loaded = &self.scenario.get().loaded;
+        py.detach(|| {
+            let simulation = &self.finished.simulation;
+            of(&Parts {
+                loaded,
+                simulation,
+                outcome: &self.finished.outcome,
+                findings: &self.finished.findings,
+                beforehand: &Beforehand::of(&loaded.scenario, simulation.model()),
+            })
+        })
+    }
+
     /// The sensor channel that spectra are of.
     fn shown(&self) -> &'static str {
         ["sensor_ax", "sensor_ay"][self.finished.findings.axis]
@@ -275,17 +291,12 @@ impl Run {
 
     /// What `summary.json` holds.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let loaded = &self.scenario.get().loaded;
-        let model = self.finished.simulation.model();
-        let beforehand = py.detach(|| Beforehand::of(&loaded.scenario, model));
-        let parts = Parts {
-            loaded,
-            simulation: &self.finished.simulation,
-            outcome: &self.finished.outcome,
-            findings: &self.finished.findings,
-            beforehand: &beforehand,
-        };
-        json_to_python(py, &summary::to_json(&parts))
+        json_to_python(py, &self.with_parts(py, summary::to_json))
+    }
+
+    /// What `report.html` holds.
+    fn to_html(&self, py: Python<'_>) -> String {
+        self.with_parts(py, |parts| html(&Report::of_run(parts)))
     }
 
     /// Every number of the run: name, unit, value, low and high end.

@@ -3,12 +3,16 @@
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::{SignalError, bad_value};
 use brinell::analysis::{
-    DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json, velocity,
+    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json,
+    velocity,
 };
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
-use brinell::signal::{self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, Window};
-use numpy::PyArrayMethods;
+use brinell::signal::{
+    self, Band, Blocks, Detrend, Indicator, Segments, Spectrum, VelocityBands, Window,
+};
+use brinell_report::{AnalysisReport, Analyzed, analysis_html};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Map, json};
@@ -219,27 +223,36 @@ pub(crate) fn indicators<'py>(
     json_to_python(py, &values.into())
 }
 
-/// Orders of the defect frequencies: of a bearing by name, of a scenario, or as given.
+/// Orders of the defect frequencies: of a bearing by name, of a scenario, or as given; and where they come from.
 fn orders(
     name: Option<&str>,
-    geometry: Option<Geometry>,
+    scenario: Option<&crate::scenario::Scenario>,
     given: [Option<f64>; 4],
-) -> PyResult<DefectOrders> {
-    let mut orders = match (name, geometry) {
+) -> PyResult<(DefectOrders, String)> {
+    let (mut orders, source) = match (name, scenario) {
         (Some(name), _) => {
             let known =
                 KnownBearing::find(name).ok_or_else(|| bad_value(KnownBearing::unknown(name)))?;
-            known.orders().map_err(bad_value)?.0
+            known.orders().map_err(bad_value)?
         }
-        (None, Some(geometry)) => orders_of(&geometry),
-        (None, None) => DefectOrders::default(),
+        (None, Some(scenario)) => {
+            let scenario = &scenario.loaded.scenario;
+            let words = format!("that of the scenario {}", scenario.name);
+            (orders_of(&Geometry::of(&scenario.bearing)), words)
+        }
+        (None, None) => (DefectOrders::default(), String::new()),
     };
+    let names = ["BPFO", "BPFI", "BSF", "FTF"].into_iter().zip(given);
+    let named: Vec<&str> = names.filter(|(_, o)| o.is_some()).map(|(n, _)| n).collect();
+    let as_given = (!named.is_empty()).then(|| format!("{} as given", named.join(", ")));
+    let sources = [Some(source).filter(|words| !words.is_empty()), as_given];
     let [bpfo, bpfi, bsf, ftf] = given;
     orders.bpfo = bpfo.or(orders.bpfo);
     orders.bpfi = bpfi.or(orders.bpfi);
     orders.bsf = bsf.or(orders.bsf);
     orders.ftf = ftf.or(orders.ftf);
-    Ok(orders)
+    let sources: Vec<String> = sources.into_iter().flatten().collect();
+    Ok((orders, sources.join("; ")))
 }
 
 /// A class of machines by its name.
@@ -253,8 +266,8 @@ fn class(name: &str) -> PyResult<MachineClass> {
     })
 }
 
-/// What a signal in `unit` is multiplied by, and what it is in then.
-fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit)> {
+/// What a signal in `unit` is multiplied by, what it is in then, and that in words.
+fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit, String)> {
     let sensitivity =
         Sensitivity::given(text).map_err(|error| bad_value(format!("sensitivity = {error}")))?;
     let Some(factor) = sensitivity.factor(unit) else {
@@ -264,10 +277,71 @@ fn sensor(text: &str, unit: &Unit) -> PyResult<(f64, Unit)> {
             unit.name
         )));
     };
-    Ok((factor, sensitivity.of))
+    let words = format!(
+        "sensitivity {}, as given: the signal is in {}",
+        sensitivity.words(),
+        sensitivity.of.name
+    );
+    Ok((factor, sensitivity.of, words))
 }
 
-/// Which component's defect frequencies stand out: the JSON of `brinell analyze`, and the envelope spectrum that shows most.
+/// What was found in a signal, for its page.
+#[pyclass(frozen, module = "brinell._brinell")]
+pub(crate) struct Findings {
+    x: Py<PyArray1<f64>>,
+    /// What the array's numbers are multiplied by to be in `unit`.
+    factor: f64,
+    unit: Unit,
+    rate: f64,
+    notes: Vec<String>,
+    speed: String,
+    bearing: String,
+    analysis: Analysis,
+    levels: Levels,
+    velocity: Option<VelocityBands>,
+}
+
+#[pymethods]
+impl Findings {
+    /// What `report.html` of `brinell analyze -o` holds.
+    fn to_html(&self, py: Python<'_>, title: &str) -> PyResult<String> {
+        let array = self.x.bind(py).try_readonly().map_err(bad_value)?;
+        let x: Vec<f64> = array.as_array().iter().map(|v| self.factor * v).collect();
+        let (verdict, warnings) = (self.analysis.verdict(), self.analysis.flaws.iter());
+        let warnings: Vec<String> = warnings.map(ToString::to_string).collect();
+        Ok(py.detach(|| {
+            analysis_html(&AnalysisReport::of_findings(&brinell_report::Findings {
+                signal: Analyzed {
+                    name: title,
+                    x: &x,
+                    rate: self.rate,
+                    analysis: &self.analysis,
+                },
+                unit: &self.unit,
+                verdict: &verdict,
+                notes: &self.notes,
+                warnings: &warnings,
+                speed: &self.speed,
+                bearing: &self.bearing,
+                levels: &self.levels,
+                velocity: self.velocity.as_ref(),
+                against: None,
+            }))
+        }))
+    }
+}
+
+/// That an inverter's frequency is one.
+fn supply(hz: f64) -> PyResult<f64> {
+    match (1.0..=1000.0).contains(&hz) {
+        true => Ok(hz),
+        false => Err(bad_value(format!(
+            "supply_hz = {hz}: expected 1 to 1000 Hz"
+        ))),
+    }
+}
+
+/// Which component's defect frequencies stand out: the JSON of `brinell analyze`, the envelope spectrum that shows most, and what the page is made of.
 #[pyfunction]
 #[expect(
     clippy::too_many_arguments,
@@ -287,13 +361,18 @@ pub(crate) fn analyze<'py>(
     simulated: bool,
     machine_class: Option<&str>,
     sensitivity: Option<&str>,
-) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
-    let mut copy = Vec::new();
+    supply_hz: Option<f64>,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, Findings)> {
+    let (mut copy, array) = (Vec::new(), x.as_unbound().clone_ref(py));
     let (mut x, mut unit) = (slice(&x, &mut copy), Unit::of(unit));
+    let mut factor = 1.0;
+    let mut notes = vec![format!("{rate_hz} Hz and {}, as given", unit.name)];
     let class = machine_class.map(class).transpose()?;
     let scaled: Vec<f64>;
     if let Some(text) = sensitivity {
-        let (factor, of) = sensor(text, &unit)?;
+        let (of_sensor, of, words) = sensor(text, &unit)?;
+        factor = of_sensor;
+        notes.push(words);
         scaled = x.iter().map(|v| factor * v).collect();
         (x, unit) = (&scaled, of);
     }
@@ -303,8 +382,9 @@ pub(crate) fn analyze<'py>(
         )));
     }
     let shaft = speed_rpm.abs() / 60.0;
-    let geometry = scenario.map(|s| Geometry::of(&s.loaded.scenario.bearing));
-    let mut options = Options::new(shaft, orders(bearing, geometry, orders_given)?);
+    let (orders, bearing) = orders(bearing, scenario, orders_given)?;
+    let mut options = Options::new(shaft, orders);
+    options.supply = supply_hz.map(supply).transpose()?;
     options.tolerance = tolerance;
     let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
     options.exact = simulated;
@@ -326,5 +406,17 @@ pub(crate) fn analyze<'py>(
     let envelope = spectrum_dict(py, view.spectrum.clone())?;
     envelope.set_item("mean", view.mean)?;
     envelope.set_item("band_hz", (view.band.low, view.band.high))?;
-    Ok((json_to_python(py, &json)?, envelope))
+    let findings = Findings {
+        x: array,
+        factor,
+        unit,
+        rate: rate_hz,
+        notes,
+        speed: format!("shaft speed {speed_rpm} r/min, as given"),
+        bearing,
+        analysis,
+        levels,
+        velocity: bands,
+    };
+    Ok((json_to_python(py, &json)?, envelope, findings))
 }

@@ -2,8 +2,9 @@
 
 use crate::convert::{array, python_to_toml};
 use crate::errors::bad_value;
+use crate::kept;
 use crate::run::over_threads;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Source};
 use brinell::document::{on_one_line, one_line};
 use brinell::result::Quantity;
 use brinell::simulate::Progress;
@@ -11,10 +12,14 @@ use brinell::simulate_with;
 use brinell_study::campaign::{Axis, Plan, columns};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use std::path::PathBuf;
+
+/// A point's numbers, or why there are none.
+pub(crate) type Numbers = Result<Vec<Quantity>, String>;
 
 /// Runs every combination of the axes, each `(keys, settings)` with a value for each key in every setting. Gives for each point which setting
 /// of each axis it has, and why it failed or None; and the columns: name, unit, values, NaN where a run has none. `progress` gets the points
-/// done and how many there are.
+/// done and how many there are. With a `folder`, finished points are in its journal and not run again.
 #[pyfunction]
 #[expect(
     clippy::type_complexity,
@@ -26,6 +31,7 @@ pub(crate) fn sweep<'py>(
     axes: Vec<(Vec<String>, Vec<Vec<Bound<'py, PyAny>>>)>,
     jobs: Option<isize>,
     progress: Option<Py<PyAny>>,
+    folder: Option<PathBuf>,
 ) -> PyResult<(Vec<Vec<usize>>, Vec<Option<String>>, Bound<'py, PyList>)> {
     // Said once, and not of every point.
     brinell::kernel::Kernel::chosen().map_err(bad_value)?;
@@ -37,9 +43,37 @@ pub(crate) fn sweep<'py>(
         Axis::new(keys, texts).map_err(bad_value)
     });
     let plan = Plan::new(axes.collect::<PyResult<_>>()?).map_err(bad_value)?;
-    let source = &scenario.source;
-    let mut results: Vec<Result<Vec<Quantity>, String>> = Vec::new();
-    results.resize_with(plan.points(), || Err("not run".into()));
+    let total = plan.points();
+    let told = |py: Python<'_>, done: usize| match &progress {
+        Some(progress) => progress.call1(py, (done, total)).map(drop),
+        None => Ok(()),
+    };
+    let results = match folder {
+        Some(folder) => kept::run(py, (&plan, &scenario.source), &folder, jobs, told)?,
+        None => in_memory(py, (&plan, &scenario.source), jobs, told)?,
+    };
+    let runs: Vec<&[Quantity]> = results
+        .iter()
+        .map(|r| r.as_deref().unwrap_or_default())
+        .collect();
+    let list = PyList::empty(py);
+    for column in columns(&runs) {
+        let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
+        list.append((column.name, column.unit, array(py, values.collect())))?;
+    }
+    let places = (0..plan.points()).map(|k| plan.place(k)).collect();
+    let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
+    Ok((places, reasons, list))
+}
+
+/// Of each point its numbers, or why there are none.
+fn in_memory(
+    py: Python<'_>,
+    (plan, source): (&Plan, &Source),
+    jobs: Option<isize>,
+    mut progress: impl FnMut(Python<'_>, usize) -> PyResult<()> + Send,
+) -> PyResult<Vec<Numbers>> {
+    let mut results = vec![Err("not run".into()); plan.points()];
     let mut done = 0;
     over_threads(
         py,
@@ -59,22 +93,8 @@ pub(crate) fn sweep<'py>(
         |py, k, result| {
             results[k] = result;
             done += 1;
-            if let Some(progress) = &progress {
-                progress.call1(py, (done, plan.points()))?;
-            }
-            Ok(())
+            progress(py, done)
         },
     )?;
-    let runs: Vec<&[Quantity]> = results
-        .iter()
-        .map(|r| r.as_deref().unwrap_or_default())
-        .collect();
-    let list = PyList::empty(py);
-    for column in columns(&runs) {
-        let values = column.values.iter().map(|v| v.unwrap_or(f64::NAN));
-        list.append((column.name, column.unit, array(py, values.collect())))?;
-    }
-    let places = (0..plan.points()).map(|k| plan.place(k)).collect();
-    let reasons = results.iter().map(|r| r.as_ref().err().cloned()).collect();
-    Ok((places, reasons, list))
+    Ok(results)
 }

@@ -1,4 +1,4 @@
-//! Plots and the HTML report: plain data in, one self-contained page, SVG and PNG out.
+//! Plots and the HTML report: a run or plain data in, one self-contained page, SVG and PNG out.
 //!
 //! The page needs no network and is complete without its script, which only adds zoom, cursors and saving of pictures.
 //! Every picture is drawn twice, for a desktop and for a phone, and thinned to the pixels it has (smallest and largest value
@@ -20,6 +20,7 @@ mod calibrate;
 mod chart;
 mod damage;
 mod data;
+mod defects;
 mod embedded;
 mod font;
 mod frame;
@@ -32,6 +33,7 @@ mod page;
 mod picture;
 mod plots;
 mod raster;
+mod run;
 mod sensor;
 mod shape;
 mod side_by_side;
@@ -44,7 +46,10 @@ mod thin;
 mod trend;
 
 #[doc(hidden)]
-pub use analysis::{AnalysisReport, Badge, analysis_html, analysis_pictures};
+pub use analysis::{
+    AnalysisReport, Analyzed, Badge, Findings, ZONES, analysis_html, analysis_pictures, called,
+    level_lines, ratio, scaled, shaft_lines,
+};
 #[doc(hidden)]
 pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
 pub use damage::{DamageCurve, DamagePanel, DamageView, DepthPatch};
@@ -54,6 +59,8 @@ pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
+#[doc(hidden)]
+pub use defects::{Damage, Measures, damage_of};
 #[doc(hidden)]
 pub use kurtogram::{Kurtogram, KurtogramLevel};
 #[doc(hidden)]
@@ -71,6 +78,8 @@ pub use picture::{Error, Picture};
 #[doc(hidden)]
 pub use plots::{Layout, detail_window, headline, overview};
 pub use plots::{headline_png, pictures};
+#[doc(hidden)]
+pub use run::defect_markers;
 pub use sensor::SensorView;
 #[doc(hidden)]
 pub use side_by_side::{

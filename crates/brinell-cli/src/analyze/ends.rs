@@ -129,7 +129,7 @@ pub(super) fn table(results: &[Result_]) -> Table {
         let [frequency, score] = found.unwrap_or(["–", "–"].map(str::to_owned));
         vec![
             result.name.clone(),
-            super::words::called(&result.analysis),
+            brinell_report::called(&result.analysis),
             frequency,
             score,
             result.told(),

@@ -4,7 +4,6 @@ mod args;
 mod bearing;
 mod ends;
 mod files;
-mod level;
 pub(crate) mod measured;
 mod page;
 mod several;
@@ -19,14 +18,13 @@ use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_
 use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Options, Quantity, Side, analyze as analysis_of, compare, to_json,
-    velocity,
+    Analysis, Comparison, Levels, Options, Quantity, Side, analyze as analysis_of, compare,
+    to_json, velocity,
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
 use files::{Files, files};
-use level::Level;
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -57,7 +55,7 @@ struct Result_ {
     /// The end of a long signal.
     last: Option<Analysis>,
     velocity: Option<VelocityBands>,
-    level: Level,
+    levels: Levels,
     against: Option<Against>,
 }
 
@@ -200,7 +198,7 @@ fn examine(
     let mut analysis = look(&measured, &options)?;
     (measured.warnings).extend(analysis.flaws.iter().map(ToString::to_string));
     let velocity = velocities(&measured, shaft);
-    let level = Level::of(&measured, &analysis, args.machine_class);
+    let levels = Levels::of(&measured.x, &measured.unit, &analysis, args.machine_class);
     let mut rest = reading.map(Reading::finish).transpose()?;
     let last = match rest.as_mut() {
         Some(rest) => Some(look_at_last(
@@ -230,7 +228,7 @@ fn examine(
         beside: None,
         last,
         velocity,
-        level,
+        levels,
         against,
     })
 }
@@ -416,7 +414,7 @@ fn as_json(result: &Result_) -> Value {
         comparison,
     );
     value["brinell"] = brinell::VERSION.into();
-    value["severity"] = result.level.0.to_json(&m.unit);
+    value["severity"] = result.levels.to_json(&m.unit);
     value["file"] = json!({
         "path": m.path.display().to_string(),
         "channel": m.channel,

@@ -1,8 +1,6 @@
 //! Several files with the same options: a row for each, one after the other, so that no more than one signal is held.
 
 use super::args::AnalyzeArgs;
-use super::level::scaled;
-use super::words::called;
 use super::{Result_, as_json, earlier, ends, load, put_pages, results};
 use crate::failure::Failure;
 use crate::results::Earlier;
@@ -10,7 +8,8 @@ use crate::say::{complain, one_line, say, short};
 use brinell::analysis::{MachineClass, Unit};
 use brinell::signal::{Estimate, Indicator};
 use brinell_report::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, trend_html, trend_pictures,
+    IndicatorLine, IndicatorPlot, IndicatorPoint, Table, TrendReport, ZONES, called, scaled,
+    trend_html, trend_pictures,
 };
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -199,16 +198,10 @@ impl Found {
             rms: indicator(Indicator::Rms),
             peak: indicator(Indicator::Peak),
             kurtosis: indicator(Indicator::Kurtosis),
-            velocity: result
-                .level
-                .0
-                .velocity
-                .as_ref()
-                .ok()
-                .map(|v| scaled(v, 1e3)),
-            zone: result.level.0.letter(),
+            velocity: result.levels.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
+            zone: result.levels.letter(),
             said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),
-            class: result.level.0.class,
+            class: result.levels.class,
             scores: scores.collect(),
             json,
         }
@@ -324,7 +317,7 @@ fn note(rows: &[Row]) -> String {
     if let Some(first) = rows.iter().find_map(|r| r.found.as_ref().ok()) {
         note += &format!(" Of the first: {}.", first.said);
         if let Some(class) = first.class {
-            note += &format!(" Class {} of {}.", class.name(), super::level::ZONES);
+            note += &format!(" Class {} of {}.", class.name(), ZONES);
         }
     }
     note

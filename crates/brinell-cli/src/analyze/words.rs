@@ -2,63 +2,10 @@
 
 use super::{HEADLINES, Result_, whole_indicators};
 use crate::say::{say, short};
-use brinell::analysis::{Analysis, COLUMNS, Difference, Family, Verdict};
+use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;
+use brinell_report::{level_lines, ratio, shaft_lines};
 use std::path::PathBuf;
-
-/// Lines this far, relative, from the speed given may be another shaft's: a tachometer is better than that.
-const SHAFT_DOUBT: f64 = 0.005;
-
-/// This over the other, where that says anything: skewness lies about zero.
-pub(super) fn ratio(d: &Difference) -> Option<String> {
-    let ratio = d.first / d.second;
-    (d.indicator != Indicator::Skewness).then(|| match d.indicator.has_unit() {
-        true => format!("{} ({:+.1} dB)", short(ratio, 3), 20.0 * ratio.log10()),
-        false => short(ratio, 3),
-    })
-}
-
-/// What the signal's own lines say of the shaft's speed.
-pub(super) fn shaft_lines(a: &Analysis) -> String {
-    match &a.drift {
-        Some(drift) if drift.followed => drift.words(),
-        Some(drift) => format!("{}; {}: give --speed-channel", own_lines(a), drift.words()),
-        None => own_lines(a),
-    }
-}
-
-fn own_lines(a: &Analysis) -> String {
-    if a.options.rotation.is_some() {
-        return "followed as stated".into();
-    }
-    if a.shaft_lines.is_empty() {
-        return "no two lines at its harmonics agree on it".into();
-    }
-    let orders: Vec<String> = a.shaft_lines.iter().map(usize::to_string).collect();
-    let off = a.shaft / a.options.shaft - 1.0;
-    let doubt = if off.abs() > SHAFT_DOUBT {
-        ", if they are this shaft's: another's, as fast to within the tolerance, would show the same"
-    } else {
-        ""
-    };
-    format!(
-        "lines at its harmonics {} say {:.2} r/min ({:+.2} %){doubt}",
-        orders.join(", "),
-        60.0 * a.shaft,
-        100.0 * off
-    )
-}
-
-/// The damaged parts in a word or two each, or what is said instead.
-pub(super) fn called(a: &Analysis) -> String {
-    let part = |f: &Family| format!("{}, {}", f.component.words(), a.clarity(f));
-    let parts: Vec<String> = a.causes().map(part).collect();
-    match a.conclusion() {
-        Verdict::Damage => parts.join("; "),
-        Verdict::CannotTell => "cannot tell".into(),
-        Verdict::NothingFound => "no damage found".into(),
-    }
-}
 
 /// What stands at each defect frequency, in columns.
 fn families(a: &Analysis) {
@@ -128,7 +75,7 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
-    for line in result.level.lines(&m.unit.name) {
+    for line in level_lines(&result.levels, &m.unit.name) {
         say!("  {line}");
     }
     if let Some(rest) = &result.rest {

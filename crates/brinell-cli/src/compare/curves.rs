@@ -105,7 +105,7 @@ pub(super) fn envelope(sides: &[Side], runs: &[&RunResult]) -> Piece {
     let Some((_, band)) = runs.iter().find_map(|run| run.findings.envelope.as_ref()) else {
         return Piece::Words("The runs are too short for an envelope spectrum.".into());
     };
-    let markers = crate::page::defect_markers(&runs[0].scenario, runs[0].simulation.model());
+    let markers = brinell_report::defect_markers(&runs[0].scenario, runs[0].simulation.model());
     let top = markers.iter().filter(|m| m.present).map(|m| m.frequency_hz);
     let top = top.fold(0.0, f64::max);
     Piece::Overlay(Overlay {

@@ -3,7 +3,6 @@
 mod args;
 
 use crate::campaign;
-use crate::damage;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::results::{Place, Results};
@@ -211,7 +210,7 @@ fn write(
     let folder = &args.output;
     let mut written = reproduction.write_claims(folder)?;
     let study = reproduction.study(curves, |scenario| {
-        let all = damage::all(scenario, None).ok()?;
+        let all = brinell_report::damage_of(scenario, None).ok()?;
         all.into_iter().next().map(|damage| damage.view)
     });
     let pictures = brinell_report::study_pictures(&study);

@@ -9,9 +9,9 @@ use brinell::document::{Problem, numberless, on_one_line, one_line};
 use brinell::scenario::Scenario;
 use brinell::simulate::Simulation;
 use brinell_io::{ParquetWriter, SignalWriter};
-use brinell_study::campaign::{Axis, Plan, digest, fingerprint};
+use brinell_study::campaign::{Axis, Plan, fingerprint};
 use brinell_study::runner::{Task, Work};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -124,18 +124,9 @@ impl Points {
 
     /// What tells this sweep from others: the plan, and the scenarios of its points.
     pub(super) fn header(&self) -> Value {
-        let plan: Vec<Value> = self
-            .plan
-            .axes()
-            .iter()
-            .map(|axis| json!({ "keys": axis.keys(), "settings": axis.settings() }))
-            .collect();
-        let scenarios: Vec<&str> = self
-            .tasks
-            .iter()
-            .map(|task| task.as_ref().map_or("bad", |t| &t.fingerprint))
-            .collect();
-        json!({ "campaign": "sweep", "plan": plan, "scenarios": digest(&scenarios.join(" ")) })
+        let tasks = self.tasks.iter();
+        let prints = tasks.map(|task| task.as_ref().ok().map(|t| &*t.fingerprint));
+        self.plan.header(prints)
     }
 }
 

@@ -1,6 +1,9 @@
 //! The page of an analysed signal: verdict, waveform, spectrum, envelope spectrum; and a second signal over it.
 
+mod content;
+mod level;
 mod waveform;
+mod words;
 
 use std::fmt::Write as _;
 
@@ -12,7 +15,10 @@ use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
 use crate::plots::{Layout, legend, marker_lanes};
 use crate::tables::{Table, facts, table};
+pub use content::{Analyzed, Findings};
+pub use level::{ZONES, level_lines, scaled};
 use waveform::{about_middle, close, close_up_domain, close_up_unit, whole};
+pub use words::{called, ratio, shaft_lines};
 
 /// Whether a verdict is good, bad or open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

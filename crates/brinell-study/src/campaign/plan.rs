@@ -1,6 +1,8 @@
 //! A grid of settings: every combination of the axes, in a fixed order.
 
 use super::axis::Axis;
+use super::row::digest;
+use serde_json::{Value, json};
 
 /// Points of a plan at most: beyond that, a plan is a slip of the keyboard.
 pub(super) const MOST_POINTS: usize = 100_000;
@@ -120,6 +122,15 @@ impl Plan {
             .collect();
         place.reverse();
         place
+    }
+
+    /// Head of a sweep's journal, which tells it from others: the axes, and the fingerprints of the points' scenarios, none of a bad one.
+    #[doc(hidden)]
+    pub fn header<'a>(&self, scenarios: impl Iterator<Item = Option<&'a str>>) -> Value {
+        let axis = |axis: &Axis| json!({ "keys": axis.keys(), "settings": axis.settings() });
+        let axes: Vec<Value> = self.axes.iter().map(axis).collect();
+        let scenarios: Vec<&str> = scenarios.map(|s| s.unwrap_or("bad")).collect();
+        json!({ "campaign": "sweep", "plan": axes, "scenarios": digest(&scenarios.join(" ")) })
     }
 
     /// Key and value of everything that a point sets: overrides for [`brinell::document::read`].

@@ -1,24 +1,36 @@
 //! A defect's numbers, and what to say of them.
 
-use crate::say::short;
+use crate::number::short;
+use crate::{Fact, Value};
 use brinell::defect::{Defect, Shape};
-use brinell_report::{Fact, Value};
 
 /// One defect's numbers; lengths in mm, depths in um.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Measures {
-    pub(crate) length_mm: f64,
-    pub(crate) arc_deg: f64,
-    pub(crate) widest_mm: f64,
-    pub(crate) area_mm2: f64,
-    pub(crate) mean_depth_um: f64,
-    pub(crate) deepest_um: f64,
-    pub(crate) raised_um: f64,
-    pub(crate) pass_ms: f64,
-    pub(crate) speed_rpm: f64,
-    pub(crate) load_zone_share: Option<f64>,
-    pub(crate) approach_um: f64,
-    pub(crate) force_n: Option<f64>,
+pub struct Measures {
+    /// Along the rolling direction.
+    pub length_mm: f64,
+    /// Its angle on the damaged surface.
+    pub arc_deg: f64,
+    /// Largest damaged length of the contact line, L_s.
+    pub widest_mm: f64,
+    /// Seen from above.
+    pub area_mm2: f64,
+    /// Volume over area.
+    pub mean_depth_um: f64,
+    /// Its deepest point.
+    pub deepest_um: f64,
+    /// Height of its highest raised edge.
+    pub raised_um: f64,
+    /// Time that the line of contact takes to pass it.
+    pub pass_ms: f64,
+    /// Shaft speed of that: the largest.
+    pub speed_rpm: f64,
+    /// Its arc over the static load zone of the healthy bearing; none of a roller's damage.
+    pub load_zone_share: Option<f64>,
+    /// Elastic deformation of the heaviest static contact, or 10 um where there is no static balance.
+    pub approach_um: f64,
+    /// Force of that contact.
+    pub force_n: Option<f64>,
 }
 
 /// s over the arc at equal distances, a hair inside its ends.

@@ -3,8 +3,8 @@
 mod curves;
 mod measures;
 
-use crate::plan::{CORNERS, polygons_mm};
-use crate::say::short;
+use crate::DamageView;
+use crate::number::short;
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Shape, Side, wrap};
 use brinell::derived::defect_passes;
@@ -12,25 +12,31 @@ use brinell::model::{Model, ModelError};
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell::statics::static_load_zone;
-use brinell_report::DamageView;
+use brinell_damage::plan::{CORNERS, polygons_mm};
 use curves::{depths, passage, section};
-use measures::{Measures, deepest, facts, widest};
+pub use measures::Measures;
+use measures::{deepest, facts, widest};
 use std::f64::consts::TAU;
 
 /// Thickness of a ring that nobody stated, over the roller's diameter.
-pub(crate) const THICKNESS_SHARE: f64 = 0.6;
+const THICKNESS_SHARE: f64 = 0.6;
 /// Approach where no static balance gives one, m.
 const FALLBACK_APPROACH: f64 = 10e-6;
 
 /// One defect with its pictures' data.
 #[derive(Debug, Clone)]
-pub(crate) struct Damage {
-    pub(crate) measures: Measures,
-    pub(crate) view: DamageView,
+pub struct Damage {
+    /// Its numbers.
+    pub measures: Measures,
+    /// What its pictures show.
+    pub view: DamageView,
 }
 
-/// Every defect of a scenario; `thickness_mm` is the ring's.
-pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>, ModelError> {
+/// Every defect of a scenario; `thickness_mm` is the ring's, 0.6 of the roller's diameter where nobody states it.
+///
+/// # Errors
+/// Where the scenario makes no model.
+pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>, ModelError> {
     if s.defects.is_empty() {
         return Ok(Vec::new());
     }

@@ -1,8 +1,8 @@
 //! Of the report's data, the measurement chain.
 
-use crate::say::short;
+use crate::number::short;
+use crate::{Fact, SensorView, Value};
 use brinell::summary::Parts;
-use brinell_report::{Fact, SensorView, Value};
 
 /// Frequencies of the response, up to half the sample rate; not 0, which a band with a lower end does not pass at all.
 const POINTS: usize = 600;

@@ -5,10 +5,10 @@ use brinell::scenario;
 use std::f64::consts::TAU;
 
 /// Corners of a drawn circle.
-pub(crate) const CORNERS: usize = 113;
+pub const CORNERS: usize = 113;
 
 /// The grid of a shape that has one.
-pub(crate) fn depth_grid(of: &scenario::Defect) -> Option<brinell_damage::DepthGrid> {
+pub fn depth_grid(of: &scenario::Defect) -> Option<crate::DepthGrid> {
     let grid = match &of.shape {
         scenario::Shape::DepthMap { grid } => grid.clone(),
         scenario::Shape::Random {
@@ -25,7 +25,7 @@ pub(crate) fn depth_grid(of: &scenario::Defect) -> Option<brinell_damage::DepthG
         ),
         _ => return None,
     };
-    Some(brinell_damage::DepthGrid {
+    Some(crate::DepthGrid {
         s0_mm: grid.s0_mm,
         z0_mm: grid.z0_mm,
         ds_mm: grid.ds_mm,
@@ -33,22 +33,24 @@ pub(crate) fn depth_grid(of: &scenario::Defect) -> Option<brinell_damage::DepthG
         columns: grid.columns,
         rows: grid.rows,
         depth_um: grid.depth_um,
-        ..brinell_damage::DepthGrid::default()
+        ..crate::DepthGrid::default()
     })
 }
 
 /// Where a grid's border is drawn if nobody says otherwise.
-pub(crate) struct Contour {
-    pub(crate) level_um: f64,
-    pub(crate) tolerance_mm: f64,
+pub struct Contour {
+    /// Depth of the line.
+    pub level_um: f64,
+    /// How far it may be simplified.
+    pub tolerance_mm: f64,
 }
 
 impl Contour {
     /// At the depth at which the outline encloses the damaged area, to a tenth of the finer step.
-    pub(crate) fn of(
-        grid: &brinell_damage::DepthGrid,
-        shape: &Shape,
-    ) -> Result<Self, brinell_damage::DamageError> {
+    ///
+    /// # Errors
+    /// Where no depth's line encloses that area.
+    pub fn of(grid: &crate::DepthGrid, shape: &Shape) -> Result<Self, crate::DamageError> {
         Ok(Self {
             level_um: grid.level_of_area(1e6 * shape.area())?,
             tolerance_mm: 0.1 * grid.ds_mm.min(grid.dz_mm),
@@ -57,11 +59,7 @@ impl Contour {
 }
 
 /// The damage seen from above, mm: exact where it has corners, `points` of them on a curved edge; widths alone are centred.
-pub(crate) fn polygons_mm(
-    of: &scenario::Defect,
-    shape: &Shape,
-    points: usize,
-) -> Vec<Vec<[f64; 2]>> {
+pub fn polygons_mm(of: &scenario::Defect, shape: &Shape, points: usize) -> Vec<Vec<[f64; 2]>> {
     match shape {
         Shape::Rectangle { half_length, width } if *width > 0.0 => {
             let (a, b) = (1e3 * half_length, 0.5e3 * width);
@@ -122,7 +120,7 @@ fn centred(shape: &Shape, points: usize) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// (s, L_s) in mm over the arc: closer at its ends, twice where L_s jumps.
-pub(crate) fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
+pub fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
     let (first, last) = shape.arc();
     let length = last - first;
     let mut nodes: Vec<f64> = match shape {

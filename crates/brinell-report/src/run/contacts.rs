@@ -1,15 +1,15 @@
 //! Of the report's data, the contacts: a roller's pass over a defect, and forces around the bearing.
 
+use crate::RowLoad;
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::defect::Side;
 use brinell::observe::passes::{Pass, place};
 use brinell::statics::StaticLoadZone;
 use brinell::summary::Parts;
-use brinell_report::RowLoad;
 
 /// Points of a pass that are drawn.
 const PASS_POINTS: usize = 600;
-pub(super) fn pass(parts: &Parts, pass: &Pass) -> brinell_report::Pass {
+pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
     let model = parts.simulation.model();
     let l = &model.layout;
     let stride = pass.points.len().div_ceil(PASS_POINTS).max(1);
@@ -18,7 +18,7 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> brinell_report::Pass {
         Side::Inner => "inner contact",
         Side::Outer => "outer contact",
     };
-    brinell_report::Pass {
+    crate::Pass {
         title: format!(
             "Roller {} of row {} over defect {} ({})",
             l.roller(pass.slot) + 1,
@@ -56,7 +56,7 @@ pub(super) fn load_distribution(parts: &Parts) -> Vec<RowLoad> {
         static_points.sort_by(|a, b| a.0.total_cmp(&b.0));
         RowLoad {
             title: format!("Row {}, force at the outer contact", row + 1),
-            angle_deg: brinell_report::bin_centres(load.max.len()),
+            angle_deg: crate::bin_centres(load.max.len()),
             mean_n: load.mean(),
             max_n: load.max.clone(),
             static_points,

@@ -6,21 +6,27 @@ mod sensor;
 mod signals;
 mod tables;
 
-use crate::say::short;
+use crate::Report;
+use crate::number::short;
 use brinell::scenario::{ModelKind, Scenario, Speed};
 use brinell::simulate::End;
 use brinell::summary::Parts;
-use brinell_report::Report;
 use contacts::{load_distribution, pass};
 use motion::{cage_orbits, motion, slip_rows, spectrogram};
-pub(crate) use signals::defect_markers;
+pub use signals::defect_markers;
 use signals::{envelope_spectrum, indicators, spectrum, waveform};
 use tables::{assumptions, audits, facts, slip, solver_work};
 
-/// The page's data.
-pub(crate) fn report(parts: &Parts) -> Report {
+impl Report {
+    /// What the page of a run shows: `report.html` of `brinell run`. Damage that makes no model is not drawn, and the page says why.
+    pub fn of_run(parts: &Parts) -> Self {
+        report(parts)
+    }
+}
+
+fn report(parts: &Parts) -> Report {
     let scenario = &parts.loaded.scenario;
-    let (damage, undrawn_damage) = match crate::damage::all(scenario, None) {
+    let (damage, undrawn_damage) = match crate::defects::damage_of(scenario, None) {
         Ok(all) => (all.into_iter().map(|d| d.view).collect(), None),
         Err(error) => (Vec::new(), Some(error.to_string())),
     };

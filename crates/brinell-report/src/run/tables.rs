@@ -1,7 +1,8 @@
 //! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
 use super::axis;
-use crate::say::short;
+use crate::number::short;
+use crate::{Assumption, Fact};
 use brinell::accuracy::METHOD;
 use brinell::observe::Kind;
 use brinell::observe::passes::place;
@@ -9,7 +10,6 @@ use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
 use brinell::simulate::Outcome;
 use brinell::summary::Parts;
-use brinell_report::{Assumption, Fact};
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
@@ -43,7 +43,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             });
             facts.push(Fact::new(
                 label,
-                brinell_report::Value::Text(short(e.value, 3)),
+                crate::Value::Text(short(e.value, 3)),
                 unit,
                 note,
             ));
@@ -66,17 +66,12 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             ),
             None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
         };
-        facts.push(Fact::new(
-            line.name,
-            brinell_report::Value::Text(value),
-            "Hz",
-            note,
-        ));
+        facts.push(Fact::new(line.name, crate::Value::Text(value), "Hz", note));
     }
     if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(
             "Heaviest contact, static",
-            brinell_report::Value::Text(short(zone.largest, 3)),
+            crate::Value::Text(short(zone.largest, 3)),
             "N",
             format!("load zone {:.0}° wide", zone.extent.to_degrees()),
         ));
@@ -86,7 +81,7 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
 
 pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let percent = |x: f64| brinell_report::Value::Text(short(100.0 * x, 3));
+    let percent = |x: f64| crate::Value::Text(short(100.0 * x, 3));
     for (row, slip) in parts.findings.slip.rows.iter().enumerate() {
         let entries = [
             ("cage", fields::CAGE_SLIP, "behind its pure-rolling speed"),
@@ -135,16 +130,11 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     let e = &parts.outcome.energy;
     let f = &e.flows;
     let mj = |label: &str, joule: f64, note: &str| {
-        Fact::new(
-            label,
-            brinell_report::Value::Text(short(1e3 * joule, 4)),
-            "mJ",
-            note,
-        )
+        Fact::new(label, crate::Value::Text(short(1e3 * joule, 4)), "mJ", note)
     };
     let mut facts = Vec::new();
     if let Some(x) = (fields::MOMENTUM_IMBALANCE.of)(parts.outcome) {
-        let value = brinell_report::Value::Text(short(x, 2));
+        let value = crate::Value::Text(short(x, 2));
         let note =
             "largest force without a reaction, relative to all forces; round-off is about 1e-15";
         facts.push(Fact::new("Momentum imbalance", value, "", note).judged(x < MOMENTUM_LIMIT));
@@ -201,7 +191,7 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
 pub(super) fn solver_work(parts: &Parts) -> Vec<Fact> {
     let count = |label: &str, field: Field<fn(&Outcome) -> u64>, note: &str| {
         let n = (field.of)(parts.outcome).to_string();
-        Fact::new(label, brinell_report::Value::Text(n), "", note)
+        Fact::new(label, crate::Value::Text(n), "", note)
     };
     let accuracy = parts.loaded.scenario.simulation.accuracy.word();
     vec![
@@ -227,7 +217,7 @@ pub(super) fn assumptions(parts: &Parts) -> Vec<Assumption> {
         .iter()
         .map(|p| Assumption {
             key: p.key.clone(),
-            value: brinell_report::Value::Text(p.value.clone()),
+            value: crate::Value::Text(p.value.clone()),
             unit: p.unit.to_owned(),
             source: p.reason(),
             estimated: p.assumed,

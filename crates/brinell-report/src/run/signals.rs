@@ -1,17 +1,17 @@
 //! Of the report's data, the sensor signal: waveform, spectra, defect frequencies, indicators.
 
 use super::{axis, sensor_label};
-use crate::say::short;
+use crate::number::short;
+use crate::{
+    Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum,
+    Waveform,
+};
 use brinell::bearing::Kinematics;
 use brinell::model::Model;
 use brinell::observe::{ChannelStatistics, Kind};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::Indicator;
 use brinell::summary::Parts;
-use brinell_report::{
-    Estimate, Event, EventKind, IndicatorRow, IndicatorTable, Marker, MinMax, Series, Spectrum,
-    Waveform,
-};
 use std::f64::consts::TAU;
 
 /// Harmonics of a defect frequency that are marked.
@@ -108,7 +108,7 @@ pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
 }
 
 /// Defect frequencies at constant speed; at a varying speed there are none to mark.
-pub(crate) fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
+pub fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
     let Speed::Constant(_) = scenario.operation.speed_rpm else {
         return Vec::new();
     };

@@ -1,10 +1,10 @@
 //! What a roller meets on a defect, and the ring's section under it; depths for the picture from above.
 
+use crate::{DamageCurve, DamagePanel, DepthPatch};
 use brinell::defect::section::{Section, sections};
 use brinell::defect::{Angles, Defect, Shape, Side, acting};
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
-use brinell_report::{DamageCurve, DamagePanel, DepthPatch};
 use std::f64::consts::TAU;
 
 /// Points of a curve.

@@ -1,14 +1,14 @@
 //! Of the report's data, what moves: spectrogram, cage orbits, slip, and the bearing's frames.
 
-use crate::say::short;
+use crate::number::short;
+use crate::{
+    CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram,
+};
 use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
 use brinell::observe::orbit::TURNS;
 use brinell::scenario::Surface;
 use brinell::summary::Parts;
-use brinell_report::{
-    CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram,
-};
 use std::f64::consts::TAU;
 
 pub(super) fn spectrogram(parts: &Parts, label: String) -> Spectrogram {
@@ -82,7 +82,7 @@ pub(super) fn slip_rows(parts: &Parts) -> Vec<SlipRow> {
                 cage: percent(time.cage),
                 orbit: percent(time.orbit),
                 spin: percent(time.spin),
-                angle_deg: brinell_report::bin_centres(BINS),
+                angle_deg: crate::bin_centres(BINS),
                 orbit_there: percent(place.orbit),
                 spin_there: percent(place.spin),
             }

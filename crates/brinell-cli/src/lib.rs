@@ -1,0 +1,118 @@
+//! The `brinell` command as a function: reads arguments and files, prints, and writes results; what is computed is the libraries'.
+
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+mod analyze;
+mod args;
+mod calibrate;
+mod campaign;
+mod check;
+mod compare;
+mod dataset;
+mod defect;
+mod failure;
+mod files;
+mod inputs;
+mod look_up;
+mod progress;
+mod reproduce;
+mod results;
+mod run;
+mod say;
+mod sweep;
+
+use args::{Cli, Command};
+use brinell::kernel::Kernel;
+use clap::Parser;
+use failure::{BAD_INPUT, Failure};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Runs the command with these arguments, the first of which is the program's name, and prints to the process's standard output and error.
+///
+/// Exit codes: 0 done, 1 the run failed or a result could not be written, 2 the input is bad, 130 interrupted (what was computed is kept).
+///
+/// It is for a process of its own: it raises that process's limit of open files to what the system allows, ignores SIGXFSZ, and some
+/// commands listen for Ctrl-C, the second of which ends the process.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    hear_of_full_files();
+    allow_open_files();
+    let code = match Cli::try_parse_from(args) {
+        Ok(cli) => code_of(chosen_kernel().and_then(|()| run_command(cli.command))),
+        Err(words) if words.use_stderr() => {
+            let _ = words.print();
+            ExitCode::from(BAD_INPUT)
+        }
+        // Help, or the version.
+        Err(words) => {
+            say::note(words.print());
+            ExitCode::SUCCESS
+        }
+    };
+    match say::arrived() {
+        Ok(()) => code,
+        Err(failure) => {
+            let unsaid = code_of(Err(failure));
+            if code == ExitCode::SUCCESS {
+                unsaid
+            } else {
+                code
+            }
+        }
+    }
+}
+
+fn code_of(result: Result<ExitCode, Failure>) -> ExitCode {
+    result.unwrap_or_else(|failure| {
+        failure.print();
+        failure.code()
+    })
+}
+
+fn chosen_kernel() -> Result<(), Failure> {
+    let kernel = Kernel::chosen();
+    kernel
+        .map(drop)
+        .map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// A file that grows beyond the limit on files (`ulimit -f`) is an error of its writer, which removes what is there of it; unasked, the process
+/// would be killed.
+fn hear_of_full_files() {
+    #[cfg(unix)]
+    // SAFETY: to ignore a signal runs no code.
+    unsafe {
+        libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
+}
+
+/// As many open files as the system lets a process ask for: new results are held open, all of them, until they are complete.
+fn allow_open_files() {
+    #[cfg(unix)]
+    // SAFETY: both calls read and write `limit` alone, which outlives them.
+    unsafe {
+        let mut limit = std::mem::zeroed::<libc::rlimit>();
+        if libc::getrlimit(libc::RLIMIT_NOFILE, &raw mut limit) == 0 {
+            limit.rlim_cur = limit.rlim_max;
+            libc::setrlimit(libc::RLIMIT_NOFILE, &raw const limit);
+        }
+    }
+}
+
+fn run_command(command: Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Init(args) => look_up::init(&args),
+        Command::Bearing { command } => look_up::bearing(&command),
+        Command::Frequencies(args) => look_up::frequencies(&args),
+        Command::Defect { command } => defect::defect(&command),
+        Command::Analyze(args) => analyze::analyze(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Calibrate(args) => calibrate::calibrate(&args),
+        Command::Compare(args) => compare::side_by_side(&args),
+        Command::Reproduce(args) => reproduce::reproduce(&args),
+        Command::Dataset(args) => dataset::dataset(&args),
+        Command::Schema => look_up::schema(),
+    }
+}
