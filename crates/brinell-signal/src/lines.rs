@@ -5,7 +5,7 @@
 //! the line's power over that floor follows F, with the spectrum's degrees of freedom above and the floor's own
 //! below; its tail is the chance that noise alone shows as much in one bin.
 
-use super::distribution::{FTail, chi_square_quantile};
+use super::distribution::{chi_square_quantile, f_tail};
 use super::error::{SignalError, require};
 use super::spectrum::{Spectrum, peak_near};
 
@@ -189,10 +189,10 @@ impl<'a> Floor<'a> {
         }
     }
 
-    /// Chance that noise at `level` shows at least a power in a bin.
-    fn chance(&self, level: Level) -> impl Fn(f64) -> f64 {
-        let tail = FTail::new(self.freedom, level.freedom);
-        move |power| tail.at(power / level.power)
+    /// False-alarm probability of a power in a bin, over noise at `level`.
+    fn false_alarm(&self, level: Level) -> impl Fn(f64) -> f64 {
+        let freedom = self.freedom;
+        move |power| f_tail(power / level.power, freedom, level.freedom)
     }
 
     /// The line within `tolerance` of `expected`, both Hz.
@@ -213,7 +213,7 @@ impl<'a> Floor<'a> {
         // Interpolated where it is a maximum of its own; the skirt of a line outside is taken as it is.
         let peak = peak_near(self.spectrum, top as f64 * step, 0.5 * step)
             .filter(|p| (p.frequency - top as f64 * step).abs() <= step);
-        let one = self.chance(level)(power);
+        let one = self.false_alarm(level)(power);
         let trials = ((last - first + 1) as f64).max(1.0);
         Some(Line {
             order,
