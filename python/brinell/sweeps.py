@@ -102,7 +102,7 @@ def sweep(
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Table:
-    """Runs every combination of settings side by side. Ctrl-C stops it; ``brinell sweep`` is the one that goes on where it stopped.
+    """Runs every combination of settings side by side. Ctrl-C stops it; ``brinell sweep`` is the one that resumes where it stopped.
 
     Parameters
     ----------

@@ -102,7 +102,7 @@ impl Results {
         self.campaign().is_some() || self == Self::DataSet
     }
 
-    /// Files that it may leave, by their names below the folder; `*` stands for whatever has no `/`.
+    /// Files that it may leave, by their names below the folder; `*` represents whatever has no `/`.
     fn files(self) -> Vec<&'static str> {
         const PICTURES: [&str; 2] = ["plots/*.svg", "plots/*.png"];
         let (own, pictures): (&[&str], _) = match self {

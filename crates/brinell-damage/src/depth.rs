@@ -20,7 +20,7 @@ const MAX_RAW_UM: f64 = 1e9;
 /// The rim: this share of the grid's length and width on each side, one point at least.
 const RIM: f64 = 0.05;
 
-/// Numbers as they stand in a file; NaN is missing.
+/// Numbers as written in a file; NaN is missing.
 #[derive(Default)]
 pub(crate) struct Raw {
     pub(crate) width: usize,

@@ -54,7 +54,7 @@ pub struct Report {
     pub slip_rows: Vec<SlipRow>,
     /// Orbits of the cages' centres.
     pub cage_orbits: CageOrbits,
-    /// What stands between the outer ring and the record.
+    /// What is between the outer ring and the record.
     pub sensor: SensorView,
     /// The bearing in motion.
     pub motion: Motion,
@@ -232,7 +232,7 @@ pub struct Marker {
     pub frequency_hz: f64,
     /// How many multiples to mark, the first included.
     pub harmonics: usize,
-    /// Whether the scenario holds damage that strikes at this frequency.
+    /// Whether the scenario holds damage with impacts at this frequency.
     pub present: bool,
 }
 

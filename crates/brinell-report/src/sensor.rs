@@ -1,4 +1,4 @@
-//! What stands between the machine and the record: the measurement chain's response and what it did.
+//! What is between the machine and the record: the measurement chain's response and what it did.
 
 use crate::chart::{Chart, Domain, Spec, range};
 use crate::data::{Fact, Report};
@@ -16,7 +16,7 @@ pub struct SensorView {
     pub frequency_hz: Vec<f64>,
     /// Gain at each, dB; empty where the chain passes everything alike.
     pub gain_db: Vec<f64>,
-    /// Noise, converter, clipped samples.
+    /// Noise, ADC, clipped samples.
     pub facts: Vec<Fact>,
 }
 

@@ -49,7 +49,7 @@ type Curve = (Vec<f64>, Vec<f64>);
 
 /// Swings across the picture that come closer than this are one blot, px.
 const SWING: f64 = 8.0;
-/// Means over this share of the picture stand for such a curve.
+/// Means over this fraction of the picture represent such a curve.
 const MEANS: usize = 60;
 /// Of the shade behind them.
 const SHADE: f64 = 0.28;

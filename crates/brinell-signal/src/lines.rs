@@ -3,7 +3,7 @@
 //! The noise at a line is the median power of its neighbourhood, the line itself and its skirt left out, over the
 //! median of chi-square with the spectrum's degrees of freedom: other lines hardly move a median. Under Gaussian noise
 //! the line's power over that floor follows F, with the spectrum's degrees of freedom above and the floor's own
-//! below; its tail is the chance that noise alone shows as much in one bin.
+//! below; its tail is the false-alarm probability of one bin.
 
 use super::distribution::{chi_square_quantile, f_tail};
 use super::error::{SignalError, require};
@@ -25,7 +25,7 @@ pub struct Line {
     pub order: i32,
     /// Where it was sought, Hz.
     pub expected: f64,
-    /// Where the spectrum stands highest about there, Hz; interpolated between bins where it is a maximum.
+    /// Where the spectrum is highest about there, Hz; interpolated between bins where it is a maximum.
     pub frequency: f64,
     /// Peak amplitude there, in the signal's unit.
     pub amplitude: f64,

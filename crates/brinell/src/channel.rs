@@ -368,7 +368,7 @@ pub(crate) fn filterable(model: &Model) -> Vec<Channel> {
         .collect()
 }
 
-/// Whether `name` matches `pattern`, where `*` stands for any run of characters.
+/// Whether `name` matches `pattern`, where `*` represents any run of characters.
 #[doc(hidden)]
 pub fn matches(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');

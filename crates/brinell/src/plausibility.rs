@@ -153,7 +153,7 @@ fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
     })
 }
 
-/// Beyond the static load rating, or beyond the pressure that it stands for.
+/// Beyond the static load rating, or beyond the pressure that it represents.
 fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     let o = &scenario.operation;
     let mut warnings = Vec::new();
@@ -270,7 +270,9 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) ->
     }
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
-        let met = SIDES.into_iter().filter(|s| defect.ground(*s).is_some());
+        let met = SIDES
+            .into_iter()
+            .filter(|s| defect.depth_profile(*s).is_some());
         let worst = met
             .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
             .min_by(|a, b| a.1.1.total_cmp(&b.1.1));

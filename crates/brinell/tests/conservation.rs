@@ -262,7 +262,7 @@ fn prop_energy_audit_closes() {
             "{name}: turnover {turnover:.3e} J, residual {standard:.2e} (standard), {reference:.2e} (reference) J, lever {lever:.2e} J\n"
         );
         let within = standard.abs() < STANDARD * turnover && reference.abs() < REFERENCE * turnover;
-        // A standard run's errors may cancel by chance: then a typical residual stands for it.
+        // A standard run's errors may cancel by chance: then a typical residual represents it.
         let typical = standard.abs().max(TYPICAL * turnover);
         if !(within && reference.abs() < SHRINKS * typical) {
             failures.push(name);

@@ -60,7 +60,7 @@ pub(super) fn called(a: &Analysis) -> String {
     }
 }
 
-/// What stands at each defect frequency, in columns.
+/// What is at each defect frequency, in columns.
 fn families(a: &Analysis) {
     let heads = COLUMNS.map(|c| c.trim_start_matches('#').to_owned());
     let rows: Vec<_> = [heads].into_iter().chain(a.rows()).collect();

@@ -106,7 +106,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
         Ok(found) => found,
         Err(Unfit::Interrupted) => {
             complain!(
-                "interrupted: finished runs are kept in {}; the same command goes on where this one stopped",
+                "interrupted: finished runs are kept in {}; the same command resumes where this one stopped",
                 folder.join(JOURNAL).display()
             );
             return Ok(ExitCode::from(NOT_WHOLE));

@@ -24,7 +24,7 @@ fn capital(text: &str) -> String {
     first + letters.as_str()
 }
 
-/// A stretch of the waveforms, five strikes long, from where all are analysed.
+/// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
 pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
     let kept = |run: &RunResult| {
         let (first, values) = run.findings.waveform.latest();

@@ -17,7 +17,7 @@ use curves::{depths, passage, section};
 use measures::{Measures, deepest, facts, widest};
 use std::f64::consts::TAU;
 
-/// Thickness of a ring that nobody stated, over the roller's diameter.
+/// Thickness assumed of a ring, over the roller's diameter.
 pub(crate) const THICKNESS_SHARE: f64 = 0.6;
 /// Approach where no static balance gives one, m.
 const FALLBACK_APPROACH: f64 = 10e-6;

@@ -132,7 +132,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         }
     }
     if went.interrupted {
-        complain!("interrupted: {left} to go; the same command goes on where this one stopped");
+        complain!("interrupted: {left} to go; the same command resumes where this one stopped");
         return Ok(ExitCode::from(NOT_WHOLE));
     }
     Ok(ExitCode::SUCCESS)

@@ -167,7 +167,7 @@ fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
         *points += 1;
         return;
     }
-    // What the settings give stands nowhere in the file.
+    // What the settings give is nowhere in the file.
     (warning.line, warning.column) = (None, None);
     warnings.push((warning, 1));
 }

@@ -42,7 +42,7 @@ pub struct DamageView {
     /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage half a turn after the
     /// other.
     pub half_turn_mm: Option<f64>,
-    /// s of the load zone's ends, where the surface stands still in it.
+    /// s of the load zone's ends, where the surface rests in it.
     pub load_zone_mm: Option<[f64; 2]>,
     /// Angle of a roller from the defect's centre.
     pub angle_deg: Vec<f64>,

@@ -113,7 +113,7 @@ const LARGEST: f64 = 1e60;
 
 /// How well the shaft's own lines tell its speed, relative.
 const SHAFT_KNOWN: f64 = 0.002;
-/// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
+/// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance), which
 /// simulations without noise show. Evidence that modulates by less is weak there; some healthy single-row bearings go beyond.

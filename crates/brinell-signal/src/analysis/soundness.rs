@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The least length of a stretch of one value, in revolutions: no vibration holds still for so long.
 const STRETCH: f64 = 0.25;
-/// Share of the samples at the largest or the smallest value from which a converter is taken to have been driven beyond its range; and how many.
+/// Share of the samples at the largest or the smallest value from which an ADC is taken to have been driven beyond its range; and how many.
 const AT_LIMITS: (f64, usize) = (1e-3, 20);
 /// Share of the signal's energy in one revolution from which levels are that revolution's, and revolutions from which it says something.
 const ONE_EVENT: (f64, usize) = (0.5, 10);

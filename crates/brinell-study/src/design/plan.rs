@@ -210,7 +210,7 @@ impl Plan {
             add(
                 "secret",
                 "",
-                "held_out needs a secret that nobody can guess; whoever has it has the labels"
+                "held_out needs a secret that cannot be guessed; whoever has it has the labels"
                     .into(),
                 "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
             );

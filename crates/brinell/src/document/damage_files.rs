@@ -1,4 +1,4 @@
-//! Every key of a shape that stands in a file of its own: an image, a drawing, a scan.
+//! Every key of a shape that is in a file of its own: an image, a drawing, a scan.
 
 use super::keys::Fallback::Required;
 use super::keys::{Fallback, Keys, Spec, assumed, key, stated};

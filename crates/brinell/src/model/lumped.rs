@@ -4,7 +4,7 @@
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.
 
 use super::{Model, Power, Workspace, series_stiffness};
-use crate::contact::{Floor, Hertz};
+use crate::contact::{ContactReduction, Hertz};
 use crate::defect::{Angles, SIDES, Side, floors};
 
 /// One roller's series contact: law, and the depth that full-width damage takes from the approach.
@@ -31,7 +31,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         damaged_length: [0.0; 2],
         on_damage: [false; 2],
     };
-    let acting = SIDES.map(|side| {
+    let damaged = SIDES.map(|side| {
         floors(model.defects_of(slot, side), angles, side)
             .map(|floor| {
                 (
@@ -42,7 +42,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
             .reduce(|a, b| if b.0 < a.0 { b } else { a })
             .map(|(_, floor)| (side, floor))
     });
-    match acting {
+    match damaged {
         [None, None] => healthy,
         [Some(one), None] | [None, Some(one)] => with_floors(model, &healthy, &[one]),
         [Some(inner), Some(outer)] => with_floors(model, &healthy, &[inner, outer]),
@@ -50,7 +50,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
 }
 
 /// A partial width multiplies its side's stiffness by g; the full width sinks the roller by h.
-fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, Floor)]) -> Series {
+fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, ContactReduction)]) -> Series {
     let mut series = *healthy;
     let mut k = [model.inner_contact.stiffness, model.outer_contact.stiffness];
     for &(side, floor) in floors {

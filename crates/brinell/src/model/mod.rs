@@ -3,8 +3,8 @@
 //! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages count
 //! from 0 in code and from 1 in names and scenarios.
 
+mod broad_phase;
 pub(crate) mod energy;
-mod exposure;
 mod full;
 mod layout;
 pub(crate) mod lumped;
@@ -14,8 +14,8 @@ mod stability;
 mod workspace;
 
 pub use crate::kernel::Kernel;
+pub use broad_phase::BroadPhase;
 pub use energy::{Energy, Power};
-pub use exposure::Exposure;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
@@ -131,7 +131,7 @@ pub struct Model {
     /// alpha of each slot, rad: the pocket's angle on its cage.
     pub pocket_angle: Column,
     /// 1 for the slots of rollers, 0 for padding.
-    pub live: Column,
+    pub roller_mask: Column,
     /// Gap of each slot's contact where all is centred, m, by side; so wide for padding that it never closes.
     pub(crate) gaps: [Column; 2],
     /// C_p of each slot, m; so wide for padding that it never closes.
@@ -139,7 +139,7 @@ pub struct Model {
     /// Damage.
     pub defects: Vec<Defect>,
     /// Where damage can meet the contacts of each side, indexed by `Side as usize`.
-    pub exposure: [Exposure; 2],
+    pub broad_phase: [BroadPhase; 2],
     /// For each row, over one period of the rows' pattern: 1 for its own slots, else 0.
     pub(crate) row_lanes: Vec<Column>,
     /// How damage acts.
@@ -213,7 +213,7 @@ impl Model {
                 requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
             })?);
         }
-        let exposure = SIDES.map(|side| Exposure::new(&layout, &defects, side));
+        let broad_phase = SIDES.map(|side| BroadPhase::new(&layout, &defects, side));
         let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
         let row_lanes = (0..layout.rows)
             .map(|row| (0..layout.row_period()).map(own(row)).collect())
@@ -226,10 +226,10 @@ impl Model {
         const NEVER_CLOSES: f64 = 1e3;
         Ok(Self {
             kind: s.simulation.model,
-            live: by_slot(1.0, 0.0),
+            roller_mask: by_slot(1.0, 0.0),
             gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
             pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
-            exposure,
+            broad_phase,
             row_lanes,
             layout,
             geometry,
@@ -356,7 +356,7 @@ impl Model {
         }
     }
 
-    /// Where that ring's x stands among the coordinates.
+    /// Where that ring's x is among the coordinates.
     pub fn land_ring(&self) -> usize {
         match self.land_on() {
             Side::Inner => self.layout.inner(),

@@ -8,7 +8,7 @@ mod run;
 
 #[doc(hidden)]
 pub use impacts::{Impacts, impacts};
+pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
 pub use quantities::{UnknownName, check_name, indicator_name, names, quantities};
-pub use quantities::{Quantity, Spread};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

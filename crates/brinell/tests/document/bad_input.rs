@@ -198,7 +198,7 @@ fn regress_cross_key_problems_name_every_key_and_line() {
             ("bearing.outer_raceway_diameter_mm", Some(3))
         ]
     );
-    // The override stands on no line: the first key of the file that takes part does.
+    // The override is on no line: the first key of the file that takes part is named.
     assert_eq!(problem.line, Some(2));
 }
 

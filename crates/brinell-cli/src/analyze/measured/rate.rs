@@ -79,7 +79,7 @@ fn contradiction(
         (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
         (None, Some((Err(why), name))) => {
             return Some(format!(
-                "{given} Hz was taken, but the times in `{name}` tell no rate: {why}"
+                "{given} Hz was taken, but the times in `{name}` give no rate: {why}"
             ));
         }
     };

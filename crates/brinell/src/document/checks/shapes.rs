@@ -54,7 +54,7 @@ impl Checker<'_> {
             [text, other] => {
                 let key = keys[usize::from(text.is_none())].clone();
                 let empty = text.or(other).is_some_and(|text| text.starts_with("[]"));
-                // A list that came out empty and does not stand there as such was reported as unreadable.
+                // A list that came out empty and is not there as such was reported as unreadable.
                 let unread = polygons.iter().all(Vec::is_empty) && !empty;
                 (!unread).then_some(key)
             }
