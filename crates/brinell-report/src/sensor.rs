@@ -9,8 +9,6 @@ use crate::tables::fact_table;
 
 /// The chain; empty where the record is the machine's own vibration.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct SensorView {
     /// Frequencies of the response, Hz, evenly spaced.
     pub frequency_hz: Vec<f64>,

@@ -9,8 +9,6 @@ use crate::tables::fact_table;
 
 /// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the angle.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct SlipRow {
     /// "row 1".
     pub name: String,

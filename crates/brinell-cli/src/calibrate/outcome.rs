@@ -269,7 +269,7 @@ impl<'a> Outcome<'a> {
             "met": self.is_met(),
             "chi_square": self.chi_square(),
             "degrees_of_freedom": identified.freedom,
-            "chance_of_larger": self.p_value(),
+            "p_value": self.p_value(),
             "uncertainties_multiplied_by": identified.inflation,
             "keys": keys,
             "targets": targets,

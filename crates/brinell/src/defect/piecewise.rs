@@ -138,11 +138,6 @@ impl PiecewisePolynomial {
         self.lookup.span()
     }
 
-    /// Whether the function is 0 everywhere.
-    pub fn is_zero(&self) -> bool {
-        self.pieces.iter().all(|p| p.c == [0.0; 3])
-    }
-
     /// The piece that holds s, and how far into it s lies.
     #[inline]
     fn at(&self, s: f64) -> Option<(&Piece, f64)> {
