@@ -73,7 +73,7 @@ impl Results {
         }
     }
 
-    /// The file that tells of the results, with brinell's version.
+    /// The file that lists the results, with brinell's version.
     fn tells(self) -> &'static str {
         match self {
             Self::Run => SUMMARY,
@@ -190,7 +190,7 @@ impl Results {
         folders.collect()
     }
 
-    /// What tells of its results in a folder; [`Value::Null`] where nothing does.
+    /// The list of its results in a folder; [`Value::Null`] where nothing does.
     fn told(self, folder: &Path) -> Value {
         let text = File::open(folder.join(self.tells())).and_then(read_text);
         let told = serde_json::from_slice::<Value>(&text.unwrap_or_default());

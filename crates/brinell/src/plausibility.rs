@@ -233,7 +233,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             );
             (
                 format!(
-                    "this damage lies outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
+                    "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
                     zone.extent.to_degrees(),
                     degrees(zone.middle)
                 ),
@@ -241,7 +241,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             )
         } else {
             (
-                "no roller is loaded at rest: there is no load zone for this damage to lie in"
+                "no roller is loaded at rest: there is no load zone that this damage could be in"
                     .into(),
                 String::new(),
             )

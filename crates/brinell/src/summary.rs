@@ -110,7 +110,7 @@ pub fn clipped(parts: &Parts) -> Vec<String> {
         .filter(|(_, record)| record.clipped > 0)
         .map(|(channel, record)| {
             format!(
-                "{}: {} of {} samples lie beyond the ADC's range and are clipped",
+                "{}: {} of {} samples are beyond the ADC's range and are clipped",
                 channel.name, record.clipped, parts.outcome.rows
             )
         })

@@ -49,7 +49,7 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
                 .find(|(_, at)| (hz / at - 1.0).abs() <= tolerance);
             parts.extend(near.map(|(name, at)| {
                 format!(
-                    "The lines of {} are either bearing's: {name} of {} lies at {at:.2} Hz.",
+                    "The lines of {} are either bearing's: {name} of {} is at {at:.2} Hz.",
                     found.name, other.1.name
                 )
             }));

@@ -89,7 +89,7 @@ pub(super) fn report(result: &Result_) -> AnalysisReport {
         " Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).",
         a.view.choice.words()
     );
-    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are strongest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
+    let lanes = " Above the plot are the defect frequencies and their harmonics, where their lines are strongest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (
@@ -348,7 +348,7 @@ fn differences(result: &Result_) -> Vec<Table> {
             .to_vec(),
             rows: indicators,
             note: format!(
-                "Third octaves from 10 Hz up: this one lies {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
+                "Third octaves from 10 Hz up: this one is {:+.1} dB from the other on average, {:.1} dB RMS. Verdict on the other: {}",
                 0.0 - c.level_db.0,
                 c.level_db.1,
                 other.analysis.verdict()

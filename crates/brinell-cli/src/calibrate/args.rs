@@ -111,7 +111,7 @@ pub(crate) struct CalibrateArgs {
     /// Folder for the results [default: out/calibrate-STEM, STEM being the scenario's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// Go on in a folder that holds another calibration; runs of the same scenario count
+    /// Resume in a folder that holds another calibration; runs of the same scenario count
     #[arg(long)]
     pub(crate) extend: bool,
     /// Print the plan and what it costs; run nothing

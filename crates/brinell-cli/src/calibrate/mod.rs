@@ -213,7 +213,7 @@ impl Plan {
         })
     }
 
-    /// What tells this calibration from others. A larger budget goes on with the same.
+    /// What distinguishes this calibration from others. A larger budget resumes the same one.
     fn header(&self) -> Value {
         let keys: Vec<Value> = (self.keys.iter())
             .map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log }))

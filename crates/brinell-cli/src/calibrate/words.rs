@@ -9,7 +9,7 @@ use brinell_study::calibrate::identify::{Direction, MOST};
 const LARGE: f64 = 2.0;
 /// Keys that move by less than this share of the one that moves most are left out of a combination.
 const MINOR: f64 = 0.2;
-/// How far a combination is told, in ranges of the key that moves most.
+/// How well a combination is determined, in ranges of the key that moves most.
 const TOLD: f64 = 0.1;
 
 impl Outcome<'_> {
@@ -73,7 +73,7 @@ impl Outcome<'_> {
                 _ => continue,
             };
             all.push(format!(
-                "{}: the best value lies on its {side} bound; a better one may lie beyond.",
+                "{}: the best value is on its {side} bound; a better one may be beyond.",
                 found.name
             ));
         }

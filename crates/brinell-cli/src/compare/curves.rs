@@ -224,7 +224,7 @@ pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
             curves.push(OverlaidCurve { of, along, values });
         }
         if curves.is_empty() {
-            let words = format!("No {word} lies within the waveform that was kept.");
+            let words = format!("No {word} is within the waveform that was kept.");
             pieces.push(Piece::Words(words));
             continue;
         }

@@ -163,7 +163,7 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             section_s_mm,
             section,
             section_note: if is_roller {
-                "section properties describe rings; this damage lies on a roller".into()
+                "section properties describe rings; this damage is on a roller".into()
             } else if through {
                 format!(
                     "the damage is deeper than the ring is thick, {} mm ({assumed}): no section is left",

@@ -52,7 +52,7 @@ pub(crate) struct SweepArgs {
     /// Keep the recorded channels of each point, as Parquet
     #[arg(long)]
     pub(crate) keep_signals: bool,
-    /// Go on in a folder that holds another sweep; what matches is kept, and the table becomes this sweep's
+    /// Resume in a folder that holds another sweep; what matches is kept, and the table becomes this sweep's
     #[arg(long)]
     pub(crate) extend: bool,
     /// Print the plan and what it costs; run nothing

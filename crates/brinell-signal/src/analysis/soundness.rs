@@ -19,7 +19,7 @@ pub enum Flaw {
         /// Length of the record, s.
         of: f64,
     },
-    /// Share of samples at the largest or the smallest value: clipped, or coarsely converted.
+    /// Share of samples at the largest or the smallest value: clipped, or coarsely quantised.
     AtLimits {
         /// 0 to 1.
         share: f64,
@@ -42,7 +42,7 @@ impl fmt::Display for Flaw {
             ),
             Flaw::AtLimits { share } => write!(
                 f,
-                "{:.2} % of the samples lie at the largest or the smallest value: clipped, or coarsely converted",
+                "{:.2} % of the samples are at the largest or the smallest value: clipped, or coarsely quantised",
                 100.0 * share
             ),
             Flaw::OneEvent { at, share } => write!(

@@ -109,7 +109,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let nearest = elsewhere.nearest.map_or(String::new(), |n| {
         format!(
-            " {} lies {:.2} % {}: at {:.0} r/min it would be there.",
+            " {} is {:.2} % {}: at {:.0} r/min it would be there.",
             n.name,
             100.0 * n.shift.abs(),
             if n.shift > 0.0 { "lower" } else { "higher" },

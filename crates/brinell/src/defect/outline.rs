@@ -17,7 +17,7 @@ pub enum Tangle {
     Crossings,
     /// There are too many places to look at.
     #[error(
-        "so many long sides lie side by side that their crossings cannot be counted (more than {:e} pairs)",
+        "so many long sides are side by side that their crossings cannot be counted (more than {:e} pairs)",
         MOST_COMPARED as f64
     )]
     Neighbours,

@@ -164,7 +164,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     );
     s.zero_percentile = (wanted && s.zero == ScanZero::Percentile).then_some(zero_percentile);
     k.key_where(
-        key("first_row", "where the file's first row lies"),
+        key("first_row", "where the file's first row is"),
         filed,
         stated(FirstRow::Top, "as in print"),
         &mut s.first_row,

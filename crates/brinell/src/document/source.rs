@@ -336,7 +336,7 @@ fn too_much(text: &str) -> Option<String> {
 }
 
 fn too_deep() -> String {
-    format!("tables and lists lie in each other more than {DEEPEST} levels deep")
+    format!("tables and lists are nested more than {DEEPEST} levels deep")
 }
 
 /// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.

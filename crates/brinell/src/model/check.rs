@@ -65,7 +65,7 @@ pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
             return Err(ModelError {
                 key: format!("defects.{k}"),
                 value: format!("row {} on {:?}", defect.row, defect.on),
-                requirement: "must lie in a row and on a roller that the bearing has",
+                requirement: "must be in a row and on a roller that the bearing has",
             });
         }
     }
