@@ -1,6 +1,6 @@
 //! Normal contact of a roller and a raceway: the load-deflection law, healthy and damaged.
 //!
-//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is approach beyond first touch.
+//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of the bodies beyond first touch.
 
 use crate::elementary::{Exponent, eight_ninths};
 
@@ -108,7 +108,7 @@ impl Hertz {
         n * force * f64::from(((self.stiffness / force) as f32).powf((1.0 / n) as f32))
     }
 
-    /// Approach that carries `force` on the healthy contact, m.
+    /// Elastic deformation that carries `force` on the healthy contact, m.
     pub fn deflection(&self, force: f64) -> f64 {
         (force.max(0.0) / self.stiffness).powf(1.0 / self.exponent.value())
     }

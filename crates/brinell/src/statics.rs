@@ -97,7 +97,7 @@ struct Roller {
     r: f64,
     inner: f64,
     outer: f64,
-    /// dQ/d(approach of the rings) through the roller, N/m.
+    /// dQ/d(deformation of the rings) through the roller, N/m.
     tangent: f64,
     /// Potential energy, J.
     energy: f64,
@@ -291,7 +291,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         reach *= 2.0;
     }
     let mut r = if own < 0.0 { low } else { high };
-    // Approaches are differences of r and of where the raceways are: finer than their round-off is nothing.
+    // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
     let grain = 1e-22 + 2.0 * f64::EPSILON * (inner_at.abs() + outer_at.abs());
     if balance(r).0 != 0.0 {
         for _ in 0..200 {

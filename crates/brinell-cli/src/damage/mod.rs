@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 /// Thickness assumed of a ring, over the roller's diameter.
 pub(crate) const THICKNESS_SHARE: f64 = 0.6;
-/// Approach where no static balance gives one, m.
+/// Elastic deformation where no static balance gives one, m.
 const FALLBACK_APPROACH: f64 = 10e-6;
 
 /// One defect with its pictures' data.
@@ -102,7 +102,7 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             "an assumption: 0.6 of the roller's diameter"
         };
         let title = format!("Defect {}: {}", k + 1, place(defect));
-        let approach = match sides[..] {
+        let deformation = match sides[..] {
             [(_, outer), (_, inner)] => format!(
                 "{} μm at the outer and {} μm at the inner contact",
                 short(1e6 * outer, 3),
@@ -123,11 +123,13 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             passage_title: match defect.surface {
                 Surface::Roller(_) => {
                     format!(
-                        "{title}. What both contacts meet as it turns; K at an approach of {approach}"
+                        "{title}. What both contacts meet as it turns; K at a deformation of {deformation}"
                     )
                 }
                 _ => {
-                    format!("{title}. What a passing roller meets; K at an approach of {approach}")
+                    format!(
+                        "{title}. What a passing roller meets; K at a deformation of {deformation}"
+                    )
                 }
             },
             section_title: format!(
@@ -158,7 +160,7 @@ pub(crate) fn all(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>
             angle_deg,
             passage,
             passage_note: format!(
-                "stiffness Q/δⁿ at an approach of {approach} ({by_force}); this defect alone, the paths and laws side by side"
+                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side"
             ),
             section_s_mm,
             section,

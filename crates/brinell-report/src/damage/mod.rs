@@ -46,7 +46,7 @@ pub struct DamageView {
     pub angle_deg: Vec<f64>,
     /// What the roller meets there.
     pub passage: Vec<DamagePanel>,
-    /// At which approach, by which laws.
+    /// At which deformation, by which laws.
     pub passage_note: String,
     /// s along the damage.
     pub section_s_mm: Vec<f64>,

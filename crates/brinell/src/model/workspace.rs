@@ -9,7 +9,7 @@ use crate::lanes::{Column, WIDTH};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contacts {
     /// delta, m.
-    pub approach: Column,
+    pub deformation: Column,
     /// d(delta)/dt, m/s.
     pub approach_rate: Column,
     /// `[delta]_+^n`.
@@ -32,7 +32,7 @@ impl Contacts {
     fn new(slots: usize) -> Self {
         let zeros = || Column::new(slots, 0.0);
         Self {
-            approach: zeros(),
+            deformation: zeros(),
             approach_rate: zeros(),
             power: zeros(),
             elastic: zeros(),

@@ -32,7 +32,7 @@ pub(super) fn edge_reaction(
                 ring: turn.angle,
             };
             let arm = model.geometry.pitch_radius + q[l.r() + slot];
-            let delta = contacts.approach[slot];
+            let delta = contacts.deformation[slot];
             let defects = model.defects_of(slot, side);
             let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
             ws.edge_force[slot] -= e.orbit / arm;

@@ -65,7 +65,7 @@ pub(super) fn rollers(
             power.contact += (normal[k] - elastic) * rate;
             power.friction += friction[k] * slip;
             let c = &mut ws.contacts[k];
-            c.approach[slot] = delta;
+            c.deformation[slot] = delta;
             c.approach_rate[slot] = rate;
             c.power[slot] = law.exponent.of(delta);
             c.elastic[slot] = elastic;

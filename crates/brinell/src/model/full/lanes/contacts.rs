@@ -26,7 +26,7 @@ pub(super) fn candidates<L: Lanes>(model: &Model, ws: &mut Workspace) {
     }
 }
 
-/// How each contact moves: approach, its rate and slip.
+/// How each contact moves: deformation, its rate and slip.
 #[inline(always)]
 pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
     let l = &model.layout;
@@ -71,11 +71,11 @@ pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: 
     }
 }
 
-/// Approach, its rate and slip, to write to.
+/// Elastic deformation, its rate and slip, to write to.
 #[inline(always)]
 fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 3] {
     [
-        &mut L::groups_mut(&mut contacts.approach)[..count],
+        &mut L::groups_mut(&mut contacts.deformation)[..count],
         &mut L::groups_mut(&mut contacts.approach_rate)[..count],
         &mut L::groups_mut(&mut contacts.slip)[..count],
     ]
@@ -91,7 +91,7 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
         let law = model.contact(side);
         let stiffness = L::splat(law.stiffness);
         let contacts = &mut ws.contacts[side as usize];
-        let approach = column::<L>(&contacts.approach, 0, count);
+        let deformation = column::<L>(&contacts.deformation, 0, count);
         let slip = column::<L>(&contacts.slip, 0, count);
         let candidates = &ws.candidates[side as usize][..count];
         let power = &mut L::groups_mut(&mut contacts.power)[..count];
@@ -99,7 +99,7 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
         let tanh = &mut L::groups_mut(&mut contacts.friction)[..count];
         let maybe_closed = &mut ws.maybe_closed[side as usize][..count];
         for group in 0..count {
-            let delta = L::new(approach[group]);
+            let delta = L::new(deformation[group]);
             // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
             maybe_closed[group] = candidates[group] != 0 || delta.any_positive();
             let mut x = L::zero();
@@ -160,7 +160,7 @@ fn on_damage(
             model.contact(side),
             &angles,
             side,
-            contacts.approach[slot],
+            contacts.deformation[slot],
             contacts.power[slot],
         );
         if let Some(damaged) = damaged {
