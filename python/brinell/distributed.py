@@ -3,7 +3,7 @@
 The unit of work is a file of the data set (``runs_per_file`` runs). A worker makes it in a scratch folder of its own and sends it; this process writes it
 into the data set's folder, its checksum held against the worker's. Workers need brinell of the same version and a processor with the same kernel, and nothing else: plan, base scenario and
 files of damage travel with the work, and so do version and kernel, which a worker holds against its own before it computes. A worker that dies loses the file that it was at, which another one then makes. What is in the folder stays, so the
-same call goes on where one stopped.
+same call resumes where one stopped.
 
 Processors matter: brinell uses AVX-512 where there is AVX-512, and the last bits differ from those of AVX2. `BRINELL_KERNEL=avx2` for every worker and
 this process makes a mixed cluster give the bytes of one machine.

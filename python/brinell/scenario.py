@@ -22,7 +22,7 @@ class Scenario:
     """Bearing, damage, operation and what to record. A scenario never changes; `replace` makes another.
 
     Each argument is a section of the scenario file with the file's keys, units in their names. What is left out has a default, and
-    ``assumed`` lists those that nobody stated.
+    ``assumed`` lists the values that were not given.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ class Scenario:
 
     @property
     def assumed(self) -> list[dict[str, Any]]:
-        """Values that nobody stated: key, value, unit, why."""
+        """Assumed values: key, value, unit, why."""
         return self._native.assumed
 
     @property

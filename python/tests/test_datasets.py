@@ -92,7 +92,7 @@ def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):
     whole = chosen.run(tmp_path / "whole")
     for k in (1, 2, 3):
         chosen.run(tmp_path / f"shard-{k}", shard=(k, 3))
-    with pytest.warns(UserWarning, match=r"not whole: 3 files in none of the folders \(part 1, 4, 7\); run their shards again"):
+    with pytest.warns(UserWarning, match=r"incomplete: 3 files in none of the folders \(part 1, 4, 7\); run their shards again"):
         merge([tmp_path / f"shard-{k}" for k in (3, 1)], tmp_path / "joined")
     joined = merge([tmp_path / f"shard-{k}" for k in (3, 1, 2)], tmp_path / "joined")
     assert digests(joined.folder) == digests(whole.folder)

@@ -45,13 +45,13 @@ pub(crate) enum Command {
         #[command(subcommand)]
         command: DefectCommand,
     },
-    /// Say what a measured signal shows: which component's damage, how sure; or lay it over a simulated one
+    /// Say what a measured signal shows: which component's damage, how sure; or compare it with a simulated one
     Analyze(Box<crate::analyze::AnalyzeArgs>),
-    /// Vary keys over lists and ranges, many runs in parallel, one table and plots; goes on where it stopped
+    /// Vary keys over lists and ranges, many runs in parallel, one table and plots; resumes where it stopped
     Sweep(crate::sweep::SweepArgs),
-    /// Lay scenarios side by side: signals, spectra, contact over the defect, impacts, ratios with intervals
+    /// Compare scenarios: signals, spectra, contact over the defect, impacts, ratios with intervals
     Compare(crate::compare::CompareArgs),
-    /// Run the experiments of Li et al. (2023) and hold each of the paper's sentences against them
+    /// Run the experiments of Li et al. (2023) and compare each of the paper's sentences with them
     Reproduce(crate::reproduce::ReproduceArgs),
     /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
     Calibrate(Box<crate::calibrate::CalibrateArgs>),
@@ -154,7 +154,7 @@ pub(crate) enum PlotFormat {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) scenario: ScenarioArgs,
-    /// Also list every value that nobody stated, and why it is what it is
+    /// Also list every assumed value and its reason
     #[arg(short, long)]
     pub(crate) assumptions: bool,
 }
@@ -376,7 +376,7 @@ pub(crate) struct RandomArgs {
     /// Extent along the roller's axis
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) width_mm: f64,
-    /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets
+    /// 0: an ellipse of even depth; 1: as ragged and uneven as it gets
     #[arg(long, default_value_t = 0.5, allow_negative_numbers = true)]
     pub(crate) roughness: f64,
     /// Mean depth

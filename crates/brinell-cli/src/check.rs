@@ -161,7 +161,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let assumed: Vec<_> = loaded.provenance.iter().filter(|p| p.assumed).collect();
     say!("");
     if args.assumptions {
-        say!("Assumed, because nobody stated it:");
+        say!("Assumed, because it was not given:");
         for p in &assumed {
             say!(
                 "  {} = {} {}  ({})",

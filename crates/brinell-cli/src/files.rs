@@ -50,7 +50,7 @@ impl Source {
         })
     }
 
-    /// The file as it stands.
+    /// The file as written.
     pub(crate) fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes).into_owned()
     }

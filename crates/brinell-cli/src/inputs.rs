@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
 
-/// What tells files apart, whatever links lead to them.
+/// The identity of a file, whatever links lead to them.
 #[cfg(unix)]
 type Identity = (u64, u64);
 #[cfg(not(unix))]

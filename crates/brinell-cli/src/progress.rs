@@ -177,7 +177,7 @@ fn bar(duration: f64, quiet: bool) -> ProgressBar {
         ProgressDrawTarget::stderr_with_hz(10)
     };
     let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
-    // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default stands in should it ever not parse.
+    // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default is used should it ever not parse.
     let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     bar.set_style(style);

@@ -73,7 +73,7 @@ impl Results {
         }
     }
 
-    /// The file that tells of the results, with brinell's version.
+    /// The file that lists the results, with brinell's version.
     fn tells(self) -> &'static str {
         match self {
             Self::Run => SUMMARY,
@@ -102,7 +102,7 @@ impl Results {
         self.campaign().is_some() || self == Self::DataSet
     }
 
-    /// Files that it may leave, by their names below the folder; `*` stands for whatever has no `/`.
+    /// Files that it may leave, by their names below the folder; `*` represents whatever has no `/`.
     fn files(self) -> Vec<&'static str> {
         const PICTURES: [&str; 2] = ["plots/*.svg", "plots/*.png"];
         let (own, pictures): (&[&str], _) = match self {
@@ -190,7 +190,7 @@ impl Results {
         folders.collect()
     }
 
-    /// What tells of its results in a folder; [`Value::Null`] where nothing does.
+    /// The list of its results in a folder; [`Value::Null`] where nothing does.
     fn told(self, folder: &Path) -> Value {
         let text = File::open(folder.join(self.tells())).and_then(read_text);
         let told = serde_json::from_slice::<Value>(&text.unwrap_or_default());

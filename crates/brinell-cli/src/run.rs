@@ -120,7 +120,7 @@ fn earlier(
     let earlier = place.earlier(args.overwrite, &writes, |_| is_of(folder, &loaded.scenario))?;
     if !args.overwrite && !is_written(folder, &loaded.to_toml()) {
         return Err(Failure::Usage(format!(
-            "{} holds a {SCENARIO} that brinell did not write as it stands; choose another folder with -o, or replace it with --overwrite",
+            "{} holds a {SCENARIO} that brinell did not write in this form; choose another folder with -o, or replace it with --overwrite",
             folder.display()
         )));
     }

@@ -1,5 +1,5 @@
 //! Text to the terminal: what was read from files cannot steer it, and a text that cannot be written is not passed over. Where nobody reads on
-//! (a closed pipe), the command goes on quietly.
+//! (a closed pipe), the command continues quietly.
 
 use crate::failure::Failure;
 pub(crate) use brinell_report::short;
@@ -40,7 +40,7 @@ pub(crate) fn line(text: Arguments) {
     }));
 }
 
-/// Writes JSON or TOML to standard output. Control characters stand in strings there, and get these languages' own escape.
+/// Writes JSON or TOML to standard output. Control characters are in strings there, and get these languages' own escape.
 pub(crate) fn document(text: &str) {
     put(&printable(text, |c| format!("\\u{:04x}", u32::from(c))));
 }

@@ -161,12 +161,12 @@ fn regress_scales_that_say_nothing_are_refused() {
         (
             "x.wav",
             &["--full-scale", "5"],
-            "--full-scale `5`: expected what the largest number stands for, with its unit, such as 5V",
+            "--full-scale `5`: expected what the largest number means, with its unit, such as 5V",
         ),
         (
             "x.wav",
             &["--unit", "V"],
-            "--unit V: the numbers of this WAV are counts of a converter (int16, full scale 32768)",
+            "--unit V: the numbers of this WAV are counts of an ADC (int16, full scale 32768)",
         ),
         (
             "x.wav",

@@ -232,7 +232,7 @@ fn prop_targets_out_of_reach_are_told_and_so_is_a_key_without_effect() {
         "The targets are not met within the bounds: chi-square",
         "defect1.pure_rolling_frequency:",
         "standard uncertainties too low",
-        "operation.speed_rpm: the best value lies on its upper bound",
+        "operation.speed_rpm: the best value is on its upper bound",
         "cage.guide_width_mm: not determined; the data say nothing of it",
     ]);
     let found = json(&folder.path().join("cal/calibrate.json"));

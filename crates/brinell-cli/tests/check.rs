@@ -65,7 +65,7 @@ fn regress_check_prints_numbers_that_can_be_read() {
         "{}",
         call.out
     );
-    // Values stand in one column.
+    // Values are in one column.
     let starts: Vec<usize> = ["healthy contacts", "at ", "support over"]
         .iter()
         .map(|name| {

@@ -64,7 +64,7 @@ fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
         let result = brinell(&[&["check", scenario, "--assumptions"], more].concat());
         assert!(result.status.success(), "{result:?}");
         let text = String::from_utf8(result.stdout).unwrap();
-        let list = text.split("Assumed, because nobody stated it:\n").nth(1);
+        let list = text.split("Assumed, because it was not given:\n").nth(1);
         list.unwrap().to_owned()
     };
     for (name, of_file) in [

@@ -359,7 +359,7 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
     assert_eq!(summary["simulated"]["samples"], rows.len());
     let reason = summary["status"]["reason"].as_str().unwrap();
     assert!(call.err.ends_with(&format!("error: {reason}\n")));
-    // The footer's metadata stands there as plain text.
+    // The footer's metadata is there as plain text.
     let parquet = fs::read(here.join("o/signals.parquet")).unwrap();
     let footer =
         String::from_utf8_lossy(&parquet[parquet.len().saturating_sub(20_000)..]).into_owned();
@@ -412,7 +412,7 @@ mod interrupted {
             );
             std::thread::sleep(Duration::from_millis(10));
         }
-        // The handler stands before the first step, not before the file's creation.
+        // The handler is set before the first step, not before the file's creation.
         std::thread::sleep(Duration::from_millis(200));
         let signal = std::process::Command::new("kill")
             .args(["-INT", &child.id().to_string()])

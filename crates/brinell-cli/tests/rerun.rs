@@ -244,7 +244,7 @@ fn assumptions(here: &Path, scenario: &str) -> Vec<String> {
     let call = brinell(here, &["check", scenario, "--assumptions"]).exits(0);
     let list = call
         .out
-        .split("Assumed, because nobody stated it:\n")
+        .split("Assumed, because it was not given:\n")
         .nth(1)
         .unwrap();
     list.lines().map(str::to_owned).collect()

@@ -374,7 +374,7 @@ fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
     let call = interrupted(folder.path(), &args, &journal, 3);
     call.exits(1).complains(&[
         "interrupted: ",
-        "to go; the same command goes on where this one stopped",
+        "to go; the same command resumes where this one stopped",
     ]);
     let done = lines(&journal) - 1;
     assert!((2..101).contains(&done));
@@ -386,5 +386,5 @@ fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
         done
     );
     let page = fs::read_to_string(folder.path().join("out/sweep.html")).unwrap();
-    assert!(page.contains("This sweep is not whole."));
+    assert!(page.contains("This sweep is incomplete."));
 }

@@ -1,5 +1,5 @@
 //! Draws the two files of damage that the examples use: `photo-spall.png`, a photo-like spall on ground steel, and
-//! `scan.csv`, a profilometer-like map of another. Both are made up; no photo or scan of anyone's stands behind them.
+//! `scan.csv`, a profilometer-like map of another. Both are made up; no photo or scan of anyone's is behind them.
 //!
 //! ```text
 //! cargo run -p brinell-damage --example draw_examples -- examples

@@ -20,7 +20,7 @@ const MAX_RAW_UM: f64 = 1e9;
 /// The rim: this share of the grid's length and width on each side, one point at least.
 const RIM: f64 = 0.05;
 
-/// Numbers as they stand in a file; NaN is missing.
+/// Numbers as written in a file; NaN is missing.
 #[derive(Default)]
 pub(crate) struct Raw {
     pub(crate) width: usize,
@@ -107,7 +107,7 @@ pub fn read_depth_map(
     let form = remove(&mut scan, options.remove_form, options.threshold_um)?;
     if let Some(form) = form.filter(|form| form.excluded > form.used) {
         warnings.push(format!(
-            "the form was fitted to {} points only, as {} lie apart from it; look at the result before using it",
+            "the form was fitted to {} points only, as {} are far from it; look at the result before using it",
             form.used, form.excluded
         ));
     }
@@ -251,7 +251,7 @@ fn finish_depths(
     if damaged == scan.depth_um.len() {
         return Err(DamageError::AllDamaged {
             why: format!(
-                "every point lies {} um or more from the zero level; check `remove_form`, `zero` and `threshold_um`",
+                "every point is {} um or more from the zero level; check `remove_form`, `zero` and `threshold_um`",
                 options.threshold_um
             ),
         });

@@ -13,7 +13,7 @@ pub enum DamageError {
         option: &'static str,
         /// The value given.
         value: String,
-        /// What may stand there.
+        /// What may be there.
         allowed: &'static str,
     },
     /// The file's content is not what its name, or the caller, says.
@@ -52,7 +52,7 @@ pub enum DamageError {
     Unsupported {
         /// Where in the file.
         at: String,
-        /// What stands there.
+        /// What is there.
         what: String,
         /// What to do.
         way_out: &'static str,
@@ -124,7 +124,7 @@ pub enum DamageError {
         line: usize,
         /// The column, from 1.
         column: usize,
-        /// The value as it stands, cut to a few words.
+        /// The value as written, cut to a few words.
         text: String,
     },
     /// A line of a table with another number of values.
@@ -158,7 +158,7 @@ pub enum DamageError {
     NoFit {
         /// The form asked for.
         form: &'static str,
-        /// What stands in the way.
+        /// What is in the way.
         why: String,
     },
     /// A format that this build leaves out.

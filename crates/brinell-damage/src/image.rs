@@ -118,7 +118,7 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
     }
     if touches_border(&pixels, level) {
         warnings.push(
-            "the damage reaches the image's border and is cut there; it may go on outside"
+            "the damage reaches the image's border and is cut there; it may continue outside"
                 .to_owned(),
         );
     }
@@ -200,7 +200,7 @@ fn level(
     warnings.push(format!("the threshold was found as {shown:.3}"));
     if split.separation < CLEAR_SEPARATION {
         warnings.push(format!(
-            "only {:.0} % of the image's contrast lies between its dark and light parts; look at the outline before using it",
+            "only {:.0} % of the image's contrast is between its dark and light parts; look at the outline before using it",
             100.0 * split.separation
         ));
     }
@@ -216,12 +216,12 @@ fn all_or_nothing(pixels: &Pixels, level: f64) -> Result<(), DamageError> {
     let advice = "check `threshold`, `invert` and `use_alpha`";
     if damaged == 0 {
         return Err(DamageError::NothingDamaged {
-            why: format!("no pixel lies on the damage's side of the threshold; {advice}"),
+            why: format!("no pixel is on the damage's side of the threshold; {advice}"),
         });
     }
     if damaged == pixels.values.len() {
         return Err(DamageError::AllDamaged {
-            why: format!("every pixel lies on the damage's side of the threshold; {advice}"),
+            why: format!("every pixel is on the damage's side of the threshold; {advice}"),
         });
     }
     Ok(())

@@ -26,7 +26,7 @@ pub fn resolve_loaded(
     let warnings =
         resolve_noting(&mut loaded.scenario, folder, &mut thresholds).map_err(|errors| {
             let placed = |error: Unresolved| {
-                // What an override gave stands nowhere in the text.
+                // What an override gave is nowhere in the text.
                 let given = overrides.iter().any(|(key, _)| error.key.starts_with(key));
                 let place = locate(text, &error.key).filter(|_| !given);
                 Problem::of_file(&error.key, &error.file, &error.message).placed(place)

@@ -14,7 +14,7 @@ use crate::{
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
-/// Nodes of the damaged part of a scan: they all stand in the resolved scenario, 10 bytes each.
+/// Nodes of the damaged part of a scan: they all are in the resolved scenario, 10 bytes each.
 const MOST_NODES: usize = 1 << 18;
 /// Bytes of the resolved scenario's text: longer ones are not read again (`brinell_io::LARGEST_TEXT`).
 pub const MOST_TEXT: usize = 4 << 20;
@@ -176,7 +176,7 @@ fn size(shape: &Shape) -> usize {
     }
 }
 
-/// A problem without its key and value, which stand in no file of the user's.
+/// A problem without its key and value, which are in no file of the user's.
 fn words(problem: &Problem) -> String {
     let mut text = problem.message.clone();
     if let Some(allowed) = &problem.allowed {

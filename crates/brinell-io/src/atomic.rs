@@ -63,7 +63,7 @@ impl PartialFile {
         })
     }
 
-    /// Writes over bytes that were appended before; the next append goes on at the end.
+    /// Writes over bytes that were appended before; the next append continues at the end.
     pub(crate) fn patch(&mut self, at: u64, bytes: &[u8]) -> Result<(), IoError> {
         self.check()?;
         let mut write = || {

@@ -141,7 +141,7 @@ pub enum IoError {
         line: u64,
         /// The column's name.
         column: String,
-        /// The value as it stands, cut to a few words.
+        /// The value as written, cut to a few words.
         text: String,
     },
     /// A line of a text file with more or fewer values than the others.

@@ -69,7 +69,7 @@ impl Cell {
         }
     }
 
-    /// Whether it may stand in a column of that kind.
+    /// Whether it may be in a column of that kind.
     pub fn fits(&self, kind: Kind) -> bool {
         match self {
             Self::Empty => true,

@@ -299,7 +299,7 @@ pub(crate) fn units_json(columns: &[Column]) -> String {
     serde_json::Value::Object(units.collect()).to_string()
 }
 
-/// Where the columns to be written stand: not `t`, in files that hold a start and a rate instead.
+/// Where the columns to be written are: not `t`, in files that hold a start and a rate instead.
 pub(crate) fn without_time(columns: &[Column]) -> Vec<usize> {
     let is_time = |c: &Column| c.name == "t" && c.unit == "s";
     (0..columns.len())

@@ -73,7 +73,7 @@ const WORDS: [&[u8]; 26] = [
 fn mutate(noise: &mut Noise, seed: &[u8], other: &[u8]) -> Vec<u8> {
     let mut bytes = seed.to_vec();
     for _ in 0..1 + noise.below(5) {
-        // Headers stand at the front, and that is where most can be broken.
+        // Headers are at the front, and that is where most can be broken.
         let reach = [64, 512, 4096, usize::MAX][noise.below(4)].min(bytes.len() + 1);
         let at = noise.below(reach);
         let end = (at + noise.below(24)).min(bytes.len());

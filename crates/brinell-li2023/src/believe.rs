@@ -106,7 +106,7 @@ impl Facts<'_> {
                 "believe the sign, not the size"
             };
             format!(
-                " Over these the factor lies between {} and {}: {sign}.",
+                " Over these the factor is between {} and {}: {sign}.",
                 short(low, 3),
                 short(high, 3)
             )

@@ -6,7 +6,7 @@ use brinell_report::{Study, StudyPiece, Table};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The text. Pictures are linked as from the folder above `book`, where the file that includes this one stands.
+/// The text. Pictures are linked as from the folder above `book`, where the file that includes this one is.
 pub(crate) fn text(study: &Study, reproduction: &Reproduction, book: &Path) -> String {
     let folder = book
         .file_name()

@@ -1,4 +1,4 @@
-//! The scenarios behind the paper's figures. They stand in `cases.toml`.
+//! The scenarios behind the paper's figures. They are in `cases.toml`.
 
 use crate::outline::Outline;
 use serde::Deserialize;
@@ -130,7 +130,7 @@ pub(crate) struct Experiment {
     pub cases: Vec<&'static str>,
     /// Along x where the cases are steps of one quantity: its name, its unit, and its values.
     pub steps: Option<(&'static str, &'static str, Vec<f64>)>,
-    /// What the paper sets, and what stands here.
+    /// What the paper sets, and what is here.
     pub words: &'static str,
 }
 

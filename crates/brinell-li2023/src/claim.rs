@@ -1,4 +1,4 @@
-//! Claims as data: a sentence, and what is checked of it. They stand in `claims.toml`.
+//! Claims as data: a sentence, and what is checked of it. They are in `claims.toml`.
 
 use crate::verdict::Trend;
 use serde::Deserialize;
@@ -133,7 +133,7 @@ pub struct Claim {
     pub otherwise: Option<Otherwise>,
     /// How tables call it.
     pub id: &'static str,
-    /// Where it stands: "4.3, Fig. 17".
+    /// Where it is: "4.3, Fig. 17".
     pub place: &'static str,
     /// Its words, shortened at most.
     pub sentence: &'static str,
@@ -198,7 +198,7 @@ impl Claim {
 mod tests {
     use super::claims;
 
-    /// The paper's running text on one line, without emphasis and the captions that stand between its lines. `None` where it is not beside the
+    /// The paper's running text on one line, without emphasis and the captions that are between its lines. `None` where it is not beside the
     /// project, of which it is no part.
     fn paper() -> Option<String> {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/paper.txt");
@@ -218,7 +218,7 @@ mod tests {
         Some(words.join(" ").replace("inner/ outer", "inner/outer"))
     }
 
-    /// What a sentence quotes: everything but what stands in brackets, unless that is a number, as in "Ref. [43]".
+    /// What a sentence quotes: everything but what is in brackets, unless that is a number, as in "Ref. [43]".
     fn quoted(sentence: &str) -> Vec<String> {
         let mut pieces = vec![String::new()];
         for (k, part) in sentence.split('[').enumerate() {

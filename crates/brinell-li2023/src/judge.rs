@@ -20,7 +20,7 @@ pub struct Found {
 /// Verdicts of statements, each with what decided it.
 pub(crate) type Decided = Vec<(Verdict, Vec<Found>)>;
 
-/// A claim held against numbers.
+/// A claim compared with numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
     /// The claim's.

@@ -1,4 +1,4 @@
-//! The experiments of Li et al. (2023), section 4, and what its text says of them, as data; and how a sentence is held against numbers.
+//! The experiments of Li et al. (2023), section 4, and what its text says of them, as data; and how a sentence is compared with numbers.
 //!
 //! A [`Request`] knows the [`Point`]s to be run, [`Runs`] makes them, and a [`Reproduction`] is what came out: outcomes of the claims, page,
 //! tables, and the book's chapter.

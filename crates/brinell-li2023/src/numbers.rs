@@ -180,7 +180,7 @@ mod tests {
         assert_eq!((rms.value, rms.interval), (3.3, Some(interval)));
         assert_eq!(numbers.get("a", "none"), None);
         assert_eq!(numbers.get("b", "outer_ax.rms"), None);
-        // Too short a run decides nothing, whatever it is held against.
+        // Too short a run decides nothing, whatever it is compared with.
         let short = numbers.get("a", "short").unwrap();
         for other in [short, rms, Number::exact(1.0)] {
             assert_eq!(greater(over(short, other)), Verdict::Undecided);

@@ -106,7 +106,7 @@ pub(crate) fn study(
     });
     let mut warnings = Vec::new();
     if reproduction.interrupted {
-        warnings.push("Interrupted: some runs are missing. The same command goes on.".into());
+        warnings.push("Interrupted: some runs are missing. The same command resumes.".into());
     }
     for (case, reason) in &reproduction.failures {
         warnings.push(format!("{case} failed: {reason}"));

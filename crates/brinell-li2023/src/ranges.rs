@@ -23,7 +23,7 @@ pub(crate) enum Values {
     OneOf(&'static [&'static [&'static str]]),
 }
 
-/// What a search varies together; beside these keys it chooses one of [`READ_AS`], one of [`RECORDS`], and whether a filter stands before.
+/// What a search varies together; beside these keys it chooses one of [`READ_AS`], one of [`RECORDS`], and whether a filter is before.
 pub(crate) const RANGES: &[Range] = &[
     Range {
         keys: &["support.outer_stiffness_n_per_m"],

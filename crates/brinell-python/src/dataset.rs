@@ -64,7 +64,7 @@ impl RunListener for Stop<'_> {
 
 #[pymethods]
 impl Campaign {
-    /// Of a plan file; with `check`, every run is tried first. Ctrl-C is heard, and what is under way then ends on its own.
+    /// Of a plan file; with `check`, every run is tried first. Ctrl-C is obeyed, and what is under way then ends on its own.
     #[staticmethod]
     fn open(py: Python, path: PathBuf, check: bool) -> PyResult<Self> {
         let (ended, over) = channel();

@@ -378,7 +378,7 @@ impl Run {
         Ok(list)
     }
 
-    /// Surface, row and centre of each defect, and the frequency that it is struck with in pure rolling.
+    /// Surface, row and centre of each defect, and the frequency of its impacts in pure rolling.
     fn defects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let list: Vec<_> = self
             .finished

@@ -221,7 +221,7 @@ impl Scenario {
         self.warnings.clone()
     }
 
-    /// Values that nobody stated: dicts of key, value, unit and why.
+    /// Assumed values: dicts of key, value, unit and why.
     #[getter]
     fn assumed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let assumed = self.loaded.provenance.iter().filter(|p| p.assumed);

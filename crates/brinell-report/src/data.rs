@@ -13,8 +13,6 @@ use crate::spectrogram::Spectrogram;
 
 /// Everything one page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct Report {
     /// The run's name.
     pub title: String,
@@ -54,7 +52,7 @@ pub struct Report {
     pub slip_rows: Vec<SlipRow>,
     /// Orbits of the cages' centres.
     pub cage_orbits: CageOrbits,
-    /// What stands between the outer ring and the record.
+    /// What is between the outer ring and the record.
     pub sensor: SensorView,
     /// The bearing in motion.
     pub motion: Motion,
@@ -70,8 +68,6 @@ pub struct Report {
 
 /// A number, or words where no number will do.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(untagged))]
 pub enum Value {
     /// A quantity in the unit beside it.
     Number(f64),
@@ -99,7 +95,6 @@ impl From<String> for Value {
 
 /// One labelled value: a headline number, a line of the audit, the slip of a row.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fact {
     /// What it is.
     pub label: String,
@@ -110,7 +105,6 @@ pub struct Fact {
     /// What to know about it; may be empty.
     pub note: String,
     /// Whether it kept its limit, where it has one.
-    #[cfg_attr(feature = "serde", serde(default))]
     pub ok: Option<bool>,
 }
 
@@ -141,7 +135,6 @@ impl Fact {
 
 /// An evenly sampled signal.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Series {
     /// The axis label without unit: "Outer ring acceleration, x (sensor)".
     pub label: String,
@@ -157,7 +150,6 @@ pub struct Series {
 
 /// Smallest and largest value in each of a row of equal time bins.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MinMax {
     /// Start of the first bin.
     pub t0_s: f64,
@@ -171,8 +163,6 @@ pub struct MinMax {
 
 /// What an [`Event`] marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum EventKind {
     /// A roller comes onto a defect.
     Enter,
@@ -182,7 +172,6 @@ pub enum EventKind {
 
 /// An instant to mark on the waveform.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Event {
     /// When.
     pub t_s: f64,
@@ -194,7 +183,6 @@ pub struct Event {
 
 /// The sensor signal: a part of it sample by sample, all of it as an envelope.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Waveform {
     /// The part that is kept sample by sample, usually the end of the run (65 536 samples are plenty).
     pub series: Series,
@@ -206,7 +194,6 @@ pub struct Waveform {
 
 /// One-sided amplitude spectrum, first line at 0 Hz.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spectrum {
     /// What the amplitude is of, without unit: "Acceleration amplitude".
     pub label: String,
@@ -222,7 +209,6 @@ pub struct Spectrum {
 
 /// A frequency to look for, with its harmonics.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Marker {
     /// The field's name: "BPFO", "BPFI", "2 BSF", "FTF".
     pub label: String,
@@ -232,13 +218,12 @@ pub struct Marker {
     pub frequency_hz: f64,
     /// How many multiples to mark, the first included.
     pub harmonics: usize,
-    /// Whether the scenario holds damage that strikes at this frequency.
+    /// Whether the scenario holds damage with impacts at this frequency.
     pub present: bool,
 }
 
 /// One roller on its way over a defect; vectors are as long as `angle_deg`, or empty.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pass {
     /// Which roller, which defect.
     pub title: String,
@@ -262,7 +247,6 @@ pub struct Pass {
 
 /// Contact force of one row's rollers around the bearing.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RowLoad {
     /// "Row 1, outer contact".
     pub title: String,
@@ -278,7 +262,6 @@ pub struct RowLoad {
 
 /// A value and its interval.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The value.
     pub value: f64,
@@ -290,7 +273,6 @@ pub struct Estimate {
 
 /// The indicators of one signal.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndicatorRow {
     /// Channel name: "outer_ax".
     pub channel: String,
@@ -302,7 +284,6 @@ pub struct IndicatorRow {
 
 /// Indicators: signals down, kinds of indicator across.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndicatorTable {
     /// Column heads: "RMS", "Peak to peak", "Crest factor", "Kurtosis".
     pub columns: Vec<String>,
@@ -314,7 +295,6 @@ pub struct IndicatorTable {
 
 /// A line of the assumption sheet.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assumption {
     /// The scenario's key: "support.outer_stiffness_n_per_m".
     pub key: String,

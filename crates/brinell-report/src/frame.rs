@@ -73,7 +73,7 @@ pub(crate) fn close(mut page: String, footer: &str, script: &[&str]) -> String {
 /// The page's first element after `<head>`.
 const CHARSET: &str = "<meta charset=\"utf-8\">\n";
 
-/// What the page may do: run this one script, and show what is inside it. Whatever else stands in it, from a scenario or a measured file, is not
+/// What the page may do: run this one script, and show what is inside it. Whatever else is in it, from a scenario or a measured file, is not
 /// run and loads nothing. Pictures carry styles in their elements.
 fn policy(script: Option<&str>) -> String {
     let script = script.map_or("'none'".into(), |text| {
@@ -121,7 +121,7 @@ pub(crate) fn scenario(page: &mut String, title: &str, toml: &str) {
     }
 }
 
-/// Text as it stands in a file.
+/// Text as written in a file.
 pub(crate) fn code(page: &mut String, text: &str) {
     let _ = writeln!(page, "<pre><code>{}</code></pre>", escape(text));
 }

@@ -13,8 +13,6 @@ use crate::plots::{Layout, legend};
 
 /// Evenly spaced instants of a bearing. Lengths in mm, angles in rad counter-clockwise from +X, forces in N.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct Motion {
     /// Of the first frame.
     pub t0_s: f64,
@@ -38,8 +36,6 @@ pub struct Motion {
 
 /// One row; all but `pockets` frame after frame, a value for each roller.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct MotionRow {
     /// "Row 1".
     pub title: String,
@@ -59,7 +55,6 @@ pub struct MotionRow {
 
 /// What is damaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DamagedSurface {
     /// Stands still.
     Outer,
@@ -71,7 +66,6 @@ pub enum DamagedSurface {
 
 /// Damage from an angle of its surface to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MotionDamage {
     /// From 0.
     pub row: usize,

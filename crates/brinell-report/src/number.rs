@@ -97,7 +97,7 @@ pub(crate) fn superscript(exponent: i32) -> String {
         .collect()
 }
 
-/// Where a run of text stands.
+/// Where a run of text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Height {
     /// On the line.

@@ -9,8 +9,6 @@ use crate::plots::{Layout, legend};
 
 /// Where the cages' centres went.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct CageOrbits {
     /// The cages.
     pub rows: Vec<CageOrbit>,
@@ -22,7 +20,6 @@ pub struct CageOrbits {
 
 /// The way of one cage's centre; vectors are of one length.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CageOrbit {
     /// "Cage of row 1".
     pub title: String,

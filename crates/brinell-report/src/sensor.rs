@@ -1,4 +1,4 @@
-//! What stands between the machine and the record: the measurement chain's response and what it did.
+//! What is between the machine and the record: the measurement chain's response and what it did.
 
 use crate::chart::{Chart, Domain, Spec, range};
 use crate::data::{Fact, Report};
@@ -9,14 +9,12 @@ use crate::tables::fact_table;
 
 /// The chain; empty where the record is the machine's own vibration.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct SensorView {
     /// Frequencies of the response, Hz, evenly spaced.
     pub frequency_hz: Vec<f64>,
     /// Gain at each, dB; empty where the chain passes everything alike.
     pub gain_db: Vec<f64>,
-    /// Noise, converter, clipped samples.
+    /// Noise, ADC, clipped samples.
     pub facts: Vec<Fact>,
 }
 

@@ -9,8 +9,6 @@ use crate::tables::fact_table;
 
 /// Slip of one row, in percent of the pure-rolling speed. Vectors over time are of one length, as are those over the angle.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct SlipRow {
     /// "row 1".
     pub name: String,
@@ -49,7 +47,7 @@ type Curve = (Vec<f64>, Vec<f64>);
 
 /// Swings across the picture that come closer than this are one blot, px.
 const SWING: f64 = 8.0;
-/// Means over this share of the picture stand for such a curve.
+/// Means over this fraction of the picture represent such a curve.
 const MEANS: usize = 60;
 /// Of the shade behind them.
 const SHADE: f64 = 0.28;

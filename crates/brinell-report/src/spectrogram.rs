@@ -10,8 +10,6 @@ use crate::plots::{Layout, time_unit};
 
 /// Power spectral density over time.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct Spectrogram {
     /// What it is of: "Outer ring acceleration, x (sensor)".
     pub label: String,

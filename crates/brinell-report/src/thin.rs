@@ -58,7 +58,7 @@ const STRAIGHT: usize = 12;
 /// How far a point may lie from the line that replaces it, px.
 const OFF_LINE: f64 = 0.03;
 
-/// The same lines without points that stand on the way from one neighbour to the other.
+/// The same lines without points that are on the way from one neighbour to the other.
 pub(crate) fn straightened(mut lines: Vec<Vec<(f64, f64)>>) -> Vec<Vec<(f64, f64)>> {
     for line in &mut lines {
         let mut kept: Vec<(f64, f64)> = Vec::with_capacity(line.len());

@@ -76,7 +76,7 @@ pub fn kaiser_lowpass(passband: f64, stopband: f64, attenuation_db: f64) -> Vec<
     taps
 }
 
-/// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k stands for input
+/// One sample in `factor` of a slice, behind the same anti-alias filter scaled to that factor: output k represents input
 /// k `factor`, without delay, and nothing above half the new sampling rate folds by more than 80 dB down. Flat to 0.4 of
 /// the new sampling rate. A factor of 1 gives the slice back.
 ///

@@ -8,7 +8,7 @@
 //! Three ways to the time, all from the squared envelope of a band: the [autocorrelation](Method::Autocorrelation), in
 //! which every pair adds up at its separation; the power [cepstrum](Method::Cepstrum), in which the ripple that a pair
 //! prints on the spectrum becomes a peak; and [pairs](Method::Pairs) of peaks, one in each repetition period. Each
-//! compares parts of the signal with each other to say how far its peak stands above what they scatter by. None can tell
+//! compares parts of the signal with each other to say how far its peak is above what they scatter by. None can tell
 //! entry and exit from two defects, or from two resonances that ring one after the other: the longest separation
 //! searched should be that of the longest defect considered, well below half a repetition period.
 
@@ -66,7 +66,7 @@ pub struct Separation {
     /// Standard uncertainty, s, from the scatter over parts of the signal or over pairs, a tenth of a sample at the
     /// least. Systematic errors (which instant of a passage an impulse marks) are not in it.
     pub uncertainty: f64,
-    /// How many standard errors the finding stands above chance; 5 or more.
+    /// How many standard errors the finding is above chance; 5 or more.
     pub clearance: f64,
     /// How it was found.
     pub method: Method,

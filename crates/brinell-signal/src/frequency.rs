@@ -1,7 +1,7 @@
 //! The precise rate of a train of impacts, with its uncertainty.
 //!
 //! The envelope of a resonance band repeats with the impacts, so its spectrum is a comb at h f, h = 1, 2, ... The
-//! rate is where the comb stands highest: it maximises
+//! rate is where the comb is strongest: it maximises
 //!
 //! J(f) = sum over h of P(h f) / N_h,
 //!
@@ -114,7 +114,7 @@ pub struct LineFrequency {
 
 /// The repetition frequency in the envelope of a whole signal sampled at `fs` Hz, taken as one segment. The `band`, Hz, is to hold the
 /// resonances that the impacts ring. `None` where the signal lasts fewer than 24 periods of the nominal frequency, or no comb inside the
-/// range stands clear of the noise (chance below 1e-4). For a long run use [`StreamSpectra`](super::StreamSpectra).
+/// range is clear of the noise (false-alarm probability below 1e-4). For a long run use [`StreamSpectra`](super::StreamSpectra).
 ///
 /// # Panics
 /// Where the search is out of range (see [`LineSearch`] and [`Band`]).

@@ -128,7 +128,7 @@ impl Interleaved {
     /// The complex signal that has the bins of `range` and no others, N times as large: `each` gets some samples p, p + P, ... of one of P
     /// parts, after those of the other parts about there. `bins` are those from 0 on, of a transform of any length: with N or fewer in
     /// `range`, the samples are the signal's at N equal steps. `shape` gets the number of the first of some bins, these, and where to put
-    /// what shall stand for them.
+    /// what shall represent them.
     pub(super) fn backward(
         &self,
         bins: &[Complex<f64>],

@@ -42,7 +42,7 @@ pub struct Level {
     /// Kurtosis of each band, in order of frequency; NaN where a band holds no power.
     pub kurtosis: Vec<f64>,
     /// Standard deviation of these values under Gaussian noise, 2 / sqrt n with n independent values of the envelope
-    /// (sqrt(24 / n) for the undivided signal). The largest of many bands stands above zero by several of these.
+    /// (sqrt(24 / n) for the undivided signal). The largest of many bands is above zero by several of these.
     pub noise_scatter: f64,
 }
 

@@ -15,7 +15,7 @@
 //!     })
 //!     .collect();
 //!
-//! // The envelope of the band around the resonance: its highest line stands at the frequency of the impacts.
+//! // The envelope of the band around the resonance: its highest line is at the frequency of the impacts.
 //! let envelope = envelope_spectrum(&x, fs, Band::between(2000.0, 4000.0), &Segments::of(12_000))?;
 //! let line = peak_near(&envelope.spectrum, 3.585 * shaft, 2.0).unwrap();
 //! assert!((line.frequency - 107.55).abs() < 0.5);

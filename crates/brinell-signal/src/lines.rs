@@ -3,9 +3,9 @@
 //! The noise at a line is the median power of its neighbourhood, the line itself and its skirt left out, over the
 //! median of chi-square with the spectrum's degrees of freedom: other lines hardly move a median. Under Gaussian noise
 //! the line's power over that floor follows F, with the spectrum's degrees of freedom above and the floor's own
-//! below; its tail is the chance that noise alone shows as much in one bin.
+//! below; its tail is the false-alarm probability of one bin.
 
-use super::distribution::{FTail, chi_square_quantile};
+use super::distribution::{chi_square_quantile, f_tail};
 use super::error::{SignalError, require};
 use super::spectrum::{Spectrum, peak_near};
 
@@ -25,7 +25,7 @@ pub struct Line {
     pub order: i32,
     /// Where it was sought, Hz.
     pub expected: f64,
-    /// Where the spectrum stands highest about there, Hz; interpolated between bins where it is a maximum.
+    /// Where the spectrum is highest about there, Hz; interpolated between bins where it is a maximum.
     pub frequency: f64,
     /// Peak amplitude there, in the signal's unit.
     pub amplitude: f64,
@@ -189,10 +189,10 @@ impl<'a> Floor<'a> {
         }
     }
 
-    /// Chance that noise at `level` shows at least a power in a bin.
-    fn chance(&self, level: Level) -> impl Fn(f64) -> f64 {
-        let tail = FTail::new(self.freedom, level.freedom);
-        move |power| tail.at(power / level.power)
+    /// False-alarm probability of a power in a bin, over noise at `level`.
+    fn false_alarm(&self, level: Level) -> impl Fn(f64) -> f64 {
+        let freedom = self.freedom;
+        move |power| f_tail(power / level.power, freedom, level.freedom)
     }
 
     /// The line within `tolerance` of `expected`, both Hz.
@@ -213,7 +213,7 @@ impl<'a> Floor<'a> {
         // Interpolated where it is a maximum of its own; the skirt of a line outside is taken as it is.
         let peak = peak_near(self.spectrum, top as f64 * step, 0.5 * step)
             .filter(|p| (p.frequency - top as f64 * step).abs() <= step);
-        let one = self.chance(level)(power);
+        let one = self.false_alarm(level)(power);
         let trials = ((last - first + 1) as f64).max(1.0);
         Some(Line {
             order,

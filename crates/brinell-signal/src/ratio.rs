@@ -14,7 +14,7 @@
 use super::blocks::{Estimate, Interval};
 use super::scatter::student_t_quantile;
 
-/// How one run's quantity stands to another's.
+/// Ratio of one run's quantity to another's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ratio {
     /// Ratio of the values.

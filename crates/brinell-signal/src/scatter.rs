@@ -17,7 +17,9 @@
 //! of freedom widen the interval. With up to 8 cosines intervals would be a sixth narrower, and those of runs of 2 s too narrow by as much
 //! (`examples/coverage.rs`): cages and whirl exchange energy over many revolutions. What is slower than the record shows in none of its values, and in no interval.
 
-/// Fewest values whose scatter is told.
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Fewest values whose scatter is estimated.
 pub const FEWEST: usize = 6;
 /// Cosines of an interval, of 8 values or more; of fewer, half as many as values.
 const TERMS: usize = 4;
@@ -71,9 +73,9 @@ fn cosine(series: &[f64], k: usize) -> f64 {
     (2.0 / n as f64).sqrt() * sum
 }
 
-/// Share of a series, at its beginning, that is held against its last half.
+/// Fraction of a series, at its beginning, that is compared with its last half.
 const BEGINNING: f64 = 0.2;
-/// Chance that a steady series is called drifting.
+/// False-alarm probability: a steady series is called drifting.
 const FALSE_ALARM: f64 = 2e-3;
 
 /// By how much the mean of the first fifth of a series lies above that of its last half, where that is more than its scatter explains, or where
@@ -119,9 +121,6 @@ fn has_trend(series: &[f64]) -> bool {
 
 /// The value that Student's t with `freedom` degrees of freedom stays below with probability `p`.
 ///
-/// Inverts the closed form for whole degrees of freedom (Abramowitz and Stegun 26.7.3 and 26.7.4) by bisection on
-/// theta = atan(t / sqrt(freedom)); good to about 1e-12 for p within 0.001 to 0.999.
-///
 /// # Panics
 /// Where `freedom` is zero or p is not between 0 and 1.
 pub fn student_t_quantile(p: f64, freedom: u32) -> f64 {
@@ -130,38 +129,7 @@ pub fn student_t_quantile(p: f64, freedom: u32) -> f64 {
         "Student's t needs at least one degree of freedom"
     );
     assert!(0.0 < p && p < 1.0, "probability {p} is not between 0 and 1");
-    let central = (2.0 * p - 1.0).abs();
-    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if central_probability(middle, freedom) < central {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let t = f64::from(freedom).sqrt() * (0.5 * (low + high)).tan();
-    t.copysign(p - 0.5)
-}
-
-/// P(|T| < sqrt(freedom) tan(theta)).
-fn central_probability(theta: f64, freedom: u32) -> f64 {
-    let (sine, cosine) = theta.sin_cos();
-    let odd = freedom % 2 == 1;
-    let mut term = if odd { cosine } else { 1.0 };
-    let mut sum = 0.0;
-    // Odd: cos + 2/3 cos^3 + 2.4/(3.5) cos^5 ...; even: 1 + 1/2 cos^2 + 1.3/(2.4) cos^4 ...
-    let mut k = if odd { 1 } else { 0 };
-    while k + 2 <= freedom {
-        sum += term;
-        term *= cosine * cosine * f64::from(k + 1) / f64::from(k + 2);
-        k += 2;
-    }
-    if odd {
-        std::f64::consts::FRAC_2_PI * (theta + sine * sum)
-    } else {
-        sine * sum
-    }
+    StudentsT::new(0.0, 1.0, f64::from(freedom)).map_or(f64::NAN, |t| t.inverse_cdf(p))
 }
 
 #[cfg(test)]

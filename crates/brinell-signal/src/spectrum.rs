@@ -19,7 +19,7 @@ use super::window::Window;
 /// Fewest samples that make a spectrum.
 pub const FEWEST_SAMPLES: usize = 8;
 
-/// A one-sided spectrum: bin k stands for frequency k `frequency_step`, from zero to half the sampling rate.
+/// A one-sided spectrum: bin k represents frequency k `frequency_step`, from zero to half the sampling rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// Distance between bins, Hz.
@@ -70,7 +70,7 @@ pub struct Peak {
 const PEAK_EXPONENT: f64 = 0.23;
 
 /// The strongest line within `halfwidth` of `frequency` (both Hz), interpolated between bins; `None` where no bin
-/// there stands above both neighbours. The bin nearest to `frequency` always takes part.
+/// there is above both neighbours. The bin nearest to `frequency` always takes part.
 ///
 /// A parabola through power-scaled magnitudes of the bin and its neighbours: K. J. Werner and F. G. Germain,
 /// "Sinusoidal parameter estimation using quadratic interpolation around power-scaled magnitude spectrum peaks",
@@ -151,7 +151,7 @@ impl SegmentTransform {
         self.windowed_input()
     }
 
-    /// Of what stands in `input`, under the window, to `output`.
+    /// Of what is in `input`, under the window, to `output`.
     pub(super) fn windowed_input(&mut self) -> &[Complex<f64>] {
         for (input, w) in self.input.iter_mut().zip(&self.window) {
             *input *= w;

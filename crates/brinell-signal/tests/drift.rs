@@ -119,7 +119,7 @@ fn prop_a_drift_is_told_by_the_shafts_lines() {
     }
 }
 
-/// Damage that smears until it is not named, or another part is, is named where the drift is followed: by the shaft's lines where they stand, and by
+/// Damage that smears until it is not named, or another part is, is named where the drift is followed: by the shaft's lines where they are significant, and by
 /// the damage's own where they do not. At a steady rotation, which is what is done without, most of it is lost.
 #[test]
 fn prop_followed_the_damage_is_named() {

@@ -1,7 +1,7 @@
 //! Studies of many runs: sweeps and comparisons ([`campaign`]), fits to targets ([`calibrate`]), plans of data
 //! sets ([`design`]) and the data sets themselves ([`dataset`]).
 //!
-//! A [`listener`] hears of the runs.
+//! A [`listener`] is informed of the runs.
 //!
 //! What one run is, and its numbers, is [`brinell::result`].
 

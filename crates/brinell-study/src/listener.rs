@@ -1,4 +1,4 @@
-//! Who hears of the runs of a study.
+//! Who is informed of the runs of a study.
 
 use std::ops::ControlFlow;
 

@@ -51,7 +51,7 @@ impl Pocket {
         }
     }
 
-    /// Approach beyond the clearance, signed as s, m.
+    /// Deformation beyond the clearance, signed as s, m.
     #[inline]
     pub fn penetration(&self, s: f64) -> f64 {
         if s > self.clearance {

@@ -177,12 +177,12 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     if !c.on_damage[slot] {
         return law.stiffness;
     }
-    if c.approach[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
+    if c.deformation[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
         return law.stiffness * share;
     }
     let healthy = match model.kind {
         ModelKind::Full => law.stiffness * c.power[slot],
-        ModelKind::Lumped => model.series_contact.healthy(c.approach[slot]),
+        ModelKind::Lumped => model.series_contact.healthy(c.deformation[slot]),
     };
     // Equal forces must give the healthy stiffness to the bit.
     law.stiffness * (c.elastic[slot] / healthy)
@@ -368,7 +368,7 @@ pub(crate) fn filterable(model: &Model) -> Vec<Channel> {
         .collect()
 }
 
-/// Whether `name` matches `pattern`, where `*` stands for any run of characters.
+/// Whether `name` matches `pattern`, where `*` represents any run of characters.
 #[doc(hidden)]
 pub fn matches(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');

@@ -1,6 +1,6 @@
 //! Normal contact of a roller and a raceway: the load-deflection law, healthy and damaged.
 //!
-//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is approach beyond first touch.
+//! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of the bodies beyond first touch.
 
 use crate::elementary::{Exponent, eight_ninths};
 
@@ -24,7 +24,7 @@ pub fn remaining_share(length: f64, damaged: f64) -> f64 {
 
 /// What damage leaves of a contact at one instant: the share g and the depth h of the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Floor {
+pub struct ContactReduction {
     /// g in [0, 1].
     pub share: f64,
     /// h, m.
@@ -53,13 +53,13 @@ impl Hertz {
 
     /// Law `ecl`: K (g `[delta]_+^n` + (1 - g) `[delta - h]_+^n`), N.
     #[inline]
-    pub fn damaged(&self, delta: f64, floor: &Floor) -> f64 {
+    pub fn damaged(&self, delta: f64, floor: &ContactReduction) -> f64 {
         self.damaged_given(self.exponent.of(delta), delta, floor)
     }
 
     /// The same where `[delta]_+^n` is known already.
     #[inline]
-    pub fn damaged_given(&self, power: f64, delta: f64, floor: &Floor) -> f64 {
+    pub fn damaged_given(&self, power: f64, delta: f64, floor: &ContactReduction) -> f64 {
         let sunk = self.exponent.of(delta - floor.depth);
         self.stiffness * (floor.share * power + (1.0 - floor.share) * sunk)
     }
@@ -82,12 +82,12 @@ impl Hertz {
 
     /// Elastic energy of a damaged contact, J.
     #[inline]
-    pub fn damaged_energy(&self, delta: f64, floor: &Floor) -> f64 {
+    pub fn damaged_energy(&self, delta: f64, floor: &ContactReduction) -> f64 {
         floor.share * self.energy(delta) + (1.0 - floor.share) * self.energy(delta - floor.depth)
     }
 
     /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
-    pub fn tangent(&self, delta: f64, floor: Option<&Floor>) -> f64 {
+    pub fn tangent(&self, delta: f64, floor: Option<&ContactReduction>) -> f64 {
         let slope = |x: f64| {
             if x > 0.0 {
                 self.exponent.value() * self.healthy(x) / x
@@ -108,7 +108,7 @@ impl Hertz {
         n * force * f64::from(((self.stiffness / force) as f32).powf((1.0 / n) as f32))
     }
 
-    /// Approach that carries `force` on the healthy contact, m.
+    /// Elastic deformation that carries `force` on the healthy contact, m.
     pub fn deflection(&self, force: f64) -> f64 {
         (force.max(0.0) / self.stiffness).powf(1.0 / self.exponent.value())
     }
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn analytic_energy_is_the_integral_of_the_force() {
-        let floor = Floor {
+        let floor = ContactReduction {
             share: 0.4,
             depth: 3e-6,
             damaged_length: 4e-3,
@@ -170,7 +170,7 @@ mod tests {
         let shallow = 4e-6;
         // Below the floor: K (L_e/L)^(8/9) delta^n, which is Palmgren's law for the length L_e.
         let damaged = 4e-3;
-        let floor = Floor {
+        let floor = ContactReduction {
             share: remaining_share(length, damaged),
             depth: 20e-6,
             damaged_length: damaged,
@@ -181,7 +181,7 @@ mod tests {
                 < 1e-13
         );
         // Full width: the displacement law.
-        let full = Floor {
+        let full = ContactReduction {
             share: remaining_share(length, length),
             depth: 1e-6,
             damaged_length: length,
@@ -191,7 +191,7 @@ mod tests {
             NN3007.healthy(shallow - 1e-6)
         );
         // No width: healthy, bit for bit.
-        let none = Floor {
+        let none = ContactReduction {
             share: remaining_share(length, 0.0),
             depth: 1e-6,
             damaged_length: 0.0,

@@ -20,7 +20,7 @@
 //! - A [`RunResult`] has the [`Simulation`](simulate::Simulation) that was run, how it went ([`Outcome`](simulate::Outcome): counted work,
 //!   audits of energy and momentum), what was gathered on the way ([`Findings`](observe::Findings): spectra, load zone, slip, passes of rollers
 //!   over damage), and all of it as named numbers ([`Quantity`](result::Quantity)). Its size does not grow with the duration.
-//! - An [`Observer`] hears of every step, sample and row of a run, and may break it off: [`simulate_with`].
+//! - An [`Observer`] is informed of every step, sample and row of a run, and may stop it: [`simulate_with`].
 //! - An [`Error`] says why there is no result. [`Error::is_bad_input`] tells a bad scenario from a failed run.
 //!
 //! The library opens no files and prints nothing.

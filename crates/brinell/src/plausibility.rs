@@ -23,7 +23,7 @@ const WEIGHT_SHARE: f64 = 0.1;
 const REACHED_SHARE: f64 = 0.9;
 /// Slices from which on the RMS no longer depends on their number where an envelope meets a slanted edge (docs/src/validation.md, "Slices").
 const ENVELOPE_SLICES: usize = 100;
-/// Static approaches of the heaviest contact: deeper damage over a roller's whole width takes all load off it where it begins.
+/// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where it begins.
 const DROP: f64 = 10.0;
 /// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
 const RESIDUAL_SHARE: f64 = 0.01;
@@ -65,8 +65,8 @@ pub fn before(
         warnings.extend(overload(scenario, zone));
     }
     warnings.extend(outside_the_load_zone(scenario, model));
-    let approach = statics.as_ref().ok().map(|zone| approach(model, zone));
-    warnings.extend(felt_by_a_point(scenario, model, approach));
+    let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
+    warnings.extend(felt_by_a_point(scenario, model, deformation));
     warnings.extend(coarse_slices(scenario, model));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)
@@ -153,7 +153,7 @@ fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
     })
 }
 
-/// Beyond the static load rating, or beyond the pressure that it stands for.
+/// Beyond the static load rating, or beyond the pressure that it represents.
 fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
     let o = &scenario.operation;
     let mut warnings = Vec::new();
@@ -233,7 +233,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             );
             (
                 format!(
-                    "this damage lies outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
+                    "this damage is outside the load zone, which is {:.0} deg wide around {:.0} deg: rollers pass it without load",
                     zone.extent.to_degrees(),
                     degrees(zone.middle)
                 ),
@@ -241,7 +241,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
             )
         } else {
             (
-                "no roller is loaded at rest: there is no load zone for this damage to lie in"
+                "no roller is loaded at rest: there is no load zone that this damage could be in"
                     .into(),
                 String::new(),
             )
@@ -256,21 +256,23 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
     warnings
 }
 
-/// Static approach of the heaviest contact on the softer raceway, m.
-fn approach(model: &Model, zone: &StaticLoadZone) -> f64 {
+/// Static deformation of the heaviest contact on the softer raceway, m.
+fn deformation(model: &Model, zone: &StaticLoadZone) -> f64 {
     let on = |side| model.contact(side).deflection(zone.largest);
     SIDES.into_iter().map(on).fold(0.0, f64::max)
 }
 
 /// What `roller_path = "point"` makes of damage: a floor that the roller's radius keeps it from is felt all the same; and where the damage is as
-/// wide as the roller, it drops by the whole depth at once. `approach` is that of the heaviest contact, m.
-fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) -> Vec<Problem> {
+/// wide as the roller, it drops by the whole depth at once. `deformation` is that of the heaviest contact, m.
+fn felt_by_a_point(scenario: &Scenario, model: &Model, deformation: Option<f64>) -> Vec<Problem> {
     if scenario.contact.roller_path != RollerPath::Point {
         return Vec::new();
     }
     let mut warnings = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
-        let met = SIDES.into_iter().filter(|s| defect.ground(*s).is_some());
+        let met = SIDES
+            .into_iter()
+            .filter(|s| defect.depth_profile(*s).is_some());
         let worst = met
             .map(|side| (side, defect.reach(relative_radius(&scenario.bearing, side))))
             .min_by(|a, b| a.1.1.total_cmp(&b.1.1));
@@ -289,15 +291,15 @@ fn felt_by_a_point(scenario: &Scenario, model: &Model, approach: Option<f64>) ->
                 short(1e6 * deep),
                 short(1e6 * reached)
             )
-        } else if let (Some(approach), drop) = (approach, drop_at_once(defect))
-            && drop > DROP * approach
+        } else if let (Some(deformation), drop) = (deformation, drop_at_once(defect))
+            && drop > DROP * deformation
         {
             format!(
-                "defect {} is as wide as the roller and {} um deep, {:.0} times the approach of the heaviest contact at rest: at a \"point\" the \
+                "defect {} is as wide as the roller and {} um deep, {:.0} times the elastic deformation of the most loaded contact at rest: at a \"point\" the \
                  roller drops by the whole depth at once, which makes impacts many times as strong as along the envelope",
                 k + 1,
                 short(1e6 * drop),
-                drop / approach
+                drop / deformation
             )
         } else {
             continue;

@@ -62,7 +62,7 @@ pub fn pressure_beside(
     let share = remaining_share(defect.roller_length, defect.roller_length - left);
     [Side::Inner, Side::Outer]
         .into_iter()
-        .filter(|side| defect.ground(*side).is_some())
+        .filter(|side| defect.depth_profile(*side).is_some())
         .map(|side| {
             let sunk = model.contact(side).deflection(force / share);
             let pressure = line_pressure(force, left, relative_radius(bearing, side));

@@ -6,7 +6,7 @@
 
 mod load_zone;
 
-use crate::defect::{Angles, Side, acting, energy, tangent};
+use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
 pub use load_zone::{StaticLoadZone, static_load_zone};
@@ -97,7 +97,7 @@ struct Roller {
     r: f64,
     inner: f64,
     outer: f64,
-    /// dQ/d(approach of the rings) through the roller, N/m.
+    /// dQ/d(deformation of the rings) through the roller, N/m.
     tangent: f64,
     /// Potential energy, J.
     energy: f64,
@@ -263,8 +263,8 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let contact = |side: Side, delta: f64| -> (f64, f64) {
         let law = model.contact(side);
         let defects = model.defects_of(slot, side);
-        match acting(defects.clone(), law, &angles, side, delta) {
-            Some(acting) => (acting.elastic, tangent(defects, law, &angles, side, delta)),
+        match damaged_contact(defects.clone(), law, &angles, side, delta) {
+            Some(damaged) => (damaged.elastic, tangent(defects, law, &angles, side, delta)),
             None if delta > 0.0 => {
                 let force = law.healthy(delta);
                 (force, law.exponent.value() * force / delta)
@@ -291,7 +291,7 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
         reach *= 2.0;
     }
     let mut r = if own < 0.0 { low } else { high };
-    // Approaches are differences of r and of where the raceways stand: finer than their round-off is nothing.
+    // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
     let grain = 1e-22 + 2.0 * f64::EPSILON * (inner_at.abs() + outer_at.abs());
     if balance(r).0 != 0.0 {
         for _ in 0..200 {

@@ -94,14 +94,14 @@ fn sensor(parts: &Parts) -> Option<Value> {
         })
         .collect();
     Some(json!({
-        "meaning": "signal_rms: before noise and converter, since the load reached its full size; clipped_samples: of all samples",
+        "meaning": "signal_rms: before noise and ADC, since the load reached its full size; clipped_samples: of all samples",
         "noise_rms_m_per_s2": noise,
         "converter_step_m_per_s2": chain.step(),
         "channels": channels,
     }))
 }
 
-/// Which sensor channels went beyond the converter's ends, in words.
+/// Which sensor channels went beyond the ADC's full scale, in words.
 #[doc(hidden)]
 pub fn clipped(parts: &Parts) -> Vec<String> {
     let channels = parts.simulation.filtered().iter();
@@ -110,7 +110,7 @@ pub fn clipped(parts: &Parts) -> Vec<String> {
         .filter(|(_, record)| record.clipped > 0)
         .map(|(channel, record)| {
             format!(
-                "{}: {} of {} samples lie beyond the converter's range and are clipped",
+                "{}: {} of {} samples are beyond the ADC's range and are clipped",
                 channel.name, record.clipped, parts.outcome.rows
             )
         })

@@ -137,7 +137,7 @@ proptest! {
 }
 
 /// Rate at which stiffnesses that change under the rollers change the energy of the contacts, W: the change of the elastic energy with
-/// the angles at a fixed approach, by central difference.
+/// the angles at a fixed deformation, by central difference.
 fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) -> f64 {
     let l = &model.layout;
     let dof = l.dof();
@@ -149,7 +149,7 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
             ring: model.rotation.at(t + dt).1,
         };
         for side in SIDES {
-            let delta = motion.ws.contacts[side as usize].approach[slot];
+            let delta = motion.ws.contacts[side as usize].deformation[slot];
             let held = |dt: f64| {
                 energy(
                     model.defects_of(slot, side),
@@ -167,7 +167,7 @@ fn parametric_rate(model: &Model, t: f64, y: &[f64], motion: &Motion, h: f64) ->
 
 #[test]
 fn prop_power_balance_at_any_instant() {
-    // Displacements within h are below 1e-9 m, a thousandth of an approach, so third derivatives do not matter; round-off of 2 J of
+    // Displacements within h are below 1e-9 m, a thousandth of a deformation, so third derivatives do not matter; round-off of 2 J of
     // kinetic energy over 2 h is 1e-8 W.
     const H: f64 = 1e-8;
     let mut compared = 0;
@@ -199,9 +199,9 @@ fn prop_power_balance_at_any_instant() {
                 motion.derivative(t + dt, &moved, &mut scratch);
                 for (a, b) in motion.ws.contacts.iter().zip(&middle.contacts) {
                     smooth &= a.on_damage == b.on_damage
-                        && a.approach
+                        && a.deformation
                             .iter()
-                            .zip(&b.approach)
+                            .zip(&b.deformation)
                             .all(|(x, y)| (*x > 0.0) == (*y > 0.0));
                 }
                 Energy::of(&model, t + dt, &moved, &motion.ws).total()
@@ -262,7 +262,7 @@ fn prop_energy_audit_closes() {
             "{name}: turnover {turnover:.3e} J, residual {standard:.2e} (standard), {reference:.2e} (reference) J, lever {lever:.2e} J\n"
         );
         let within = standard.abs() < STANDARD * turnover && reference.abs() < REFERENCE * turnover;
-        // A standard run's errors may cancel by chance: then a typical residual stands for it.
+        // A standard run's errors may cancel by chance: then a typical residual represents it.
         let typical = standard.abs().max(TYPICAL * turnover);
         if !(within && reference.abs() < SHRINKS * typical) {
             failures.push(name);

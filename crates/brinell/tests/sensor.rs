@@ -230,7 +230,7 @@ fn regress_bad_sensors_are_named_with_line_and_remedy() {
         (
             "converter_range_m_per_s2 = 16",
             "sensor.converter_range_m_per_s2",
-            "without a converter",
+            "without an ADC",
             "converter_bits",
         ),
         (
@@ -324,7 +324,7 @@ fn prop_a_scenario_without_a_sensor_does_not_mention_one() {
             .iter()
             .all(|p| !p.key.starts_with("sensor"))
     );
-    // What nobody stated of a chain that is there is on the assumption sheet.
+    // What is not given of a chain that is there is on the assumption sheet.
     let text = format!(
         "{FILE}mounting_resonance_hz = 9e3\nnoise_rms_m_per_s2 = 1.0\n[[sensor.path]]\nfrequency_hz = 700.0\ngain = 1.0\n"
     );

@@ -153,7 +153,7 @@ fn regress_verdicts_on_short_runs_with_and_without_noise() {
                     let analysis = analyze(&x, rate, &options).unwrap();
                     let first = analysis.causes().next().map(|f| f.component);
                     count += 1;
-                    // Where nothing else is heard, the rollers of a healthy bearing show by themselves, in some runs and not in others
+                    // Where nothing else shows, the rollers of a healthy bearing show by themselves, in some runs and not in others
                     // that differ in their last digits; that may be said, but weakly.
                     let passing = first.is_some()
                         && component.is_none()

@@ -80,7 +80,7 @@ fn analytic_heaviest_roller_without_clearance() {
         let b = balance(&model, &at_rest(&model));
         b.outer_force.iter().copied().fold(0.0, f64::max) * 38.0 / 300.0
     };
-    // The facts carry four digits. Roller 1 of row 1 stands in the load's direction.
+    // The facts carry four digits. Roller 1 of row 1 is in the load's direction.
     assert!((stribeck() - 4.085).abs() < 5e-4, "{}", stribeck());
     let staggered = heaviest(None);
     let aligned = heaviest(Some(0.0));

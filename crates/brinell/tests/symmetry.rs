@@ -1,4 +1,4 @@
-//! What must not matter: which way is up, where zero stands, how often one looks, how many look at once.
+//! What must not matter: which way is up, where zero is, how often one looks, how many look at once.
 
 mod common;
 

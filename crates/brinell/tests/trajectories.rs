@@ -41,7 +41,7 @@ fn compare(path: &Path) -> (Vec<(String, f64, f64)>, Rows) {
     compare_until(path, f64::INFINITY)
 }
 
-/// The same, held against the golden up to `to`, s.
+/// The same, compared with the golden up to `to`, s.
 fn compare_until(path: &Path, to: f64) -> (Vec<(String, f64, f64)>, Rows) {
     let text = std::fs::read_to_string(path.with_extension("toml")).unwrap();
     let golden = columns(&std::fs::read_to_string(path.with_extension("csv")).unwrap());

@@ -3,7 +3,7 @@
 //! `work.csv` holds steps, rejections and right-hand sides per simulated second: the mean over runs whose starts differ in the last digits,
 //! with rounded and with fused products, and the standard deviation of one run. Impacts amplify round-off, so such runs are different
 //! runs of the same process after some tens of milliseconds, as runs on another processor are; that scatter is what the bounds come
-//! from. The fastest kernel stands for all with fused products.
+//! from. The fastest kernel represents all with fused products.
 //!
 //! A change that moves the counts on purpose records them anew, and says why where it is committed:
 //!

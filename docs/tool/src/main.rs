@@ -3,7 +3,7 @@
 //!     cargo run --manifest-path docs/tool/Cargo.toml
 //!
 //! writes `target/book/index.html`. LaTeX becomes MathML here, so that the pages need no network and no script to show equations. The build fails
-//! on a formula that does not parse, on an equation of the paper that is missing or stands twice, and on a link that leads nowhere. Where
+//! on a formula that does not parse, on an equation of the paper that is missing or appears twice, and on a link that leads nowhere. Where
 //! the variable BRINELL names a `brinell` command, every scenario in the text is checked by it and every console example is run and compared.
 
 mod examples;

@@ -43,7 +43,7 @@ pub(crate) struct AnalyzeArgs {
     /// The sensor's, of a signal in V or mA: 100mV/g, 10mV/(m/s2), 4mV/(mm/s); the signal is then in g, m/s^2 or mm/s
     #[arg(long, value_name = "mV/g", allow_negative_numbers = true)]
     pub(crate) sensitivity: Option<String>,
-    /// Of a WAV: what its largest number stands for, as 5V (with --sensitivity) or 10g
+    /// Of a WAV: what its largest number means, as 5V (with --sensitivity) or 10g
     #[arg(
         long,
         value_name = "VALUE",
@@ -94,7 +94,7 @@ pub(crate) struct AnalyzeArgs {
     /// Ball-pass frequency of the inner race
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bpfi: Option<String>,
-    /// Spin frequency of a rolling element (damage strikes twice a turn)
+    /// Spin frequency of a rolling element (damage on it meets a race twice a turn)
     #[arg(long, value_name = "HZ|Nx", allow_negative_numbers = true)]
     pub(crate) bsf: Option<String>,
     /// Frequency of the cage
@@ -114,8 +114,8 @@ pub(crate) struct AnalyzeArgs {
     /// Range to demodulate [default: everything above three times the highest defect frequency]
     #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
     pub(crate) band: Option<Vec<f64>>,
-    /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are set aside [default: those of 50 and 60 Hz
-    /// where three stand]
+    /// Frequency of the motor's supply where an inverter makes it, known to 0.5 %: lines at its multiples are excluded [default: those of 50 and 60 Hz
+    /// where three are significant]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub(crate) supply: Option<f64>,
     /// Skip so much of the signal's beginning
@@ -124,10 +124,10 @@ pub(crate) struct AnalyzeArgs {
     /// Analyse so much from there [default: what is there; of a long signal the first and the last 4194304 samples]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) duration: Option<f64>,
-    /// Lay it over this: another file of signals, or the folder of a run
+    /// Compare it with this: another file of signals, or the folder of a run
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) against: Option<PathBuf>,
-    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is told
+    /// The other is of the same machine when it was healthy: what was there already is no damage, and what has grown is reported
     #[arg(long, requires = "against")]
     pub(crate) healthy: bool,
     /// Channel of the other [default: sensor_ay or sensor_ax of a run, whichever the load points along]

@@ -49,7 +49,7 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
                 .find(|(_, at)| (hz / at - 1.0).abs() <= tolerance);
             parts.extend(near.map(|(name, at)| {
                 format!(
-                    "The lines of {} are either bearing's: {name} of {} lies at {at:.2} Hz.",
+                    "The lines of {} are either bearing's: {name} of {} is at {at:.2} Hz.",
                     found.name, other.1.name
                 )
             }));
@@ -61,7 +61,7 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
         let name = &lead.name;
         parts.extend(match (call(this), &this.analysis.elsewhere) {
             (Some(own), _) => Some(format!(
-                "It may be {name}'s, which leads: {} there scores {:.1}, and {} here {:.1}. One sensor hears both.",
+                "It may be {name}'s, which leads: {} there scores {:.1}, and {} here {:.1}. One sensor records both.",
                 first.name, first.score, own.name, own.score
             )),
             (None, Some(lines)) => {
@@ -69,10 +69,10 @@ fn beside(results: &[Result_], k: usize, lead: Option<usize>) -> Option<String> 
                 let theirs = (lines.frequency / first.frequency - 1.0).abs() <= tolerance;
                 Some(match theirs {
                     true => format!(
-                        "These lines are {name}'s, whose {} is called damage: one sensor hears both.",
+                        "These lines are {name}'s, whose {} is called damage: one sensor records both.",
                         first.name
                     ),
-                    false => format!("Or these lines are {name}'s, which is called damaged: one sensor hears both."),
+                    false => format!("Or these lines are {name}'s, which is called damaged: one sensor records both."),
                 })
             }
             (None, None) => None,
@@ -141,6 +141,6 @@ pub(super) fn table(results: &[Result_]) -> Table {
             .map(str::to_owned)
             .to_vec(),
         rows: results.iter().map(row).collect(),
-        note: "Each bearing is judged by itself, and one sensor hears all. The pictures are of the one that leads, or of the first.".into(),
+        note: "Each bearing is judged by itself, and one sensor records all. The pictures are of the one that leads, or of the first.".into(),
     }
 }

@@ -19,7 +19,7 @@ pub(super) enum Files {
     Several(Vec<PathBuf>),
 }
 
-/// Files as they were named; a folder that is no run's stands for its files, in the order of their names.
+/// Files as they were named; a folder that is no run's represents its files, in the order of their names.
 pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
     if let [only] = named
         && (!only.is_dir() || run_in(only).is_some())

@@ -30,7 +30,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Indicators that are told in words.
+/// Indicators that are printed.
 const HEADLINES: [Indicator; 4] = [
     Indicator::Rms,
     Indicator::Peak,
@@ -460,7 +460,7 @@ fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
     })
 }
 
-/// A page with its pictures, and the JSON that tells of them, into a folder.
+/// A page with its pictures, and the JSON that describes them, into a folder.
 fn put_pages(
     folder: &Path,
     formats: &[PlotFormat],

@@ -185,7 +185,7 @@ impl Found {
         let json = ends::to_json(results, |result| {
             let mut json = as_json(result);
             if let Some(all) = json.as_object_mut() {
-                // It stands above all records.
+                // It is above all records.
                 all.remove("brinell");
             }
             json

@@ -93,7 +93,7 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         );
         let (mean, rms) = other.comparison.level_db;
         say!(
-            "  third octaves: this one lies {:+.1} dB from the other on average, {rms:.1} dB RMS",
+            "  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS",
             0.0 - mean
         );
         say!(

@@ -11,11 +11,11 @@ use std::path::PathBuf;
     the columns of `brinell sweep`: sensor_ax.rms, envelope.bpfo, defect1.frequency, row1.cage_slip, ... SI units. \
     Extremes, such as row1.largest_outer_force, scatter too, though a run cannot say by how much: give them an uncertainty that covers it.\n\n\
     A measured signal (--measured) becomes targets itself: its octave levels and its envelope spectrum's at the first five harmonics of each \
-    defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they stand out. --model-uncertainty is \
+    defect's frequency, in decibels; RMS and kurtosis; and the defects' frequencies where they are significant. --model-uncertainty is \
     what a model may differ by from a machine, and is added to what the signal's own scatter says. Its rate must be the scenario's.\n\n\
     The search: a quarter of the runs is spread over the bounds (Latin hypercube), a fifth follows a particle swarm, the rest goes downhill \
     from the best places (Levenberg and Marquardt); two to four runs a key are kept for the Jacobian at the best point. Differences are taken over a \
-    tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect does not stand out of that: impacts amplify round-off, so that an \
+    tenth of a key's range; over a fifth where runs are uncertain themselves, and up to two fifths where a key's effect is not significant against that: impacts amplify round-off, so that an \
     RMS is uncertain by a per cent, which finer differences would take for a slope. Residuals weigh with the target's uncertainty and the runs' own together.\n\n\
     Files in the folder:\n  \
     best.toml        the scenario with the best values; `brinell run` takes it\n  \
@@ -23,7 +23,7 @@ use std::path::PathBuf;
     calibrate.csv    a row a run: keys, status, chi-square, the targets' numbers and residuals\n  \
     calibrate.html   the same as a page; one file, no network\n  \
     journal.jsonl    finished runs, each on the disk when it is done\n\n\
-    The same command again goes on where it stopped, with the same outcome as if it had not; with a larger --budget finished runs count again. \
+    The same command again resumes where it stopped, with the same outcome as if it had not; with a larger --budget finished runs count again. \
     The outcome does not depend on --jobs.\n\n\
     Exit codes: 0 done, whether the targets are met or not, 1 Ctrl-C stopped it (what is finished is kept) or no run came to its end, 2 bad input.\n\n\
     Examples:\n  \
@@ -111,7 +111,7 @@ pub(crate) struct CalibrateArgs {
     /// Folder for the results [default: out/calibrate-STEM, STEM being the scenario's file name without ending]
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// Go on in a folder that holds another calibration; runs of the same scenario count
+    /// Resume in a folder that holds another calibration; runs of the same scenario count
     #[arg(long)]
     pub(crate) extend: bool,
     /// Print the plan and what it costs; run nothing

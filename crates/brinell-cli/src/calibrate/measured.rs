@@ -18,7 +18,7 @@ const PERIODS: f64 = 24.0;
 /// What is taken from a run's signal, and what the measured one had.
 pub(super) struct Pattern {
     pub(super) signature: Signature,
-    /// Which of the filtered channels stands for the sensor, and its name.
+    /// Which of the filtered channels represents the sensor, and its name.
     pub(super) axis: usize,
     pub(super) channel: &'static str,
     pub(super) targets: Vec<Target>,

@@ -106,7 +106,7 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
         Ok(found) => found,
         Err(Unfit::Interrupted) => {
             complain!(
-                "interrupted: finished runs are kept in {}; the same command goes on where this one stopped",
+                "interrupted: finished runs are kept in {}; the same command resumes where this one stopped",
                 folder.join(JOURNAL).display()
             );
             return Ok(ExitCode::from(NOT_WHOLE));
@@ -213,7 +213,7 @@ impl Plan {
         })
     }
 
-    /// What tells this calibration from others. A larger budget goes on with the same.
+    /// What distinguishes this calibration from others. A larger budget resumes the same one.
     fn header(&self) -> Value {
         let keys: Vec<Value> = (self.keys.iter())
             .map(|k| json!({ "key": k.name, "low": k.low, "high": k.high, "log": k.log }))

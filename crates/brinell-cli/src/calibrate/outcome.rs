@@ -11,8 +11,8 @@ use brinell_study::calibrate::{Fit, MISSING};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
-/// A chance below which a misfit is none.
-const UNLIKELY: f64 = 0.05;
+/// Significance of a misfit: p-values below are one.
+const SIGNIFICANCE: f64 = 0.05;
 
 /// A key's value.
 pub(super) struct Found {
@@ -117,16 +117,16 @@ impl<'a> Outcome<'a> {
         self.fit.evaluations[self.fit.best].chi_square
     }
 
-    /// That chance alone makes the misfit larger; `None` without a degree of freedom.
-    pub(super) fn chance(&self) -> Option<f64> {
+    /// The p-value of the misfit; `None` without a degree of freedom.
+    pub(super) fn p_value(&self) -> Option<f64> {
         let freedom = self.fit.identified.freedom;
         (freedom > 0).then(|| chi_square_tail(self.chi_square(), freedom as f64))
     }
 
     /// Whether the uncertainties explain the misfit.
     pub(super) fn is_met(&self) -> bool {
-        match self.chance() {
-            Some(chance) => chance >= UNLIKELY,
+        match self.p_value() {
+            Some(p) => p >= SIGNIFICANCE,
             // As many keys as targets, or more: each target by itself.
             None => self.compared.iter().all(|c| c.residual.abs() <= 2.0),
         }
@@ -269,7 +269,7 @@ impl<'a> Outcome<'a> {
             "met": self.is_met(),
             "chi_square": self.chi_square(),
             "degrees_of_freedom": identified.freedom,
-            "chance_of_larger": self.chance(),
+            "p_value": self.p_value(),
             "uncertainties_multiplied_by": identified.inflation,
             "keys": keys,
             "targets": targets,

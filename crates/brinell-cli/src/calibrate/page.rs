@@ -22,17 +22,17 @@ impl Outcome<'_> {
         let determined = self.found.iter().filter(|f| f.is_determined()).count();
         let names: Vec<&str> = self.found.iter().map(|f| f.name.as_str()).collect();
         let text = |t: String| Value::Text(t);
-        let chance = self
-            .chance()
+        let p_value = self
+            .p_value()
             .map_or("no degree of freedom".to_owned(), |p| {
-                format!("by chance larger in {} of 100 cases", short(100.0 * p, 2))
+                format!("p-value {}", short(p, 2))
             });
         let mut facts = vec![
             Fact::new(
                 "Chi-square",
                 text(short(self.chi_square(), 3)),
                 "",
-                format!("{}; {chance}", plural(self.compared.len(), "target")),
+                format!("{}; {p_value}", plural(self.compared.len(), "target")),
             ),
             Fact::new(
                 "Keys determined",

@@ -9,7 +9,7 @@ use brinell_study::calibrate::identify::{Direction, MOST};
 const LARGE: f64 = 2.0;
 /// Keys that move by less than this share of the one that moves most are left out of a combination.
 const MINOR: f64 = 0.2;
-/// How far a combination is told, in ranges of the key that moves most.
+/// How well a combination is determined, in ranges of the key that moves most.
 const TOLD: f64 = 0.1;
 
 impl Outcome<'_> {
@@ -19,18 +19,15 @@ impl Outcome<'_> {
         let identified = &self.fit.identified;
         let chi = self.chi_square();
         let mut all = Vec::new();
-        let chance = self.chance().map_or(String::new(), |p| {
-            format!(
-                "; by chance alone it would be larger in {} of 100 cases",
-                short(100.0 * p, 2)
-            )
-        });
+        let p_value = self
+            .p_value()
+            .map_or(String::new(), |p| format!("; p-value {}", short(p, 2)));
         let freedom = match identified.freedom {
             1.. => plural(identified.freedom as usize, "degree") + " of freedom",
             _ => "no degree of freedom left".into(),
         };
         let base = format!(
-            "chi-square {} over {}, {freedom}{chance}",
+            "chi-square {} over {}, {freedom}{p_value}",
             short(chi, 3),
             plural(targets, "target")
         );
@@ -76,7 +73,7 @@ impl Outcome<'_> {
                 _ => continue,
             };
             all.push(format!(
-                "{}: the best value lies on its {side} bound; a better one may lie beyond.",
+                "{}: the best value is on its {side} bound; a better one may be beyond.",
                 found.name
             ));
         }
@@ -97,7 +94,7 @@ impl Outcome<'_> {
                 )
             } else if noise {
                 format!(
-                    "{}: not determined; what it changes does not stand out of the runs' own uncertainty.",
+                    "{}: not determined; its effect is not significant against the runs' own uncertainty.",
                     found.name
                 )
             } else {
@@ -164,7 +161,7 @@ impl Outcome<'_> {
         let why = if direction.singular_value <= direction.noise {
             "less than the runs' own uncertainty shows"
         } else {
-            "less than the data can tell"
+            "less than the data can resolve"
         };
         Some(format!(
             "A combination is not determined: {} together change the targets by {why}.",

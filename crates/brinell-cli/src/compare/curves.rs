@@ -24,7 +24,7 @@ fn capital(text: &str) -> String {
     first + letters.as_str()
 }
 
-/// A stretch of the waveforms, five strikes long, from where all are analysed.
+/// A stretch of the waveforms, five ball-pass periods long, from where all are analysed.
 pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
     let kept = |run: &RunResult| {
         let (first, values) = run.findings.waveform.latest();
@@ -224,7 +224,7 @@ pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
             curves.push(OverlaidCurve { of, along, values });
         }
         if curves.is_empty() {
-            let words = format!("No {word} lies within the waveform that was kept.");
+            let words = format!("No {word} is within the waveform that was kept.");
             pieces.push(Piece::Words(words));
             continue;
         }

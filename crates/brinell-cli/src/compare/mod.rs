@@ -119,7 +119,7 @@ fn earlier(
     place.earlier(args.overwrite, &writes, same)
 }
 
-/// All runs, or `None` with what went wrong told.
+/// All runs, or `None` with the errors printed.
 fn run(args: &CompareArgs, sides: &[Side]) -> Result<Option<Vec<RunResult>>, Failure> {
     let stop = stop_flag()?;
     let scenario = |side: &Side| side.loaded.scenario.clone();

@@ -141,7 +141,7 @@ fn warnings(sides: &[Side], runs: &[&RunResult]) -> Vec<String> {
     let mut all = unsettled(sides, runs);
     let rate = |run: &RunResult| run.simulation.sample_rate();
     if runs.iter().any(|run| rate(run) != rate(runs[0])) {
-        all.push("The runs' sample rates differ: what lies above half the lower one is in one of them alone.".into());
+        all.push("The runs' sample rates differ: what is above half the lower one is in one of them alone.".into());
     }
     let duration = |side: &Side| side.loaded.scenario.simulation.duration_s;
     if sides

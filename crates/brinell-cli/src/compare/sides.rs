@@ -9,7 +9,7 @@ use brinell::document::Loaded;
 use brinell_study::campaign::split;
 use std::path::Path;
 
-/// Runs that a page can show in colours that are told apart.
+/// Runs that a page can show in distinct colours.
 const MOST: usize = 6;
 
 /// One of the runs.

@@ -35,7 +35,7 @@ use std::path::PathBuf;
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
     held_out/                  labels of the runs that `held_out` sets apart\n  \
     work/                      finished runs of unfinished files\n\n\
-    The same command goes on where it stopped, and changes nothing that is there. The files' bytes depend on the plan alone, not on --jobs, --shard or \
+    The same command resumes where it stopped, and changes nothing that is there. The files' bytes depend on the plan alone, not on --jobs, --shard or \
     interruptions. In a Slurm array: --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT, counting from 1.\n\n\
     Exit codes: 0 all of the shard is there, 1 Ctrl-C or a full disk stopped it (what is finished is kept), or `verify` or `merge` found something \
     missing or wrong, 2 bad input. A run that fails is a row with its reason, and no failure of the command.\n\n\
@@ -76,7 +76,7 @@ pub(crate) struct DatasetArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum DatasetCommand {
-    /// Join folders in which shards of one plan ran apart; each file's checksum is held against what was written
+    /// Join folders in which shards of one plan ran apart; each file's checksum is compared with what was written
     Merge(MergeArgs),
     /// Check a data set: every file there, its checksum, its rows, one campaign and one version in all
     Verify(VerifyArgs),

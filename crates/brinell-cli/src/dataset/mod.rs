@@ -23,7 +23,7 @@ use std::time::Instant;
 
 /// Exit code where something is missing or wrong in what is there, or Ctrl-C stopped the work.
 const NOT_WHOLE: u8 = 1;
-/// Failed runs that are told.
+/// Failed runs that are printed.
 const SHOWN: usize = 10;
 
 impl From<DatasetError> for Failure {
@@ -124,7 +124,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
             went.runs
         );
         if went.whole {
-            say!("  whole: {}", folder.join("dataset.json").display());
+            say!("  complete: {}", folder.join("dataset.json").display());
         } else if left == 0 {
             say!(
                 "  other shards are to come; `brinell dataset merge` joins folders, where they ran apart"
@@ -132,7 +132,7 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         }
     }
     if went.interrupted {
-        complain!("interrupted: {left} to go; the same command goes on where this one stopped");
+        complain!("interrupted: {left} to go; the same command resumes where this one stopped");
         return Ok(ExitCode::from(NOT_WHOLE));
     }
     Ok(ExitCode::SUCCESS)

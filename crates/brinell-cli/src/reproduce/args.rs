@@ -12,7 +12,7 @@ use std::path::PathBuf;
     claims.csv, claims.json   each statement with its verdict, numbers and intervals\n  \
     plots/               with --plots\n  \
     journal.jsonl        finished runs, each on the disk when it is done; curves/ beside it holds what pictures need of them\n\n\
-    The same command again goes on where it stopped; runs of the same scenario and the same version of brinell are not run again, so \
+    The same command again resumes where it stopped; runs of the same scenario and the same version of brinell are not run again, so \
     --figure, --quick and --sensitivity share what they have in common. Files depend on the options alone, not on --jobs or \
     interruptions.\n\n\
     Exit codes: 0 every run is done (whatever the verdicts), 1 a run failed or Ctrl-C stopped it (what is finished is kept), 2 bad input.\n\n\

@@ -75,7 +75,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     }
     if reproduction.interrupted {
         complain!(
-            "interrupted: what is finished is kept; the same command goes on where this one stopped"
+            "interrupted: what is finished is kept; the same command resumes where this one stopped"
         );
     }
     Ok(

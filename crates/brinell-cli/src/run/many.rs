@@ -156,7 +156,7 @@ fn folders(scenarios: &[PathBuf], root: &Path) -> Result<Vec<PathBuf>, Failure> 
     Ok(folders)
 }
 
-/// Every scenario read and tried; `None`, with every failure told, where any is not sound.
+/// Every scenario read and tried; `None`, with every failure printed, where any is not sound.
 fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
     // No run may write over what any of them reads.
     let mut inputs = Inputs::default();

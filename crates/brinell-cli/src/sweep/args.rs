@@ -15,7 +15,7 @@ use std::path::PathBuf;
     sweep.json                 the plan, the base scenario, the columns' units\n  \
     journal.jsonl              finished points, each on the disk when it is done\n  \
     signals/                   with --keep-signals: FINGERPRINT.parquet a point\n\n\
-    The same command again goes on where it stopped: finished points of the same scenario and the same version of brinell are not run \
+    The same command again resumes where it stopped: finished points of the same scenario and the same version of brinell are not run \
     again. A point that fails is a row with its reason. The table's bytes depend on the plan alone, not on --jobs or interruptions.\n\n\
     Exit codes: 0 every point is done, 1 a point failed or Ctrl-C stopped the sweep (what is finished is kept), 2 bad input.\n\n\
     Examples:\n  \
@@ -52,7 +52,7 @@ pub(crate) struct SweepArgs {
     /// Keep the recorded channels of each point, as Parquet
     #[arg(long)]
     pub(crate) keep_signals: bool,
-    /// Go on in a folder that holds another sweep; what matches is kept, and the table becomes this sweep's
+    /// Resume in a folder that holds another sweep; what matches is kept, and the table becomes this sweep's
     #[arg(long)]
     pub(crate) extend: bool,
     /// Print the plan and what it costs; run nothing

@@ -87,7 +87,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     }
     if went.is_break() {
         complain!(
-            "interrupted: {} kept, {missing} to go; the same command goes on where this one stopped",
+            "interrupted: {} kept, {missing} to go; the same command resumes where this one stopped",
             plural(standings.len() - missing, "finished point")
         );
     }

@@ -11,7 +11,7 @@ use brinell_report::{
 use brinell_study::campaign::Row;
 use std::collections::HashMap;
 
-/// Points and failures that the page lists; beyond that, nobody reads them there.
+/// Points and failures that the page lists; beyond that, the table is the place.
 const LISTED: usize = 1000;
 /// Lines of one picture; more go to further pictures.
 const LINES: usize = 12;
@@ -76,7 +76,7 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         version: brinell::VERSION.into(),
         partial: (missing > 0).then(|| {
             format!(
-                "{} not run yet; the same command goes on.",
+                "{} not run yet; the same command resumes.",
                 plural(missing, "point")
             )
         }),

@@ -122,7 +122,7 @@ impl Points {
         })
     }
 
-    /// What tells this sweep from others: the plan, and the scenarios of its points.
+    /// What distinguishes this sweep from others: the plan, and the scenarios of its points.
     pub(super) fn header(&self) -> Value {
         let tasks = self.tasks.iter();
         let prints = tasks.map(|task| task.as_ref().ok().map(|t| &*t.fingerprint));
@@ -147,7 +147,7 @@ fn check(source: &Source, settings: Vec<(String, String)>) -> Result<Checked, Fa
     })
 }
 
-/// Adds a warning to those of other points: one about the same key with the same value is told once, as the first point has it.
+/// Adds a warning to those of other points: one about the same key with the same value is given once, as the first point has it.
 fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
     let same = |w: &Problem| {
         w.key == warning.key
@@ -158,7 +158,7 @@ fn count(mut warning: Problem, warnings: &mut Vec<(Problem, usize)>) {
         *points += 1;
         return;
     }
-    // What the settings give stands nowhere in the file.
+    // What the settings give is nowhere in the file.
     (warning.line, warning.column) = (None, None);
     warnings.push((warning, 1));
 }

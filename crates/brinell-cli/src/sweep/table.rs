@@ -6,7 +6,7 @@ use brinell_io::{Cells, Column, Table};
 use brinell_study::campaign::{Row, columns};
 use brinell_study::runner::Task;
 
-/// How a point stands.
+/// The state of a point.
 pub(super) enum Standing<'a> {
     Complete(&'a Row),
     Failed(&'a str),
@@ -23,7 +23,7 @@ impl Standing<'_> {
     }
 }
 
-/// How every point stands.
+/// The state of every point.
 pub(super) fn standings<'a>(
     points: &'a Points,
     row: impl Fn(&str) -> Option<&'a Row>,

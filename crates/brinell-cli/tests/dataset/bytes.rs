@@ -16,7 +16,7 @@ fn prop_neither_threads_nor_shards_nor_a_second_call_change_a_byte() {
             "test: 7 runs in 3 files, design random, seed 11",
             "0 healthy: 4 runs",
             "7 runs in",
-            "whole: one/dataset.json",
+            "complete: one/dataset.json",
         ])
         .keeps_quiet();
     make(folder.path(), &["-o", "two", "-j", "2", "-q"])
@@ -38,7 +38,7 @@ fn prop_neither_threads_nor_shards_nor_a_second_call_change_a_byte() {
     }
     brinell(folder.path(), &["dataset", "merge", "1-2", "-o", "joined"])
         .exits(1)
-        .complains(&["not whole: 1 file in none of the folders (part 1)"]);
+        .complains(&["incomplete: 1 file in none of the folders (part 1)"]);
     brinell(
         folder.path(),
         &["dataset", "merge", "1-2", "2-2", "-o", "joined"],

@@ -44,7 +44,7 @@ impl fmt::Display for FileKind {
     }
 }
 
-/// Enough to see any signature: HDF5's may stand behind a user block of 512, 1024, ... bytes.
+/// Enough to see any signature: HDF5's may be behind a user block of 512, 1024, ... bytes.
 const HEAD: u64 = 8 << 10;
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 

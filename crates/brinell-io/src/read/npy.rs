@@ -22,7 +22,7 @@ pub(super) struct Array {
     pub(super) bytes: u64,
 }
 
-/// Reads the header; the reader then stands at the values.
+/// Reads the header; the reader then is at the values.
 pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault> {
     let mut start = [0; 8];
     reader.read_exact(&mut start)?;

@@ -23,7 +23,7 @@ const MAX_TEXT: usize = 1 << 20;
 
 struct Npz {
     archive: ZipArchive<BufReader<File>>,
-    /// Where each channel stands in the archive.
+    /// Where each channel is in the archive.
     entries: Vec<usize>,
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn split(name: &str) -> (&str, Pick) {
     parse().unwrap_or((name, Pick::All))
 }
 
-/// Where a row or column stands in the file's order: first, step, count.
+/// Where a row or column is in the file's order: first, step, count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stride {
     first: u64,

@@ -17,7 +17,7 @@ const MAX_FUNCTIONS: usize = 100_000;
 /// Values handed on at a time.
 const PIECE: usize = 8 << 10;
 
-/// How the values of a function stand in the file.
+/// How the values of a function are in the file.
 #[derive(Clone, Copy, Debug)]
 struct Function {
     start: u64,
@@ -130,7 +130,7 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
     })
 }
 
-/// One dataset 58; the lines then stand behind it.
+/// One dataset 58; the lines then are behind it.
 fn function(
     lines: &mut Lines,
     head: &str,

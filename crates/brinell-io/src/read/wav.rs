@@ -84,7 +84,7 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
     let frames = bytes / frame;
     let comment = comment(&metadata);
     let brinell = comment.as_ref().map(names_and_units).unwrap_or_default();
-    // What brinell's comment says of the table stands beside it, as in its other formats.
+    // What brinell's comment says of the table is beside it, as in its other formats.
     let said = comment.iter().flat_map(|c| c.iter());
     let said = said.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned())));
     metadata.pairs.extend(said);

@@ -126,7 +126,7 @@ fn is_matlab_name(name: &str) -> bool {
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// What stands before the values of a variable: its own tag, flags, dimensions, name and the tag of the values.
+/// What is before the values of a variable: its own tag, flags, dimensions, name and the tag of the values.
 fn head(name: &str, class: u32, shape: [u64; 2], kind: u32, bytes: u64) -> Vec<u8> {
     let mut inner = Vec::new();
     let mut word = |n: u32| inner.extend_from_slice(&n.to_le_bytes());

@@ -55,7 +55,7 @@ impl NpzWriter {
     }
 }
 
-/// What stands before the values of an array: magic, version 1.0, and a Python dict padded to 64 bytes.
+/// What is before the values of an array: magic, version 1.0, and a Python dict padded to 64 bytes.
 fn header(kind: &str, shape: &str) -> Vec<u8> {
     let mut dict = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let length = (10 + dict.len() + 1).next_multiple_of(64) - 10;

@@ -17,7 +17,7 @@ const MAX_ROWS: u64 = 9_999_999_999;
 pub(crate) struct UffWriter {
     file: PartialFile,
     columns: Vec<Column>,
-    /// Where the columns to be written stand.
+    /// Where the columns to be written are.
     kept: Vec<usize>,
     time: Option<usize>,
     start_s: Option<f64>,

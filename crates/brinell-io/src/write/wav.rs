@@ -13,7 +13,7 @@ use crate::signals::{check_columns, check_row, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
 const BUFFER_BYTES: usize = 256 << 10;
-/// Where the chunk that keeps room for the long sizes begins, and where the data's size stands.
+/// Where the chunk that keeps room for the long sizes begins, and where the data's size is.
 const ROOM: u64 = 12;
 const FACT: u64 = 12 + 36 + 26;
 const DATA: u64 = FACT + 12;
@@ -24,7 +24,7 @@ pub(crate) struct WavWriter {
     file: PartialFile,
     columns: Vec<Column>,
     metadata: Metadata,
-    /// Where the columns to be written stand.
+    /// Where the columns to be written are.
     kept: Vec<usize>,
     buffer: Vec<u8>,
     rows: u64,

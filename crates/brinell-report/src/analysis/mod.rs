@@ -287,7 +287,7 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
             page,
             "close",
             |layout| close(report, layout),
-            "A stretch from the middle, about ten strikes of the frequency that matters most long.",
+            "A stretch from the middle, about ten periods of the strongest defect frequency long.",
         );
         let unit = report.waveforms.first().map_or("", |s| &s.unit);
         let axes = ("close-up", close_up_unit(report).0, unit);

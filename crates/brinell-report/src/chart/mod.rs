@@ -216,7 +216,7 @@ impl Chart {
         self.picture
     }
 
-    /// Tells the page's script where the plot stands.
+    /// Tells the page's script where the plot is.
     pub(crate) fn interactive(&mut self, plot: &str) {
         self.interactive_at(plot, 0.0);
     }

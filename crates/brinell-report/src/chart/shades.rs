@@ -8,7 +8,7 @@ use crate::raster::{LEVELS, shade};
 /// Margin on the right that the scale needs, in widths of the type.
 pub(crate) const SCALE_MARGIN: f64 = 6.4;
 
-/// What the shades stand for.
+/// What the shades represent.
 pub(crate) struct Shades<'a> {
     /// Cells of a row.
     pub(crate) columns: usize,

@@ -12,8 +12,6 @@ pub use plan::damage_plan;
 
 /// One defect, seen before it is simulated. Vectors of a panel are as long as the panel's axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
 pub struct DamageView {
     /// "Defect 1: outer raceway, row 1".
     pub title: String,
@@ -42,13 +40,13 @@ pub struct DamageView {
     /// Of a roller, half its circumference: the view from above goes once around, and either contact meets the damage half a turn after the
     /// other.
     pub half_turn_mm: Option<f64>,
-    /// s of the load zone's ends, where the surface stands still in it.
+    /// s of the load zone's ends, where the surface rests in it.
     pub load_zone_mm: Option<[f64; 2]>,
     /// Angle of a roller from the defect's centre.
     pub angle_deg: Vec<f64>,
     /// What the roller meets there.
     pub passage: Vec<DamagePanel>,
-    /// At which approach, by which laws.
+    /// At which deformation, by which laws.
     pub passage_note: String,
     /// s along the damage.
     pub section_s_mm: Vec<f64>,
@@ -60,7 +58,6 @@ pub struct DamageView {
 
 /// Depths at the nodes of a grid.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthPatch {
     /// (s, z) of the first node, mm.
     pub start_mm: [f64; 2],
@@ -74,7 +71,6 @@ pub struct DepthPatch {
 
 /// Curves on one pair of axes.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DamagePanel {
     /// "Depth".
     pub label: String,
@@ -88,7 +84,6 @@ pub struct DamagePanel {
 
 /// One curve.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DamageCurve {
     /// "envelope, ecl".
     pub name: String,

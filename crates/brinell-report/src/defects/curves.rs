@@ -2,7 +2,7 @@
 
 use crate::{DamageCurve, DamagePanel, DepthPatch};
 use brinell::defect::section::{Section, sections};
-use brinell::defect::{Angles, Defect, Shape, Side, acting};
+use brinell::defect::{Angles, Defect, Shape, Side, damaged_contact};
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::TAU;
@@ -55,9 +55,10 @@ pub(super) fn passage(
                 spin: 0.0,
                 ring: 0.0,
             };
-            acting(std::iter::once(d), law, &angles, side, delta).map_or(law.stiffness, |a| {
-                law.stiffness * a.elastic / law.healthy(delta)
-            })
+            damaged_contact(std::iter::once(d), law, &angles, side, delta)
+                .map_or(law.stiffness, |a| {
+                    law.stiffness * a.elastic / law.healthy(delta)
+                })
         };
         angles.iter().map(k).collect()
     };

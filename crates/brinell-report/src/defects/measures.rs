@@ -67,12 +67,12 @@ pub(super) fn facts(m: &Measures, defect: &Defect) -> Vec<Fact> {
     let none = String::new;
     let floor = if m.deepest_um > m.approach_um {
         format!(
-            "deeper than the approach of {} μm: a roller's line does not reach its floor",
+            "deeper than the elastic deformation of {} μm: a roller's line does not reach the bottom",
             short(m.approach_um, 3)
         )
     } else {
         format!(
-            "less than the approach of {} μm: the floor carries too",
+            "less than the elastic deformation of {} μm: the bottom carries load too",
             short(m.approach_um, 3)
         )
     };

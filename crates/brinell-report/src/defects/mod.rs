@@ -108,7 +108,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             "an assumption: 0.6 of the roller's diameter"
         };
         let title = format!("Defect {}: {}", k + 1, place(defect));
-        let approach = match sides[..] {
+        let deformation = match sides[..] {
             [(_, outer), (_, inner)] => format!(
                 "{} μm at the outer and {} μm at the inner contact",
                 short(1e6 * outer, 3),
@@ -129,11 +129,13 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             passage_title: match defect.surface {
                 Surface::Roller(_) => {
                     format!(
-                        "{title}. What both contacts meet as it turns; K at an approach of {approach}"
+                        "{title}. What both contacts meet as it turns; K at a deformation of {deformation}"
                     )
                 }
                 _ => {
-                    format!("{title}. What a passing roller meets; K at an approach of {approach}")
+                    format!(
+                        "{title}. What a passing roller meets; K at a deformation of {deformation}"
+                    )
                 }
             },
             section_title: format!(
@@ -164,12 +166,12 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             angle_deg,
             passage,
             passage_note: format!(
-                "stiffness Q/δⁿ at an approach of {approach} ({by_force}); this defect alone, the paths and laws side by side"
+                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side"
             ),
             section_s_mm,
             section,
             section_note: if is_roller {
-                "section properties describe rings; this damage lies on a roller".into()
+                "section properties describe rings; this damage is on a roller".into()
             } else if through {
                 format!(
                     "the damage is deeper than the ring is thick, {} mm ({assumed}): no section is left",

@@ -38,7 +38,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
         facts.push(Fact::new("Noise", text(rms), "m/s^2", note));
     }
     if let Some(step) = chain.step() {
-        facts.push(Fact::new("Converter", text(step), "m/s^2", "a step"));
+        facts.push(Fact::new("ADC", text(step), "m/s^2", "a step"));
     }
     let channels = parts.simulation.filtered();
     for (channel, record) in channels.iter().zip(&parts.outcome.sensor) {
@@ -49,7 +49,7 @@ fn facts(parts: &Parts) -> Vec<Fact> {
                 .map_or(String::new(), |noise| {
                     format!("; {:.1} dB over the noise", 20.0 * (rms / noise).log10())
                 });
-            let note = format!("RMS before noise and converter, once the load is up{ratio}");
+            let note = format!("RMS before noise and ADC, once the load is up{ratio}");
             facts.push(Fact::new(channel.name.clone(), text(rms), "m/s^2", note));
         }
         if record.clipped > 0 {

@@ -12,7 +12,7 @@ use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
 pub(crate) use overlay::stacked;
 
-/// Where the values of a curve stand.
+/// Where the values of a curve are.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Along {
     /// From a first place on, evenly.
@@ -31,7 +31,7 @@ pub enum Along {
 pub struct OverlaidCurve {
     /// Which of the page's names it belongs to, from 0.
     pub of: usize,
-    /// Where its values stand.
+    /// Where its values are.
     pub along: Along,
     /// The values; NaN is a gap.
     pub values: Vec<f64>,

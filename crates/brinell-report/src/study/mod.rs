@@ -53,10 +53,10 @@ pub struct ClaimPart {
     pub ours: String,
 }
 
-/// Somebody's sentence, held against numbers.
+/// A sentence, compared with numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClaimCard {
-    /// Where it stands.
+    /// Where it is.
     pub place: String,
     /// Its words.
     pub sentence: String,

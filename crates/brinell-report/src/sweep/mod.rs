@@ -92,7 +92,7 @@ pub fn sweep_html(report: &SweepReport) -> String {
         report
             .partial
             .as_deref()
-            .map(|why| ("This sweep is not whole.", why)),
+            .map(|why| ("This sweep is incomplete.", why)),
     );
     page.push_str("<main>\n");
     facts(&mut page, &report.facts);
@@ -129,7 +129,7 @@ fn legend(plots: &[IndicatorPlot]) -> String {
         parts.push("Crosses on the axis: no value.");
     }
     if plots.iter().any(|plot| plot.lines.len() > 1) {
-        parts.push("Lines stand a little beside each other, so that intervals can be told apart.");
+        parts.push("Points are shifted a little sideways, so that their intervals do not overlap.");
     }
     parts.join(" ")
 }

@@ -28,7 +28,7 @@ impl BandChoice {
     pub fn words(self) -> &'static str {
         match self {
             BandChoice::Given => "given",
-            BandChoice::Clearest => "where its lines stand highest",
+            BandChoice::Clearest => "where its lines are strongest",
             BandChoice::Broad => "everything above three times the highest defect frequency",
         }
     }

@@ -97,7 +97,7 @@ pub enum AnalysisError {
     },
     /// No full scale.
     #[error(
-        "`{text}`: expected what the largest number stands for, with its unit, such as 5V, 500mV or 10g"
+        "`{text}`: expected what the largest number means, with its unit, such as 5V, 500mV or 10g"
     )]
     NoFullScale {
         /// As it was given.

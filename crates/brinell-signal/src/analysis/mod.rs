@@ -113,7 +113,7 @@ impl Options {
 /// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
 const LARGEST: f64 = 1e60;
 
-/// Noise over the signal's RMS that is added to it: the last bit of a converter of 32.
+/// Noise over the signal's RMS that is added to it: the last bit of an ADC of 32.
 const DITHER: f64 = 1.0 / 4_294_967_296.0;
 /// Rollers that enter the load of a healthy bearing strike the resting race at the same rate as its damage is struck (varying compliance), which
 /// simulations without noise show. Evidence that modulates by less is weak there; some healthy single-row bearings go beyond.

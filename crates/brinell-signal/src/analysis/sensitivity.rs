@@ -1,4 +1,4 @@
-//! From a converter's numbers to a vibration: full scale and sensitivity, as data sheets state them.
+//! From an ADC's numbers to a vibration: full scale and sensitivity, as data sheets state them.
 
 use super::{AnalysisError, Quantity, Unit};
 
@@ -55,7 +55,7 @@ impl Sensitivity {
     }
 }
 
-/// What a converter's largest number stands for: 5 V, or 10 g.
+/// What an ADC's largest number stands for: 5 V, or 10 g.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FullScale {
     /// In `unit`.

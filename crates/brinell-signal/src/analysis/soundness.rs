@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The least length of a stretch of one value, in revolutions: no vibration holds still for so long.
 const STRETCH: f64 = 0.25;
-/// Share of the samples at the largest or the smallest value from which a converter is taken to have been driven beyond its range; and how many.
+/// Share of the samples at the largest or the smallest value from which an ADC is taken to have been driven beyond its range; and how many.
 const AT_LIMITS: (f64, usize) = (1e-3, 20);
 /// Share of the signal's energy in one revolution from which levels are that revolution's, and revolutions from which it says something.
 const ONE_EVENT: (f64, usize) = (0.5, 10);
@@ -19,7 +19,7 @@ pub enum Flaw {
         /// Length of the record, s.
         of: f64,
     },
-    /// Share of samples at the largest or the smallest value: clipped, or coarsely converted.
+    /// Share of samples at the largest or the smallest value: clipped, or coarsely quantised.
     AtLimits {
         /// 0 to 1.
         share: f64,
@@ -42,7 +42,7 @@ impl fmt::Display for Flaw {
             ),
             Flaw::AtLimits { share } => write!(
                 f,
-                "{:.2} % of the samples lie at the largest or the smallest value: clipped, or coarsely converted",
+                "{:.2} % of the samples are at the largest or the smallest value: clipped, or coarsely quantised",
                 100.0 * share
             ),
             Flaw::OneEvent { at, share } => write!(

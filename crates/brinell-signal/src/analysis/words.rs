@@ -34,7 +34,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 );
                 text.push(capital(&headline));
                 if family.name == "FTF" {
-                    text.push("One element strikes once a turn of the cage, on its way through the load; damage of the cage shows the same.".into());
+                    text.push("One element impacts once a turn of the cage, on its way through the load zone; damage of the cage shows the same.".into());
                 }
                 if analysis.may_be_passing(family) {
                     text.push(PASSING.into());
@@ -65,11 +65,11 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                     continue;
                 }
                 text.push(format!(
-                    "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would tell.",
+                    "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
                     family.component.words(),
                     told(family),
                     if family.is_damage() {
-                        "lines at distances of the cage's frequency, which so short a record does not tell from others"
+                        "lines at distances of the cage's frequency, which so short a record does not separate from others"
                     } else if family.score < family.noise {
                         "lines hardly above what noise shows in a record of this length"
                     } else if family.lacks_sidebands() {
@@ -92,7 +92,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         .collect();
     if !before.is_empty() {
         text.push(format!(
-            "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would tell.",
+            "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
             listed(&before)
         ));
     }
@@ -109,7 +109,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 fn other_lines(analysis: &Analysis, elsewhere: &Elsewhere) -> String {
     let nearest = elsewhere.nearest.map_or(String::new(), |n| {
         format!(
-            " {} lies {:.2} % {}: at {:.0} r/min it would be there.",
+            " {} is {:.2} % {}: at {:.0} r/min it would be there.",
             n.name,
             100.0 * n.shift.abs(),
             if n.shift > 0.0 { "lower" } else { "higher" },

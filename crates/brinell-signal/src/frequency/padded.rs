@@ -14,7 +14,7 @@ pub(super) const PADDING: usize = 8;
 pub(in super::super) struct Padded {
     fs: f64,
     length: usize,
-    /// E: padded bin m stands for frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so that it is smooth.
+    /// E: padded bin m represents frequency m fs / (PADDING length). Its phase has the window's middle at time zero, so that it is smooth.
     pub(super) values: Vec<Complex<f64>>,
 }
 

@@ -267,7 +267,7 @@ fn impacts(
     } else {
         0.0
     };
-    // The other raceway, half a spin later, is heard less.
+    // The other raceway, half a spin later, shows less.
     let other = r.between(0.3, 1.0);
     let phase = r.uniform();
     let mut at = r.uniform() * period;

@@ -1,4 +1,4 @@
-//! A signal as levels that can be held against another's: its spectrum in octaves, and its envelope spectrum at defect frequencies.
+//! A signal as levels that can be compared with another's: its spectrum in octaves, and its envelope spectrum at defect frequencies.
 //!
 //! Levels are decibels of a root mean square against one unit of the signal. The logarithm lets a weak band count like a strong one.
 //! The signal is cut into segments that do not overlap; the mean square of a level is their mean, and its standard uncertainty follows

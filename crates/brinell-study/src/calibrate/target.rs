@@ -48,7 +48,7 @@ impl Target {
         let Some((value, uncertainty)) = rest.split_once('~') else {
             number("value", rest)?;
             return Err(wrong(
-                "no standard uncertainty is given, and without one nobody can say how well the target is met".into(),
+                "no standard uncertainty is given, and without one it cannot be said how well the target is met".into(),
                 SYNTAX,
             ));
         };
@@ -71,7 +71,7 @@ impl Target {
     }
 }
 
-/// Targets that may stand together: at least one, none twice.
+/// Targets that may be together: at least one, none twice.
 ///
 /// # Errors
 /// Where they may not.

@@ -106,7 +106,7 @@ pub(crate) const STATUS: usize = 2;
 #[rustfmt::skip]
 const HEAD: [Fixed; 3] = [
     ("run", "1", "index of the run, from 0", Whole(|r| Some(r.index))),
-    ("split", "1", "train, validation or test; open where the plan does not divide; held-out where the labels lie apart",
+    ("split", "1", "train, validation or test; open where the plan does not divide; held-out where the labels are in files of their own",
         Words(|r| Some(r.draws().part(r.index).word().into()))),
     ("status", "1", "complete or failed", Words(|r| Some(if r.failed.is_some() { "failed" } else { "complete" }.into()))),
 ];
@@ -128,7 +128,7 @@ const KNOWN: [Fixed; 11] = [
     ("ftf_hz", "Hz", "cage frequency in pure rolling at constant speed", Number(|r| Some(r.kinematics()?.ftf))),
     ("bpfo_hz", "Hz", "outer race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfo))),
     ("bpfi_hz", "Hz", "inner race frequency, likewise", Number(|r| Some(r.kinematics()?.bpfi))),
-    ("bsf_hz", "Hz", "roller spin frequency, likewise; damage on a roller strikes at twice this", Number(|r| Some(r.kinematics()?.bsf))),
+    ("bsf_hz", "Hz", "roller spin frequency, likewise; damage on a roller meets a raceway at twice this", Number(|r| Some(r.kinematics()?.bsf))),
 ];
 
 /// Last: labels, and what no test rig tells.
@@ -156,7 +156,7 @@ const TRUTH: [Fixed; 53] = [
         _ => 1e6 * largest(d, |s| d.depth_at(s)),
     }))),
     ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.shape.area()))),
-    ("defect_frequency_hz", "Hz", "of each defect: how often it is struck, in pure rolling at constant speed", Numbers(|r| {
+    ("defect_frequency_hz", "Hz", "of each defect: its ball-pass frequency (of a roller twice the spin frequency), in pure rolling at constant speed", Numbers(|r| {
         let k = r.kinematics()?;
         r.defects(|d, _| k.struck_by(d.on).1)
     })),

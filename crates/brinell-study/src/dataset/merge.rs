@@ -32,7 +32,7 @@ impl Merged {
         let (count, more) = (self.missing.len(), self.missing.len() > SHOWN);
         (count > 0).then(|| {
             format!(
-                "not whole: {count} file{} in none of the folders (part {}{}); run their shards again",
+                "incomplete: {count} file{} in none of the folders (part {}{}); run their shards again",
                 if count == 1 { "" } else { "s" },
                 first.join(", "),
                 if more { ", ..." } else { "" }

@@ -32,5 +32,5 @@ pub use campaign::Campaign;
 pub use columns::DataColumn;
 pub use error::DatasetError;
 pub use merge::{Merged, merge};
-pub use run::{Shard, Went, run};
+pub use run::{Shard, ShardSummary, run};
 pub use verify::{Verified, verify};

@@ -80,7 +80,7 @@ pub(crate) fn write(
         .map(|c| c.record.clone())
         .collect();
     let read = |run: usize| read_row_file(folder.row(part, run), &records);
-    // Read twice rather than held: how many failed stands in the footer, which a writer is given at its beginning.
+    // Read twice rather than held: how many failed is in the footer, which a writer is given at its beginning.
     let mut failed = 0;
     for run in campaign.runs_of(part).iter().copied() {
         match read(run) {

@@ -35,7 +35,7 @@ pub(crate) fn refused(draws: &Draws, plan: &Document, survey: &Survey) -> Result
         problem.placed(place)
     };
     let mut problems: Vec<Problem> = survey.errors.iter().map(told).collect();
-    // Some of a distribution may fit; of a value that stands in the plan nothing does.
+    // Some of a distribution may fit; of a value that is in the plan nothing does.
     let some = survey.errors.iter().any(|miss| miss.count < survey.runs);
     if let (false, true, Some(last)) = (asked, some, problems.last_mut()) {
         last.message += "; give narrower distributions, or `out_of_range = \"redraw\"` (draw such runs again) or \"fail\" (keep them as failed rows)";

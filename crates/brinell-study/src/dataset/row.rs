@@ -29,7 +29,7 @@ pub(crate) struct Run<'a> {
     pub(crate) index: usize,
     pub(crate) draw: Option<Draw>,
     pub(crate) loaded: Option<Loaded>,
-    /// The run as prepared, how it went, and what was heard.
+    /// The run as prepared, how it went, and what was recorded.
     ended: Option<(Simulation, Outcome, Truth<'a>)>,
     /// Why it failed.
     pub(crate) failed: Option<String>,
@@ -120,7 +120,7 @@ impl<'a> Run<'a> {
         self.ended.as_ref().map(|(.., truth)| truth.kept as usize)
     }
 
-    /// What was heard of a run that came to its end.
+    /// What was recorded of a run that came to its end.
     pub(crate) fn gathered(&self) -> Option<&Truth<'a>> {
         let ended = self.ended.as_ref().filter(|_| self.failed.is_none());
         ended.map(|(.., truth)| truth)

@@ -52,7 +52,7 @@ impl FromStr for Shard {
 
 /// How a shard went.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Went {
+pub struct ShardSummary {
     /// Runs of the shard.
     pub runs: usize,
     /// Of them, done now.
@@ -91,7 +91,7 @@ enum Ended {
     Stopped,
 }
 
-/// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to go on where it stopped.
+/// Does what is missing of a shard in `folder`, up to `threads` runs at a time. Call it again to resume where it stopped.
 ///
 /// # Errors
 /// Where the folder holds something else, another process is at work on the same runs, or files cannot be written: what was finished stays.
@@ -101,10 +101,10 @@ pub fn run(
     shard: Shard,
     threads: NonZeroUsize,
     listener: &dyn Listener,
-) -> Result<Went, DatasetError> {
+) -> Result<ShardSummary, DatasetError> {
     let folder = Folder::new(folder.as_ref());
     folder.claim(campaign)?;
-    let mut went = Went::default();
+    let mut went = ShardSummary::default();
     let mut jobs = Vec::new();
     let parts: Vec<usize> = (0..campaign.parts())
         .filter(|part| shard.has(*part))

@@ -1,4 +1,4 @@
-//! A data set's folder held against what it says of itself.
+//! A data set's folder compared with what it says of itself.
 
 use crate::dataset::card::CROISSANT;
 use crate::dataset::error::DatasetError;

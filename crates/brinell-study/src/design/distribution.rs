@@ -165,7 +165,7 @@ impl Distribution {
                         - normal_tail((high - mean) / deviation);
                     if share < 1e-6 {
                         return Err(Misfit::new(
-                            "less than a millionth of the distribution lies within these ends",
+                            "less than a millionth of the distribution is within these ends",
                             "ends with more of the distribution between them",
                         ));
                     }

@@ -210,7 +210,7 @@ impl Plan {
             add(
                 "secret",
                 "",
-                "held_out needs a secret that nobody can guess; whoever has it has the labels"
+                "held_out needs a secret that cannot be guessed; whoever has it has the labels"
                     .into(),
                 "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
             );
@@ -376,9 +376,12 @@ fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
         &mut p.licence,
     );
     k.key(
-        key("held_out", "share of the runs whose labels lie apart")
-            .from(0.0)
-            .to(1.0),
+        key(
+            "held_out",
+            "fraction of the runs whose labels are in files of their own",
+        )
+        .from(0.0)
+        .to(1.0),
         stated(0.0, "labels beside the signals"),
         &mut p.held_out,
     );

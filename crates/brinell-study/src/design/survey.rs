@@ -73,7 +73,7 @@ impl Survey {
         all
     }
 
-    /// Whether the plan can be carried out as it stands.
+    /// Whether the plan can be carried out as written.
     pub fn is_sound(&self, out_of_range: OutOfRange) -> bool {
         match out_of_range {
             OutOfRange::Refuse => self.unfit == 0,

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::stream::{Secret, unit, word};
 
-/// Where a run stands in its plan.
+/// Where a run is in its plan.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) class: u32,

@@ -91,7 +91,7 @@ impl Kinematics {
         frequency_table(shaft, self.ftf, self.bpfo, self.bpfi, self.bsf)
     }
 
-    /// Name and value (Hz) of the frequency at which damage on a surface strikes.
+    /// Name and value (Hz) of the frequency at which damage on a surface causes impacts.
     pub fn struck_by(&self, surface: Surface) -> (&'static str, f64) {
         match surface {
             Surface::OuterRaceway => ("BPFO", self.bpfo),
@@ -115,7 +115,7 @@ pub(super) fn frequency_table(
         ("BPFO", bpfo, "rollers passing a point of the outer raceway"),
         ("BPFI", bpfi, "rollers passing a point of the inner raceway"),
         ("BSF", bsf, "turns of a roller relative to the cage"),
-        ("2 BSF", 2.0 * bsf, "strikes of damage on a roller"),
+        ("2 BSF", 2.0 * bsf, "impacts of damage on a roller"),
     ]
 }
 

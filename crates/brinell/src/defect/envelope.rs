@@ -6,7 +6,7 @@
 //! (Felzenszwalb and Huttenlocher's distance transform, with lines besides parabolas). The result is exact but for the
 //! crossings, which are found to round-off; a step of the simulation costs what it costs without an envelope.
 
-use super::course::{Course, Line, Piece};
+use super::piecewise::{Line, Piece, PiecewisePolynomial};
 
 /// One piece of h with what it lends to the envelope.
 #[derive(Clone, Copy)]
@@ -73,14 +73,14 @@ impl Candidate {
     }
 }
 
-/// The envelope of h for the radius R_eq (m); `lines` as in [`Course::of_lines`].
+/// The envelope of h for the radius R_eq (m); `lines` as in [`PiecewisePolynomial::of_lines`].
 ///
 /// Where h >= 0 the envelope is 0 outside the damage. A raised edge (h < 0) is felt before the contact line reaches it: there the
 /// envelope extends to where it comes back to 0.
-pub fn envelope(lines: &[Line], radius: f64) -> Course {
+pub fn envelope(lines: &[Line], radius: f64) -> PiecewisePolynomial {
     let lines: Vec<&Line> = lines.iter().filter(|l| l.to > l.from).collect();
     let (Some(first), Some(last)) = (lines.first(), lines.last()) else {
-        return Course::default();
+        return PiecewisePolynomial::default();
     };
     let lowest = lines
         .iter()
@@ -130,7 +130,7 @@ pub fn envelope(lines: &[Line], radius: f64) -> Course {
             candidates[i].emit(from, to, radius, &mut pieces);
         }
     }
-    Course::of_pieces(start, end, pieces)
+    PiecewisePolynomial::of_pieces(start, end, pieces)
 }
 
 /// Where a function that does not fall changes sign from below 0 at `low` to above 0 at `high`: secant steps kept within the bracket
@@ -282,7 +282,7 @@ mod tests {
                 at = to;
             }
             let e = envelope(&lines, R);
-            let plain = Course::of_lines(&lines);
+            let plain = PiecewisePolynomial::of_lines(&lines);
             for k in 0..200 {
                 let s = -1.6e-3 + 4e-3 * f64::from(k) / 200.0;
                 let (ours, tried) = (e.value(s), brute(&lines, s, R));

@@ -68,7 +68,7 @@ const BETWEEN: usize = 20;
 pub const HIGHEST_ORDER: usize = 20;
 
 impl Fit {
-    /// Fits a shape; `depth` (m) stands in where it has none of its own. The paper's irregular shape in six segments is cut where its arcs join, everything else
+    /// Fits a shape; `depth` (m) is used where it has none of its own. The paper's irregular shape in six segments is cut where its arcs join, everything else
     /// into equal parts. `None` without segments or with too few samples for the order.
     pub fn new(shape: &Shape, depth: f64, settings: &FitSettings) -> Option<Self> {
         let FitSettings {

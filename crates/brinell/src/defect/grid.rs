@@ -1,11 +1,11 @@
 //! Damage as depths on a grid: bilinear between its nodes, 0 beyond its border. Lengths in m.
 
-use super::course::{Course, Line};
+use super::piecewise::{Line, PiecewisePolynomial};
 use crate::scenario::DepthGrid;
 
 /// Depths at the nodes of a grid, with their width L_s(s) and mean depth h_s(s).
 ///
-/// In L_s every damaged node (depth other than 0) stands for its cell, dz wide; h_s is the mean depth over that width, so that
+/// In L_s every damaged node (depth other than 0) represents its cell, dz wide; h_s is the mean depth over that width, so that
 /// L_s h_s is the section of the damage. Both are tabulated at the columns and straight between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
@@ -14,8 +14,8 @@ pub struct Grid {
     columns: usize,
     rows: usize,
     depth: Vec<f64>,
-    width: Course,
-    mean: Course,
+    width: PiecewisePolynomial,
+    mean: PiecewisePolynomial,
     mean_lines: Vec<Line>,
 }
 
@@ -39,8 +39,8 @@ impl Grid {
             columns: grid.columns,
             rows: grid.rows,
             depth: grid.depth_um.iter().map(|h| 1e-6 * h).collect(),
-            width: Course::default(),
-            mean: Course::default(),
+            width: PiecewisePolynomial::default(),
+            mean: PiecewisePolynomial::default(),
             mean_lines: Vec::new(),
         };
         this.tabulate(f64::INFINITY);
@@ -83,9 +83,9 @@ impl Grid {
             .zip(&section)
             .map(|(w, a)| if *w > 0.0 { a / w } else { 0.0 })
             .collect();
-        self.width = Course::of_lines(&self.lines(&width));
+        self.width = PiecewisePolynomial::of_lines(&self.lines(&width));
         self.mean_lines = self.lines(&mean);
-        self.mean = Course::of_lines(&self.mean_lines);
+        self.mean = PiecewisePolynomial::of_lines(&self.mean_lines);
     }
 
     /// s of a column, m.
@@ -206,12 +206,12 @@ impl Grid {
     }
 
     /// L_s(s), m.
-    pub fn width(&self) -> &Course {
+    pub fn width(&self) -> &PiecewisePolynomial {
         &self.width
     }
 
     /// h_s(s): mean depth over the damaged width, m.
-    pub fn mean_depth(&self) -> &Course {
+    pub fn mean_depth(&self) -> &PiecewisePolynomial {
         &self.mean
     }
 

@@ -9,8 +9,8 @@
 //! the search goes outwards from x = 0, from one end of a straight piece to the next, until the roller's own curvature lies above what was found.
 
 use super::bands::Band;
-use super::course::{Course, Line};
 use super::grid::Grid;
+use super::piecewise::{Line, PiecewisePolynomial};
 
 /// A ridge between defects that is narrower than this (m) carries nothing: it is the rounding of their centres and lengths.
 const NARROWEST: f64 = 1e-9;
@@ -23,7 +23,7 @@ const ROUND_OFF: f64 = 1e-15;
 pub(super) struct Strip<'a> {
     /// Its depths.
     pub(super) depths: Depths<'a>,
-    /// Where the line of contact stands on it, m.
+    /// Where the line of contact is on it, m.
     pub(super) s: f64,
 }
 
@@ -31,13 +31,13 @@ pub(super) struct Strip<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Depths<'a> {
     /// Straight pieces in ascending order, 0 between them, and their envelope where it is known.
-    Lines(&'a [Line], Option<&'a Course>),
+    Lines(&'a [Line], Option<&'a PiecewisePolynomial>),
     /// Within the borders at z of a band, if there are any, as deep as `floor`; `reached` is the envelope of that floor without ends.
     Within {
         band: Option<&'a Band>,
         z: f64,
         floor: &'a [Line],
-        reached: &'a Course,
+        reached: &'a PiecewisePolynomial,
     },
     /// A depth map at z.
     Map(&'a Grid, f64),
@@ -257,7 +257,7 @@ fn on_one<'a>(strips: impl Iterator<Item = Strip<'a>> + Clone, radius: f64) -> O
         }
     }
     let (deepest, depth, slope) = deepest?;
-    // An envelope falls towards the point that it stands on: its slope is the distance from there over R_eq.
+    // An envelope falls towards the point that it is on: its slope is the distance from there over R_eq.
     let x = -slope * radius;
     let point = depth - x * x / (2.0 * radius);
     let left = strips
@@ -419,7 +419,8 @@ mod tests {
             let lines: Vec<Vec<Line>> = (0..2 + round % 2)
                 .map(|_| random_lines(&mut draw, raised))
                 .collect();
-            let envelopes: Vec<Course> = lines.iter().map(|l| envelope(l, R)).collect();
+            let envelopes: Vec<PiecewisePolynomial> =
+                lines.iter().map(|l| envelope(l, R)).collect();
             let strips: Vec<Strip> = lines
                 .iter()
                 .zip(&envelopes)

@@ -3,10 +3,10 @@
 //! Between four nodes of the grid the surface is damaged unless all four are 0. Depths are straight along z there, so the mean at a point is exact; the
 //! mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows of the grid.
 
-use super::course::Course;
+use super::depth_profile::slice_borders;
 use super::envelope::envelope;
 use super::grid::Grid;
-use super::ground::slice_borders;
+use super::piecewise::PiecewisePolynomial;
 use super::track::{Part, Track};
 
 /// Lines z = const in a slice at the most.
@@ -80,12 +80,12 @@ fn trimmed(mut parts: Vec<Part>, last: f64) -> Option<Track> {
 struct Along {
     weight: f64,
     damaged: Vec<[f64; 2]>,
-    envelope: Course,
+    envelope: PiecewisePolynomial,
 }
 
 /// Along the arc for every slice, on the envelope for the relative radius `radius` (m).
 ///
-/// A raised edge lifts the roller before its line of contact stands on damage: what it lifts counts as covered, so that the force has no jump there.
+/// A raised edge lifts the roller before its line of contact is on damage: what it lifts counts as covered, so that the force has no jump there.
 pub(super) fn along_the_envelope(
     grid: &Grid,
     slices: usize,
@@ -165,7 +165,7 @@ pub(super) fn along_the_envelope(
     tracks.collect()
 }
 
-/// z of lines within a slice with the share of its width that each stands for: Gauss's points between rows where they are few, else equal parts.
+/// z of lines within a slice with the share of its width that each represents: Gauss's points between rows where they are few, else equal parts.
 fn places(cells: &[(usize, [f64; 2])], [low, high]: [f64; 2], most: usize) -> Vec<[f64; 2]> {
     let each = most / cells.len().max(1);
     if each == 0 {

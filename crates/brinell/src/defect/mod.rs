@@ -1,18 +1,18 @@
 //! Damage where it lies: which contact it meets, at which angle, and what it leaves of that contact (section 3).
 //!
-//! A [`Shape`] is damage seen from above; a [`Ground`] is the same made ready for one law, path and surface, so that a step of the
-//! simulation looks depths up in constant time; [`acting()`] is what a contact feels of it.
+//! A [`Shape`] is damage seen from above; a [`DepthProfile`] is the same made ready for one law, path and surface, so that a step of the
+//! simulation looks depths up in constant time; [`damaged_contact()`] is what a contact feels of it.
 
-mod acting;
 mod bands;
-mod course;
+mod damaged_contact;
+mod depth_profile;
 mod envelope;
 pub mod fit;
 mod grid;
-mod ground;
 mod joint;
 mod map_slices;
 mod outline;
+mod piecewise;
 mod profile;
 mod random;
 pub mod section;
@@ -20,19 +20,20 @@ mod shape;
 pub mod simplify;
 mod track;
 
-pub use acting::{
-    Acting, EdgeGradient, acting, acting_given, edge_gradient, energy, floors, tangent,
+pub use damaged_contact::{
+    DamagedContact, EdgeGradient, damaged_contact, damaged_contact_given, edge_gradient, energy,
+    floors, tangent,
 };
-pub use course::{Course, Line};
+pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use envelope::envelope;
 pub use grid::Grid;
-pub use ground::{Ground, Rules, relative_radius};
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
+pub use piecewise::{Line, PiecewisePolynomial};
 pub use profile::Profile;
 pub use random::spall;
 pub use shape::Shape;
 
-use crate::contact::{Floor, remaining_share};
+use crate::contact::{ContactReduction, remaining_share};
 use crate::scenario::{self, Surface};
 use std::f64::consts::{PI, TAU};
 
@@ -64,7 +65,7 @@ pub fn wrap(angle: f64) -> f64 {
     }
 }
 
-/// Angles that decide where a roller stands over damage, rad.
+/// Angles that decide where a roller is over damage, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angles {
     /// theta_j.
@@ -97,8 +98,8 @@ pub struct Defect {
     /// How damage acts.
     pub rules: Rules,
     /// Made ready for the sides that the defect meets, indexed by `Side as usize`.
-    grounds: [Option<Ground>; 2],
-    /// Local angles (rad) beyond which neither arc nor ground reaches, by side.
+    profiles: [Option<DepthProfile>; 2],
+    /// Local angles (rad) beyond which neither arc nor profile reaches, by side.
     windows: [(f64, f64); 2],
 }
 
@@ -123,19 +124,19 @@ impl Defect {
         let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
         let middle = if shape.is_width() { offset } else { 0.0 };
         let rules = Rules::new(contact);
-        let grounds = SIDES.map(|side| {
+        let profiles = SIDES.map(|side| {
             let met = match surface {
                 Surface::OuterRaceway => side == Side::Outer,
                 Surface::InnerRaceway => side == Side::Inner,
                 Surface::Roller(_) => true,
             };
             let radius = relative_radius(bearing, side);
-            met.then(|| Ground::new(&shape, (depth, middle), roller_length, radius, &rules))
+            met.then(|| DepthProfile::new(&shape, (depth, middle), roller_length, radius, &rules))
         });
         let radius = 0.5e-3 * diameter;
         let arc = shape.arc();
         let windows = [0, 1].map(|side| {
-            let (first, last) = grounds[side].as_ref().map_or(arc, |g| g.arc);
+            let (first, last) = profiles[side].as_ref().map_or(arc, |g| g.arc);
             // A little wider, so that round-off decides in `floor` alone.
             (
                 arc.0.min(first) / radius - 1e-9,
@@ -153,14 +154,14 @@ impl Defect {
             radius,
             roller_length,
             rules,
-            grounds,
+            profiles,
         })
     }
 
     /// Depths under `side`; `None` where the defect does not meet it.
     #[inline]
-    pub fn ground(&self, side: Side) -> Option<&Ground> {
-        self.grounds[side as usize].as_ref()
+    pub fn depth_profile(&self, side: Side) -> Option<&DepthProfile> {
+        self.profiles[side as usize].as_ref()
     }
 
     /// Whether the defect meets roller `roller` (from 0) of row `row` on `side` at all.
@@ -217,7 +218,7 @@ impl Defect {
     pub fn reach(&self, radius: f64) -> (f64, f64) {
         let floor = self.shape.depths(self.depth);
         (
-            Course::of_lines(&floor).largest(),
+            PiecewisePolynomial::of_lines(&floor).largest(),
             envelope(&floor, radius).largest(),
         )
     }
@@ -227,15 +228,15 @@ impl Defect {
     /// Along an envelope L_s stays that of the point under the contact line and h_s is replaced by its envelope, which comes up to 0
     /// at both ends of the arc: the force is continuous there, and the floor starts where the damage does.
     #[inline]
-    pub fn floor(&self, u: f64, side: Side) -> Option<Floor> {
+    pub fn floor(&self, u: f64, side: Side) -> Option<ContactReduction> {
         let s = u * self.radius;
         let (first, last) = self.shape.arc();
         if s < first || s > last {
             return None;
         }
         let damaged_length = self.damaged_length(s);
-        let along_envelope = self.ground(side).and_then(|g| g.floor.as_ref());
-        Some(Floor {
+        let along_envelope = self.depth_profile(side).and_then(|g| g.floor.as_ref());
+        Some(ContactReduction {
             share: remaining_share(self.roller_length, damaged_length),
             depth: match along_envelope {
                 Some(floor) => floor.value(s).max(0.0),

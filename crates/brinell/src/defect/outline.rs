@@ -1,7 +1,7 @@
 //! Damage seen from above: the inside of polygons by the even-odd rule. Points (s, z) in m.
 
 use super::bands::Border;
-use super::course::{Course, Line};
+use super::piecewise::{Line, PiecewisePolynomial};
 use std::collections::HashSet;
 
 /// Places where sides of an outline may cross: each is a corner of L_s.
@@ -17,7 +17,7 @@ pub enum Tangle {
     Crossings,
     /// There are too many places to look at.
     #[error(
-        "so many long sides lie side by side that their crossings cannot be counted (more than {:e} pairs)",
+        "so many long sides are side by side that their crossings cannot be counted (more than {:e} pairs)",
         MOST_COMPARED as f64
     )]
     Neighbours,
@@ -81,7 +81,7 @@ impl Edge {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     polygons: Vec<Vec<[f64; 2]>>,
-    width: Course,
+    width: PiecewisePolynomial,
 }
 
 impl Outline {
@@ -136,7 +136,7 @@ impl Outline {
     }
 
     /// L_s(s): the measure of the damaged z at s, straight between corners.
-    pub fn width(&self) -> &Course {
+    pub fn width(&self) -> &PiecewisePolynomial {
         &self.width
     }
 
@@ -179,7 +179,7 @@ fn edges(polygons: &[Vec<[f64; 2]>]) -> Vec<Edge> {
 
 /// L_s(s) within |z| <= `half` by a sweep over the corners: between two of them the edges keep their order and L_s is straight.
 /// `None` where they cross in too many places.
-fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<Course> {
+fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<PiecewisePolynomial> {
     let edges = edges(polygons);
     let mut stops: Vec<f64> = polygons.iter().flatten().map(|p| p[0]).collect();
     stops.extend(crossings(&edges).ok()?.iter().map(|(_, at)| at[0]));
@@ -225,7 +225,7 @@ fn width(polygons: &[Vec<[f64; 2]>], half: f64) -> Option<Course> {
             lines.push(line);
         }
     }
-    Some(Course::of_lines(&lines))
+    Some(PiecewisePolynomial::of_lines(&lines))
 }
 
 /// Where two edges cross properly: of which polygons they are, and the point.

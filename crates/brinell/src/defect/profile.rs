@@ -1,6 +1,6 @@
 //! Width and depth listed along the arc, straight between points.
 
-use super::course::Line;
+use super::piecewise::Line;
 
 /// Piecewise-linear width and depth; the arc may repeat where they jump.
 #[derive(Debug, Clone, PartialEq)]

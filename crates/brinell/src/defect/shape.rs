@@ -3,9 +3,9 @@
 //! s in m along the rolling direction from the defect's centre; L_s and h_s in m. Outside `[first, last]` there is no damage.
 
 use super::bands::Border;
-use super::course::Line;
 use super::grid::Grid;
 use super::outline::Outline;
+use super::piecewise::Line;
 use super::profile::Profile;
 use super::random;
 use crate::scenario;
@@ -60,7 +60,7 @@ pub enum Shape {
 
 impl Shape {
     /// From the scenario's units; `depth` (m) is the defect's. `None` where a shape makes no sense: a profile whose lists do not fit, polygons
-    /// without area, a grid with holes; and where it still stands in a file.
+    /// without area, a grid with holes; and where it is still a file.
     pub fn new(shape: &scenario::Shape, depth: f64) -> Option<Self> {
         let metres = |v: &[f64], unit: f64| v.iter().map(|x| x * unit).collect::<Vec<_>>();
         Some(match shape {

@@ -2,7 +2,7 @@
 //!
 //! Both are made of cubic pieces between breakpoints, found in constant time.
 
-use super::course::Lookup;
+use super::piecewise::Lookup;
 
 /// A fraction closer than this to 0 or 1 counts as 0 or 1: else round-off in a pit would switch the whole damper on.
 const ROUND_OFF: f64 = 1e-9;

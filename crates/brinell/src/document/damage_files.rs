@@ -1,4 +1,4 @@
-//! Every key of a shape that stands in a file of its own: an image, a drawing, a scan.
+//! Every key of a shape that is in a file of its own: an image, a drawing, a scan.
 
 use super::keys::Fallback::Required;
 use super::keys::{Fallback, Keys, Spec, assumed, key, stated};
@@ -164,7 +164,7 @@ pub(super) fn scan<K: Keys>(k: &mut K, wanted: bool, s: &mut ScanFile) {
     );
     s.zero_percentile = (wanted && s.zero == ScanZero::Percentile).then_some(zero_percentile);
     k.key_where(
-        key("first_row", "where the file's first row lies"),
+        key("first_row", "where the file's first row is"),
         filed,
         stated(FirstRow::Top, "as in print"),
         &mut s.first_row,

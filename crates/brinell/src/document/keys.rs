@@ -164,7 +164,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// What stands in for a key that the file leaves out.
+/// What replaces a key that the file leaves out.
 #[derive(Debug, Clone)]
 pub enum Fallback<T> {
     /// Nothing: the key must be given.
@@ -180,7 +180,7 @@ pub enum Fallback<T> {
         /// The formula in words.
         how: &'static str,
     },
-    /// Computed from another key that stands for this one; it outranks the catalogue bearing.
+    /// Computed from another key that represents this one; it outranks the catalogue bearing.
     Instead {
         /// The value.
         value: T,
@@ -204,7 +204,7 @@ pub(crate) fn derived<T>(value: T, how: &'static str) -> Fallback<T> {
     Fallback::Derived { value, how }
 }
 
-/// A default that nobody stated: it goes on the assumption sheet.
+/// A default that was not given: it goes on the assumption sheet.
 pub(crate) fn assumed<T>(value: T, why: &'static str) -> Fallback<T> {
     Fallback::Fixed {
         value,
@@ -259,7 +259,7 @@ pub trait Keys: Sized {
         value: &mut T,
     );
 
-    /// The key that names the catalogue bearing, whose values stand in for keys left out after it.
+    /// The key that names the catalogue bearing, whose values replace keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
         self.optional(spec, value);
     }

@@ -409,7 +409,7 @@ impl Leaf for Speed {
 
 /// A closed set of words.
 pub trait Choice: Copy + PartialEq + 'static {
-    /// Word, value, meaning; the first stands in where none could be read.
+    /// Word, value, meaning; the first is used where none could be read.
     const WORDS: &'static [(&'static str, Self, &'static str)];
     /// A word of earlier versions, and the one that replaces it.
     const RENAMED: Option<(&'static str, &'static str)> = None;

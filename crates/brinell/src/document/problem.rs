@@ -13,7 +13,7 @@ pub enum Severity {
     Warning,
 }
 
-/// Where in the file something stands.
+/// Where in the file something is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// Line, from 1.
@@ -69,7 +69,7 @@ pub struct Problem {
     pub span: Option<Range<usize>>,
     /// Other keys that take part, with their places.
     pub also: Vec<(String, Option<Place>)>,
-    /// How many it stands for: more than one where those of its kind are too many to be told one by one.
+    /// How many it represents: more than one where those of its kind are too many to be printed one by one.
     pub count: usize,
 }
 

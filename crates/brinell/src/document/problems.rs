@@ -68,7 +68,7 @@ impl<'a> Problems<'a> {
             Some(span) => problem.at(Some(Place::new(self.text, span))),
             None => problem,
         };
-        // What stands before the first `;` or `:` of a message says what is wrong.
+        // What is before the first `;` or `:` of a message says what is wrong.
         let what = problem.message.split([';', ':']).next().unwrap_or_default();
         kind.name = match (&*problem.key, problem.line) {
             ("", Some(line)) => format!("line {line}: {what}"),

@@ -1,4 +1,4 @@
-//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage stand in [`super::damage`], the sensor's in
+//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage are in [`super::damage`], the sensor's in
 //! [`super::sensor`].
 
 use std::f64::consts::PI;
@@ -288,7 +288,7 @@ fn contact<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
         &mut c.law,
     );
     k.key(
-        key("roller_path", "how a roller follows the damage's floor"),
+        key("roller_path", "how a roller follows the damage's depth"),
         stated(RollerPath::Point, PAPER),
         &mut c.roller_path,
     );

@@ -17,7 +17,7 @@ const MOST_TABLES: usize = 50_000;
 /// Bytes of a text up to which every syntax error is looked for; of a longer one the first is told.
 const MOST_RECOVERED: usize = 256 << 10;
 
-/// A value and where it stands in the file; an override stands nowhere.
+/// A value and where it is in the file; an override is nowhere.
 #[derive(Debug, Clone)]
 pub struct Node {
     /// The value.
@@ -303,7 +303,7 @@ pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Table, Vec<Pr
     }
 }
 
-/// Refuses a text with too many values, by what stands between them, before anything is made of it.
+/// Refuses a text with too many values, by what is between them, before anything is made of it.
 fn too_much(text: &str) -> Option<String> {
     let (mut values, mut tables) = (0, 0);
     let mut before = b'\n';
@@ -312,7 +312,7 @@ fn too_much(text: &str) -> Option<String> {
         tables += usize::from(byte == b'{' || (byte == b'[' && before == b'\n'));
         before = byte;
     }
-    // Each dot of a key may stand for a table that nobody writes: `a.b = 1`, `[a.b]`, `{ a.b = 1 }`. Those of numbers have digits after them.
+    // Each dot of a key may represent a table that nobody writes: `a.b = 1`, `[a.b]`, `{ a.b = 1 }`. Those of numbers have digits after them.
     for line in text.lines() {
         let header = line.trim_start().starts_with('[') && !line.contains(',');
         let (key, value) = match line.split_once('=') {
@@ -336,7 +336,7 @@ fn too_much(text: &str) -> Option<String> {
 }
 
 fn too_deep() -> String {
-    format!("tables and lists lie in each other more than {DEEPEST} levels deep")
+    format!("tables and lists are nested more than {DEEPEST} levels deep")
 }
 
 /// A document without what means nothing: comments, spaces, the order of keys. Two texts that say the same have the same.
@@ -347,7 +347,7 @@ pub fn canonical(text: &str) -> Result<String, Vec<Problem>> {
     Ok(Node::table(parse(text, &[])?).text())
 }
 
-/// Where a key stands in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.
+/// Where a key is in a scenario's text: a path as in [`Problem::key`]. `None` where the text does not hold it or is not TOML.
 pub fn locate(text: &str, key: &str) -> Option<Place> {
     let mut table = Some(parse(text, &[]).ok()?);
     let mut items: Vec<Node> = Vec::new();

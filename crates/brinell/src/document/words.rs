@@ -31,7 +31,7 @@ words! { Guidance:
 
 words! { GuidanceFilm:
     Dynamic = "dynamic", "a short bearing in any motion of the centres";
-    QuasiStatic = "quasi-static", "the paper's: as if the centres stood still";
+    QuasiStatic = "quasi-static", "the paper's: as if the centres were at rest";
 }
 
 words! { Law:

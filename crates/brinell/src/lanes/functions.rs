@@ -88,7 +88,7 @@ fn exp_parts<L: Lanes>(x: L) -> (L, L) {
     let k = rounded - L::splat(ROUNDER);
     let r = k.minus_times(L::splat(LN2_HIGH), x);
     let r = k.minus_times(L::splat(LN2_LOW), r);
-    // Chebyshev's fit of (e^r - 1 - r) / r^2 on |r| <= ln 2 / 2, to 2e-17 of e^r.
+    // Chebyshev's fit of (e^r - 1 - r) / r^2 on |r| <= 1.0001 ln 2 / 2, to 2e-17 of e^r: `validation/coefficients/fits.py`.
     let tail = polynomial(
         r,
         [
@@ -131,7 +131,8 @@ pub fn tanh<L: Lanes>(x: L) -> L {
 pub(crate) mod ninth {
     /// -1/9 of the upper half's distance from 1.0, plus what balances the error of the straight line at both ends.
     pub(crate) const ORIGIN: f64 = 1_191_820_186.0;
-    /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first.
+    /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first
+    /// (`validation/coefficients/fits.py`).
     pub(crate) const FIT: [f64; 4] = [
         4.550_793_648_527_396_7e-2,
         6.415_495_782_232_466e-2,
@@ -164,7 +165,7 @@ fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
 #[inline(always)]
 pub fn ten_ninths<L: Lanes>(x: L) -> L {
     use ninth::{EIGHT, FIT, ORIGIN};
-    /// 2^52: integers below it stand in the low bits of the sum.
+    /// 2^52: integers below it are in the low bits of the sum.
     const INTEGER: f64 = 4_503_599_627_370_496.0;
     /// INTEGER - (INTEGER + upper) / 9 + SHIFTED has ORIGIN - upper / 9 in its low bits.
     const SHIFTED: f64 = ORIGIN + INTEGER + INTEGER / 9.0;

@@ -139,7 +139,7 @@ impl Energy {
                 + 0.5 * m.roller_spin * dphi * dphi;
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
-                let delta = ws.contacts[side as usize].approach[slot];
+                let delta = ws.contacts[side as usize].deformation[slot];
                 e.contacts += energy(
                     model.defects_of(slot, side),
                     model.contact(side),
@@ -174,7 +174,7 @@ pub(crate) struct ContactState {
     orbit: Column,
     spin: Column,
     ring: f64,
-    approach: [Column; 2],
+    deformation: [Column; 2],
     on_damage: [Vec<bool>; 2],
 }
 
@@ -186,7 +186,7 @@ impl ContactState {
             orbit: zeros(),
             spin: zeros(),
             ring: 0.0,
-            approach: [zeros(), zeros()],
+            deformation: [zeros(), zeros()],
             on_damage: [vec![false; slots], vec![false; slots]],
         }
     }
@@ -210,7 +210,7 @@ impl ContactState {
         }
         for side in SIDES {
             let k = side as usize;
-            self.approach[k].copy_from_slice(&ws.contacts[k].approach);
+            self.deformation[k].copy_from_slice(&ws.contacts[k].deformation);
             self.on_damage[k].copy_from_slice(&ws.contacts[k].on_damage);
         }
     }
@@ -225,7 +225,7 @@ impl ContactState {
 }
 
 /// Work that the changing stiffness of damaged contacts does from `before` to `after`, J: the change of the elastic energy with
-/// the angle at a fixed approach, the mean of both ends. Jumps at an edge are included.
+/// the angle at a fixed deformation, the mean of both ends. Jumps at an edge are included.
 ///
 /// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
 pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
@@ -261,7 +261,7 @@ fn work_at(
 ) -> f64 {
     let k = side as usize;
     let (from, to) = (before.angles(slot), after.angles(slot));
-    let delta = [before.approach[k][slot], after.approach[k][slot]];
+    let delta = [before.deformation[k][slot], after.deformation[k][slot]];
     let change = |delta: f64| match model.kind {
         ModelKind::Full => {
             let (defects, law) = (|| model.defects_of(slot, side), model.contact(side));

@@ -1,4 +1,4 @@
-//! Where each coordinate stands in the state vector.
+//! Where each coordinate is in the state vector.
 //!
 //! The state is y = (q, dq/dt): `dof` positions, then their rates in the same order. Positions are structures of arrays,
 //! so that one operation on all rollers runs over contiguous memory: r of every slot, theta of every slot, phi of every
@@ -59,7 +59,7 @@ impl Layout {
 
     /// Number of positions; the state has twice as many entries.
     ///
-    /// Padded to a multiple of eight, so that the rates stand on cache lines if the positions do; the last few are inert.
+    /// Padded to a multiple of eight, so that the rates are on cache lines if the positions are; the last few are inert.
     pub fn dof(&self) -> usize {
         (self.outer() + 2).next_multiple_of(WIDTH)
     }

@@ -4,10 +4,10 @@
 //! layout; coordinates of rollers and cages have zero rates there and their motion is a function of time.
 
 use super::{Model, Power, Workspace, series_stiffness};
-use crate::contact::{Floor, Hertz};
+use crate::contact::{ContactReduction, Hertz};
 use crate::defect::{Angles, SIDES, Side, floors};
 
-/// One roller's series contact: law, and the depth that full-width damage takes from the approach.
+/// One roller's series contact: law, and the depth that full-width damage takes from the deformation.
 #[derive(Clone, Copy)]
 struct Series {
     law: Hertz,
@@ -31,7 +31,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         damaged_length: [0.0; 2],
         on_damage: [false; 2],
     };
-    let acting = SIDES.map(|side| {
+    let damaged = SIDES.map(|side| {
         floors(model.defects_of(slot, side), angles, side)
             .map(|floor| {
                 (
@@ -42,7 +42,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
             .reduce(|a, b| if b.0 < a.0 { b } else { a })
             .map(|(_, floor)| (side, floor))
     });
-    match acting {
+    match damaged {
         [None, None] => healthy,
         [Some(one), None] | [None, Some(one)] => with_floors(model, &healthy, &[one]),
         [Some(inner), Some(outer)] => with_floors(model, &healthy, &[inner, outer]),
@@ -50,7 +50,7 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
 }
 
 /// A partial width multiplies its side's stiffness by g; the full width sinks the roller by h.
-fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, Floor)]) -> Series {
+fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, ContactReduction)]) -> Series {
     let mut series = *healthy;
     let mut k = [model.inner_contact.stiffness, model.outer_contact.stiffness];
     for &(side, floor) in floors {
@@ -69,13 +69,13 @@ fn with_floors(model: &Model, healthy: &Series, floors: &[(Side, Floor)]) -> Ser
     series
 }
 
-/// Elastic energy of one roller's series contact at an approach, J.
+/// Elastic energy of one roller's series contact at a deformation, J.
 pub(super) fn energy_at(model: &Model, slot: usize, angles: &Angles, delta: f64) -> f64 {
     let contact = series(model, slot, angles, delta);
     contact.law.energy(delta - contact.sunk)
 }
 
-/// Elastic force (N), its tangent (N/m) and energy (J) of one roller's series contact at an approach.
+/// Elastic force (N), its tangent (N/m) and energy (J) of one roller's series contact at a deformation.
 pub(crate) fn elastic_at(
     model: &Model,
     slot: usize,
@@ -98,7 +98,7 @@ pub(super) fn contact_energy(model: &Model, t: f64, slot: usize, ws: &Workspace)
         spin: ws.kinematic_spin,
         ring: model.rotation.at(t).1,
     };
-    energy_at(model, slot, &angles, ws.contacts[0].approach[slot])
+    energy_at(model, slot, &angles, ws.contacts[0].deformation[slot])
 }
 
 /// Accelerations at (t, y).
@@ -138,7 +138,7 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         for side in SIDES {
             let k = side as usize;
             let c = &mut ws.contacts[k];
-            (c.approach[slot], c.elastic[slot], c.force[slot]) = (delta, elastic, force);
+            (c.deformation[slot], c.elastic[slot], c.force[slot]) = (delta, elastic, force);
             (c.damaged_length[slot], c.on_damage[slot]) =
                 (contact.damaged_length[k], contact.on_damage[k]);
         }

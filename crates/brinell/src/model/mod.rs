@@ -3,8 +3,9 @@
 //! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages count
 //! from 0 in code and from 1 in names and scenarios.
 
+mod broad_phase;
+mod check;
 pub(crate) mod energy;
-mod exposure;
 mod full;
 mod layout;
 pub(crate) mod lumped;
@@ -14,8 +15,8 @@ mod stability;
 mod workspace;
 
 pub use crate::kernel::Kernel;
+pub use broad_phase::BroadPhase;
 pub use energy::{Energy, Power};
-pub use exposure::Exposure;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
@@ -131,7 +132,7 @@ pub struct Model {
     /// alpha of each slot, rad: the pocket's angle on its cage.
     pub pocket_angle: Column,
     /// 1 for the slots of rollers, 0 for padding.
-    pub live: Column,
+    pub roller_mask: Column,
     /// Gap of each slot's contact where all is centred, m, by side; so wide for padding that it never closes.
     pub(crate) gaps: [Column; 2],
     /// C_p of each slot, m; so wide for padding that it never closes.
@@ -139,7 +140,7 @@ pub struct Model {
     /// Damage.
     pub defects: Vec<Defect>,
     /// Where damage can meet the contacts of each side, indexed by `Side as usize`.
-    pub exposure: [Exposure; 2],
+    pub broad_phase: [BroadPhase; 2],
     /// For each row, over one period of the rows' pattern: 1 for its own slots, else 0.
     pub(crate) row_lanes: Vec<Column>,
     /// How damage acts.
@@ -154,7 +155,7 @@ impl Model {
     /// # Errors
     /// Where a value that the scenario's reader would have refused makes the model meaningless.
     pub fn new(s: &Scenario) -> Result<Self, ModelError> {
-        check(s)?;
+        check::check(s)?;
         Kernel::chosen().map_err(|error| ModelError {
             key: kernel::SETTING.into(),
             value: format!("{:?}", error.value),
@@ -213,7 +214,7 @@ impl Model {
                 requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
             })?);
         }
-        let exposure = SIDES.map(|side| Exposure::new(&layout, &defects, side));
+        let broad_phase = SIDES.map(|side| BroadPhase::new(&layout, &defects, side));
         let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
         let row_lanes = (0..layout.rows)
             .map(|row| (0..layout.row_period()).map(own(row)).collect())
@@ -226,10 +227,10 @@ impl Model {
         const NEVER_CLOSES: f64 = 1e3;
         Ok(Self {
             kind: s.simulation.model,
-            live: by_slot(1.0, 0.0),
+            roller_mask: by_slot(1.0, 0.0),
             gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
             pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
-            exposure,
+            broad_phase,
             row_lanes,
             layout,
             geometry,
@@ -356,7 +357,7 @@ impl Model {
         }
     }
 
-    /// Where that ring's x stands among the coordinates.
+    /// Where that ring's x is among the coordinates.
     pub fn land_ring(&self) -> usize {
         match self.land_on() {
             Side::Inner => self.layout.inner(),
@@ -435,75 +436,4 @@ pub fn series_stiffness(inner: f64, outer: f64, n: f64) -> f64 {
         return 0.0;
     }
     (inner.powf(-1.0 / n) + outer.powf(-1.0 / n)).powf(-n)
-}
-
-/// Refuses what would divide by zero or index out of range.
-fn check(s: &Scenario) -> Result<(), ModelError> {
-    let positive = [
-        (
-            "bearing.inner_raceway_diameter_mm",
-            s.bearing.inner_raceway_diameter_mm,
-        ),
-        (
-            "bearing.outer_raceway_diameter_mm",
-            s.bearing.outer_raceway_diameter_mm,
-        ),
-        ("bearing.pitch_diameter_mm", s.bearing.pitch_diameter_mm),
-        ("bearing.roller_diameter_mm", s.bearing.roller_diameter_mm),
-        ("bearing.roller_length_mm", s.bearing.roller_length_mm),
-        ("bearing.inner_ring_mass_kg", s.bearing.inner_ring_mass_kg),
-        ("bearing.outer_ring_mass_kg", s.bearing.outer_ring_mass_kg),
-        ("bearing.roller_mass_kg", s.bearing.roller_mass_kg),
-        ("cage.mass_kg", s.cage.mass_kg),
-        ("cage.inner_diameter_mm", s.cage.inner_diameter_mm),
-        ("cage.outer_diameter_mm", s.cage.outer_diameter_mm),
-        ("cage.guide_clearance_mm", s.cage.guide_clearance_mm),
-        ("contact.exponent", s.contact.exponent),
-        ("contact.inner_stiffness", s.contact.inner_stiffness),
-        ("contact.outer_stiffness", s.contact.outer_stiffness),
-        (
-            "friction.slip_velocity_m_per_s",
-            s.friction.slip_velocity_m_per_s,
-        ),
-        ("simulation.duration_s", s.simulation.duration_s),
-        ("simulation.sample_rate_hz", s.simulation.sample_rate_hz),
-    ];
-    for (key, value) in positive {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ModelError {
-                key: key.into(),
-                value: value.to_string(),
-                requirement: "must be finite and above 0",
-            });
-        }
-    }
-    let counts = [
-        ("bearing.rollers_per_row", s.bearing.rollers_per_row, 3),
-        ("bearing.rows", s.bearing.rows, 1),
-    ];
-    for (key, value, least) in counts {
-        if value < least {
-            return Err(ModelError {
-                key: key.into(),
-                value: value.to_string(),
-                requirement: "a bearing has at least 1 row of at least 3 rollers",
-            });
-        }
-    }
-    for (k, defect) in s.defects.iter().enumerate() {
-        let roller_fits = match defect.on {
-            crate::scenario::Surface::Roller(roller) => {
-                (1..=s.bearing.rollers_per_row).contains(&roller)
-            }
-            _ => true,
-        };
-        if !(1..=s.bearing.rows).contains(&defect.row) || !roller_fits {
-            return Err(ModelError {
-                key: format!("defects.{k}"),
-                value: format!("row {} on {:?}", defect.row, defect.on),
-                requirement: "must lie in a row and on a roller that the bearing has",
-            });
-        }
-    }
-    Ok(())
 }

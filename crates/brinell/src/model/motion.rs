@@ -1,6 +1,6 @@
 //! The model as a system that the solver can integrate.
 
-use super::stability::longest_step;
+use super::stability::stable_step;
 use super::{Model, Power, Workspace};
 use crate::solver::System;
 
@@ -40,8 +40,8 @@ impl System for Motion<'_> {
         self.model.accelerations(t, y, a, &mut self.ws);
     }
 
-    fn longest_step(&self) -> f64 {
-        longest_step(self.model, self.ws.heaviest(), self.ws.film_damping())
+    fn stable_step(&self) -> f64 {
+        stable_step(self.model, self.ws.max_elastic(), self.ws.film_damping())
     }
 
     fn flow(&self) -> Power {

@@ -8,21 +8,21 @@ use crate::solver::{DAMPED_CONTACT, Tableau};
 /// The pair that integrates.
 pub const PAIR: Tableau = DAMPED_CONTACT;
 
-/// Longest step in which the fastest motions still decay, s: of a roller whose contacts carry the elastic forces `heaviest` (inner and outer,
+/// Stability limit of the step, s: of a roller whose contacts carry the elastic forces `max_elastic` (inner and outer,
 /// N), and of the cages in films that damp them by at most `film_damping`, N s/m.
-pub(super) fn longest_step(model: &Model, heaviest: [f64; 2], film_damping: f64) -> f64 {
+pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f64) -> f64 {
     if model.kind == ModelKind::Lumped {
         // The lumped model's rollers have no inertia.
         return f64::INFINITY;
     }
-    let [inner, outer] = SIDES.map(|side| spring(model, side, heaviest[side as usize]));
+    let [inner, outer] = SIDES.map(|side| spring(model, side, max_elastic[side as usize]));
     let mass = model.inertia.roller;
     // Between the raceways, or on one of them.
     let between = [[inner[0] + outer[0], inner[1] + outer[1]], inner, outer]
         .map(|spring| decaying_step(spring, mass));
     // In rolling: friction's slope at no slip, mu Q / v_s of each contact, on the spin's I_r = m r^2 / 2.
     let slope = model.friction.coefficient / model.friction.slip_velocity;
-    let rolling = 2.0 * slope * (heaviest[0] + heaviest[1]) / mass;
+    let rolling = 2.0 * slope * (max_elastic[0] + max_elastic[1]) / mass;
     // All cages against the ring that guides them.
     let ring = match model.land_on() {
         Side::Inner => model.inertia.inner_ring,
@@ -30,7 +30,7 @@ pub(super) fn longest_step(model: &Model, heaviest: [f64; 2], film_damping: f64)
     };
     let film = film_damping * (1.0 / model.inertia.cage + model.layout.rows as f64 / ring);
     between.into_iter().fold(
-        PAIR.longest_step(rolling.max(film), f64::INFINITY),
+        PAIR.stability_limit(rolling.max(film), f64::INFINITY),
         f64::min,
     )
 }
@@ -54,5 +54,5 @@ fn decaying_step([k, c]: [f64; 2], m: f64) -> f64 {
         (k / m).sqrt()
     };
     // k = 0 and c = 0: no motion, and any step.
-    PAIR.longest_step(rate, 0.5 * c / (k * m).sqrt())
+    PAIR.stability_limit(rate, 0.5 * c / (k * m).sqrt())
 }

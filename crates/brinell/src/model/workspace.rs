@@ -9,7 +9,7 @@ use crate::lanes::{Column, WIDTH};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contacts {
     /// delta, m.
-    pub approach: Column,
+    pub deformation: Column,
     /// d(delta)/dt, m/s.
     pub approach_rate: Column,
     /// `[delta]_+^n`.
@@ -24,7 +24,7 @@ pub struct Contacts {
     pub slip: Column,
     /// L_s at the contact, m.
     pub damaged_length: Column,
-    /// Whether the contact stands on damage.
+    /// Whether the contact is on damage.
     pub on_damage: Vec<bool>,
 }
 
@@ -32,7 +32,7 @@ impl Contacts {
     fn new(slots: usize) -> Self {
         let zeros = || Column::new(slots, 0.0);
         Self {
-            approach: zeros(),
+            deformation: zeros(),
             approach_rate: zeros(),
             power: zeros(),
             elastic: zeros(),
@@ -62,17 +62,17 @@ pub struct Workspace {
     pub pocket_friction: Column,
     /// (cos, sin) of the middle of each raceway defect that meets the contacts of each side.
     pub(super) directions: [Vec<[f64; 2]>; 2],
-    /// Lanes of each group whose contact may stand on damage, a bit each; as many groups as the kernel's pairs make of the slots.
-    pub(super) exposed: [Vec<u8>; 2],
+    /// Lanes of each group whose contact may be on damage, a bit each; as many groups as the kernel's pairs make of the slots.
+    pub(super) candidates: [Vec<u8>; 2],
     /// Groups of which some contact may be closed.
-    pub(super) near: [Vec<bool>; 2],
+    pub(super) maybe_closed: [Vec<bool>; 2],
     kernel: Kernel,
     /// Orbit angle of each roller in the lumped model, where they are not states.
     pub kinematic_orbit: Vec<f64>,
     /// phi of a roller in the lumped model, rad.
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
-    pub(super) heaviest: [[f64; WIDTH]; 2],
+    pub(super) max_elastic: [[f64; WIDTH]; 2],
     /// What guides each row's cage.
     pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
@@ -96,9 +96,9 @@ impl Workspace {
             edge_force: zeros(),
             pocket_force: zeros(),
             pocket_friction: zeros(),
-            exposed: [vec![0; slots], vec![0; slots]],
-            near: [vec![false; slots], vec![false; slots]],
-            directions: [0, 1].map(|side| model.exposure[side].directions()),
+            candidates: [vec![0; slots], vec![0; slots]],
+            maybe_closed: [vec![false; slots], vec![false; slots]],
+            directions: [0, 1].map(|side| model.broad_phase[side].directions()),
             kernel: if kernel.is_there() {
                 kernel
             } else {
@@ -106,15 +106,15 @@ impl Workspace {
             },
             kinematic_orbit: vec![0.0; slots],
             kinematic_spin: 0.0,
-            heaviest: [[0.0; WIDTH]; 2],
+            max_elastic: [[0.0; WIDTH]; 2],
             guidance: vec![GuideForce::default(); model.layout.rows],
             power: Power::default(),
         }
     }
 
     /// Largest elastic force of each side's contacts, N.
-    pub fn heaviest(&self) -> [f64; 2] {
-        self.heaviest
+    pub fn max_elastic(&self) -> [f64; 2] {
+        self.max_elastic
             .map(|lanes| lanes.into_iter().fold(0.0, f64::max))
     }
 

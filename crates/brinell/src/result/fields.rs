@@ -90,7 +90,7 @@ fields! {
         "evaluations of the equations of motion for samples of the instantaneous channels" |o| o.work.sample_evaluations;
     CONTACT_SWITCHES "contact_switches" "1" Exact "contacts that opened or closed" |o| o.work.contact_switches;
     POCKET_SWITCHES "pocket_switches" "1" Exact "pockets that opened or closed" |o| o.work.pocket_switches;
-    DAMAGE_SWITCHES "damage_switches" "1" Exact "contacts that went onto or off damage" |o| o.work.damage_switches;
+    DAMAGE_SWITCHES "damage_switches" "1" Exact "entries to and exits from damage, of all contacts" |o| o.work.damage_switches;
     SAMPLES "samples" "1" Exact "complete rows of the recorded channels" |o| o.rows;
 }
 
@@ -104,7 +104,7 @@ fields! {
 }
 
 fields! {
-    "What `summary.json` and data sets tell besides."
+    "What `summary.json` and data sets give in addition."
     COURSE: fn(&Outcome) -> Option<f64>;
     PARAMETRIC_ENERGY "energy_parametric" "J" Exact "work of damage passing under rollers" |o| Some(o.energy.parametric);
     REACHED "reached" "s" Exact "simulated time of the last sample" |o| Some(o.reached);

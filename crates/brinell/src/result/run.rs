@@ -48,7 +48,7 @@ impl RunResult {
     }
 }
 
-/// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may break it off.
+/// Runs a simulation and gathers its findings; `besides` gets every call of an observer too, and may stop it.
 pub fn finish(scenario: Scenario, simulation: Simulation, besides: &mut dyn Observer) -> RunResult {
     let mut both = Both {
         watch: Watch::new(&scenario, &simulation),
@@ -73,7 +73,7 @@ pub fn simulate(scenario: &Scenario) -> Result<RunResult, Error> {
     simulate_with(scenario, &mut ())
 }
 
-/// Runs one scenario to its end; `observer` hears of the run as it goes, and may break it off.
+/// Runs one scenario to its end; `observer` is informed of the run as it goes, and may stop it.
 ///
 /// # Errors
 /// As [`simulate`], and [`Error::Stopped`]: there is no half-finished run among results.

@@ -67,7 +67,7 @@ pub enum Shape {
         length_mm: f64,
         /// Extent along the axis, mm.
         width_mm: f64,
-        /// 0: an ellipse with an even floor; 1: as ragged and uneven as it gets.
+        /// 0: an ellipse of even depth; 1: as ragged and uneven as it gets.
         roughness: f64,
     },
     /// A photo or a mask, not read yet: the core opens no files. `brinell-damage` puts an outline in its place.

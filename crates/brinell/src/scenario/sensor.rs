@@ -1,4 +1,4 @@
-//! `[sensor]`: what stands between the outer ring and the record.
+//! `[sensor]`: what is between the outer ring and the record.
 
 /// Colour of a sensor's noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,12 +22,12 @@ pub struct PathMode {
     pub gain: f64,
 }
 
-/// `[sensor]`: what stands between the outer ring's acceleration and the record. What is not given is not there.
+/// `[sensor]`: what is between the outer ring's acceleration and the record. What is not given is not there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
     /// The axis of a channel of its own, degrees counter-clockwise from +X.
     pub direction_deg: Option<f64>,
-    /// mV for each m/s^2, of that channel and of the converter.
+    /// mV for each m/s^2, of that channel and of the ADC.
     pub sensitivity_mv_per_m_per_s2: Option<f64>,
     /// Resonance of the sensor on its mounting, Hz.
     pub mounting_resonance_hz: Option<f64>,
@@ -49,7 +49,7 @@ pub struct Sensor {
     pub noise_corner_hz: f64,
     /// Which noise.
     pub noise_seed: u64,
-    /// Bits of the converter.
+    /// Bits of the ADC.
     pub converter_bits: Option<usize>,
     /// Its ends, plus and minus, m/s^2; or the next one.
     pub converter_range_m_per_s2: Option<f64>,
@@ -59,7 +59,7 @@ pub struct Sensor {
     pub path: Vec<PathMode>,
 }
 
-/// The ends of a converter, plus and minus.
+/// The full scale of an ADC, plus and minus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {
     /// m/s^2.
@@ -111,7 +111,7 @@ impl Sensor {
         self.noise_rms_m_per_s2.or(self.noise_snr_db.map(below))
     }
 
-    /// The converter's ends, where there is one.
+    /// The ADC's full scale, where there is one.
     pub fn range(&self) -> Option<Range> {
         self.converter_bits?;
         let volts = self.converter_range_mv.map(Range::Voltage);

@@ -164,7 +164,7 @@ mod tests {
         let (w, root) = (TAU * frequency, (1.0 - damping * damping).sqrt());
         let mut worst: f64 = 0.0;
         for k in 0..4000 {
-            // A sampled step stands for one half a sample earlier.
+            // A sampled step represents one half a sample earlier.
             let t = (f64::from(k) + 0.5) / RATE;
             let turn = w * root * t;
             let exact = 1.0 - (-damping * w * t).exp() * (turn.cos() + damping / root * turn.sin());

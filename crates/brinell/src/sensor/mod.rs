@@ -2,13 +2,13 @@
 //!
 //! In this order: the transfer path, the mounting's resonance, the amplifier's band; all linear, at the fast grid's rate, before the anti-alias filter
 //! removes what lies above half the sample rate, so a resonance beyond that still shows in what is left below. Then, at the sample rate, noise
-//! and the converter. Along x and y (and along the sensor's own direction, if it has one) stand sensors of one kind, with noise of their own.
+//! and the ADC. Along x and y (and along the sensor's own direction, if it has one) stand sensors of one kind, with noise of their own.
 //!
 //! The path is that of a point on a structure whose foot moves with the ring: its acceleration over the ring's is 1 - sum g_k s^2 / (s^2 + 2 zeta_k w_k s +
 //! w_k^2), the modes of a proportionally damped structure on a moving foot (R. W. Clough and J. Penzien, Dynamics of structures, 2nd ed. (1993),
 //! section 12-5). It is 1 at low frequencies; one mode with g = 1 is a mass on a spring and a damper. SI throughout.
 
-mod converter;
+mod adc;
 mod filter;
 mod noise;
 
@@ -18,7 +18,7 @@ use realfft::num_complex::Complex;
 
 use crate::scenario::{Range, Sensor};
 use crate::signal::decimate::{FACTOR, PASSBAND};
-use converter::Converter;
+use adc::Adc;
 use filter::{Mode, Passes, Running, low_cut, low_cut_response};
 use noise::{Level, Noise};
 
@@ -39,7 +39,7 @@ pub struct Chain {
     /// Hz.
     low_cut: Option<f64>,
     noise: Option<Level>,
-    converter: Option<Converter>,
+    adc: Option<Adc>,
     rate: f64,
 }
 
@@ -81,12 +81,12 @@ impl Chain {
                 corner: sensor.noise_corner_hz,
                 seed: sensor.noise_seed,
             }),
-            converter: sensor.range().map(|range| {
+            adc: sensor.range().map(|range| {
                 let full_scale = match range {
                     Range::Acceleration(a) => a,
                     Range::Voltage(mv) => mv / sensor.sensitivity_mv_per_m_per_s2.unwrap_or(1.0),
                 };
-                Converter::new(sensor.converter_bits.unwrap_or(24), full_scale)
+                Adc::new(sensor.converter_bits.unwrap_or(24), full_scale)
             }),
             rate: sample_rate,
         })
@@ -133,7 +133,7 @@ impl Chain {
 
     /// The converter's step, m/s^2.
     pub fn step(&self) -> Option<f64> {
-        Some(self.converter.as_ref()?.step())
+        Some(self.adc.as_ref()?.step())
     }
 }
 
@@ -145,16 +145,16 @@ pub(crate) fn own_unit(sensitivity: Option<f64>) -> &'static str {
 /// What became of one channel of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ChannelRecord {
-    /// Samples beyond the converter's ends, over the whole run.
+    /// Samples beyond the ADC's full scale, over the whole run.
     pub clipped: u64,
     /// Samples since the load reached its full size.
     pub counted: u64,
-    /// Sum of the squares of those before noise and converter, (m/s^2)^2.
+    /// Sum of the squares of those before noise and ADC, (m/s^2)^2.
     signal_square: f64,
 }
 
 impl ChannelRecord {
-    /// RMS before noise and converter, m/s^2; `None` before the load is up.
+    /// RMS before noise and ADC, m/s^2; `None` before the load is up.
     pub fn signal_rms(&self) -> Option<f64> {
         (self.counted > 0).then(|| (self.signal_square / self.counted as f64).sqrt())
     }
@@ -184,7 +184,7 @@ impl Line {
 pub(crate) struct Sensing {
     lines: Vec<Line>,
     noise: Vec<Noise>,
-    converter: Option<Converter>,
+    adc: Option<Adc>,
     sensitivity: f64,
     records: Vec<ChannelRecord>,
 }
@@ -211,7 +211,7 @@ impl Sensing {
                 let one = |channel| Noise::new(level, chain.rate, channel);
                 (0..channels as u64).map(one).collect()
             }),
-            converter: chain.converter.clone(),
+            adc: chain.adc.clone(),
             sensitivity: chain.sensitivity.unwrap_or(1.0),
             records: vec![ChannelRecord::default(); channels],
         }
@@ -234,8 +234,8 @@ impl Sensing {
             if let Some(noise) = self.noise.get_mut(k) {
                 *x += noise.next();
             }
-            if let Some(converter) = &self.converter {
-                let (read, clipped) = converter.read(*x);
+            if let Some(adc) = &self.adc {
+                let (read, clipped) = adc.read(*x);
                 *x = read;
                 record.clipped += u64::from(clipped);
             }

@@ -51,7 +51,7 @@ impl Decimator {
         }
     }
 
-    /// Half the filter's length: input frames by which an output lags the input it stands for.
+    /// Half the filter's length: input frames by which an output lags the input it represents.
     pub fn half_length(&self) -> usize {
         self.half
     }

@@ -2,7 +2,7 @@
 //!
 //! Memory does not grow with the duration. Dense output at eight times the sample rate feeds the anti-alias filter; every eighth of
 //! those instants is a sample of the instantaneous channels, evaluated from the equations of motion at the interpolated state
-//! (section 11 of the model). To fill the filter at the end, the run goes on for half the filter's length past the last sample.
+//! (section 11 of the model). To fill the filter at the end, the run continues for half the filter's length past the last sample.
 
 mod anti_alias;
 mod failure;
@@ -74,11 +74,11 @@ pub struct SolverWork {
     pub contact_switches: u64,
     /// Pockets that opened or closed, or changed side.
     pub pocket_switches: u64,
-    /// Contacts that went onto or off damage.
+    /// Entries to and exits from damage, of all contacts.
     pub damage_switches: u64,
 }
 
-/// The energy audit of a run, J: the change of the energy held against everything that flowed.
+/// The energy audit of a run, J: the change of the energy compared with everything that flowed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EnergyAudit {
     /// Held at the start.
@@ -212,7 +212,7 @@ impl Simulation {
         &self.filtered
     }
 
-    /// What stands between the outer ring and the sensor channels, if anything does.
+    /// What is between the outer ring and the sensor channels, if anything is.
     pub fn sensor(&self) -> Option<&Chain> {
         self.sensor.as_ref()
     }

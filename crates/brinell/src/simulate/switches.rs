@@ -5,9 +5,9 @@ use crate::lanes::{Column, WIDTH, blend, positive};
 use crate::model::{Layout, Workspace};
 
 /// Which forces act, to count the changes: closed contacts by side and pockets pressed from behind and from before, a bit a slot; and
-/// which contacts stand on damage.
+/// which contacts are on damage.
 pub(super) struct Switches {
-    acting: [Vec<u8>; 4],
+    active: [Vec<u8>; 4],
     now: [Vec<u8>; 4],
     pull: Column,
     on_damage: [Vec<bool>; 2],
@@ -17,7 +17,7 @@ impl Switches {
     pub(super) fn new(layout: &Layout) -> Self {
         let bits = || std::array::from_fn(|_| vec![0; layout.slots / WIDTH]);
         Self {
-            acting: bits(),
+            active: bits(),
             now: bits(),
             pull: Column::new(layout.slots, 0.0),
             on_damage: std::array::from_fn(|_| vec![false; layout.slots]),
@@ -37,16 +37,16 @@ impl Switches {
             [a, b, c, d],
         );
         let changed = |k: usize| -> u64 {
-            let pairs = self.acting[k].iter().zip(&self.now[k]);
+            let pairs = self.active[k].iter().zip(&self.now[k]);
             pairs.map(|(a, b)| u64::from((a ^ b).count_ones())).sum()
         };
         work.contact_switches += changed(0) + changed(1);
         let pockets = (0..self.now[2].len()).map(|group| {
-            let differ = |k: usize| self.acting[k][group] ^ self.now[k][group];
+            let differ = |k: usize| self.active[k][group] ^ self.now[k][group];
             u64::from((differ(2) | differ(3)).count_ones())
         });
         work.pocket_switches += pockets.sum::<u64>();
-        std::mem::swap(&mut self.acting, &mut self.now);
+        std::mem::swap(&mut self.active, &mut self.now);
         for (before, contacts) in self.on_damage.iter_mut().zip(&ws.contacts) {
             let now = &contacts.on_damage;
             if before != now {

@@ -22,8 +22,8 @@ pub trait System {
     /// dv/dt, half as long as the state.
     fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]);
 
-    /// Longest step from the last state given to [`System::accelerations`] in which the fastest motions still decay.
-    fn longest_step(&self) -> f64 {
+    /// Stability limit of the step at the last state given to [`System::accelerations`].
+    fn stable_step(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -127,7 +127,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         };
         system.accelerations(t, y, &mut stepper.stages[0]);
         stepper.flows[0] = system.flow();
-        stepper.limit = system.longest_step();
+        stepper.limit = system.stable_step();
         stepper.work.evaluations = 1;
         stepper
     }
@@ -194,7 +194,7 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
                 let ceiling = if shrunk { 1.0 } else { *GROWTH.end() };
                 self.last_magnitude = magnitude.max(LEAST_MAGNITUDE);
                 self.accept(h);
-                self.limit = system.longest_step();
+                self.limit = system.stable_step();
                 self.step = h * factor.clamp(*GROWTH.start(), ceiling);
                 let mut integral = F::default();
                 for (weight, flow) in tableau.weights().iter().zip(&self.flows) {

@@ -1,11 +1,11 @@
-//! Embedded explicit Runge-Kutta-Nystrom pairs for q'' = f(t, q, q') whose last stage is the first of the next step.
+//! Embedded explicit Runge-Kutta-Nystrom pairs for q'' = f(t, q, q') with FSAL: the last stage is the first of the next step.
 
 /// Stages before the shared one.
 pub const STAGES: usize = 4;
 
 /// Coefficients of a pair.
 ///
-/// Stage i stands at t + c_i h, q + c_i h v + h^2 sum over j < i of ā_ij f_j and v + h sum of a_ij f_j; the last of them, with the weights
+/// Stage i is evaluated at t + c_i h, q + c_i h v + h^2 sum over j < i of ā_ij f_j and v + h sum of a_ij f_j; the last of them, with the weights
 /// b̄ and b in place of ā and a, is the step's end. Ordinary Runge-Kutta methods are those with ā = a a.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tableau {
@@ -19,9 +19,9 @@ pub struct Tableau {
     pub positions: [[f64; STAGES]; STAGES],
     /// Weights of the error estimate of the rates, the shared stage's last.
     pub error: [f64; STAGES + 1],
-    /// Where its steps still decay: damping ratios zeta, and for each the longest h |lambda| up to which the faster of the motions
-    /// exp(lambda t) of q'' + 2 zeta w q' + w^2 q = 0 dies out. Straight lines between; beyond the last, its value.
-    pub decay: &'static [(f64, f64)],
+    /// Stability limits: damping ratios zeta, and for each the longest h |lambda| up to which the faster of the motions exp(lambda t) of
+    /// q'' + 2 zeta w q' + w^2 q = 0 decays. Linear between; beyond the last, its value.
+    pub stability_limits: &'static [(f64, f64)],
 }
 
 impl Tableau {
@@ -30,13 +30,15 @@ impl Tableau {
         self.rates[STAGES - 1]
     }
 
-    /// Longest step in which a motion of q'' + 2 zeta w q' + w^2 q = 0 decays, s; `rate` is |lambda| of the faster one, 1/s, and infinite
+    /// Stability limit: the longest step in which a motion of q'' + 2 zeta w q' + w^2 q = 0 decays, s; `rate` is |lambda| of the faster one, 1/s, and infinite
     /// damping ratios are those of v' = -rate v.
-    pub fn longest_step(&self, rate: f64, damping_ratio: f64) -> f64 {
-        let after = self.decay.partition_point(|(z, _)| *z <= damping_ratio);
+    pub fn stability_limit(&self, rate: f64, damping_ratio: f64) -> f64 {
+        let after = self
+            .stability_limits
+            .partition_point(|(z, _)| *z <= damping_ratio);
         let limit = match (
-            after.checked_sub(1).map(|k| self.decay[k]),
-            self.decay.get(after),
+            after.checked_sub(1).map(|k| self.stability_limits[k]),
+            self.stability_limits.get(after),
         ) {
             (Some((z0, d0)), Some(&(z1, d1))) => d0 + (d1 - d0) * (damping_ratio - z0) / (z1 - z0),
             (Some((_, d)), None) | (None, Some(&(_, d))) => d,
@@ -48,9 +50,9 @@ impl Tableau {
 
 /// A 3(2) pair of four right-hand sides a step, made for contacts with dampers.
 ///
-/// Third order leaves thirteen coefficients free. They are the short decimals below, found by differential evolution: the longest steps, of
-/// all damping ratios and above all of 0.5 to 0.7, in which motions of q'' + 2 zeta w q' + w^2 q = 0 decay, and small conditions of order 4
-/// (root of their sum of squares 0.034; Bogacki and Shampine's pair: 0.095). The others follow from order 3. The error's weights
+/// Third order leaves thirteen coefficients free. They are the short decimals below, found by differential evolution: large stability limits for q'' + 2 zeta w q' + w^2 q = 0
+/// at all damping ratios, above all 0.5 to 0.7, and small residuals of the conditions of order 4 (root of their sum of squares 0.034; Bogacki and
+/// Shampine's pair: 0.095). The others follow from order 3; `validation/coefficients/nystrom.py` solves for them and prints these numbers. The error's weights
 /// give the leading terms of Bogacki and Shampine's estimate.
 pub const DAMPED_CONTACT: Tableau = Tableau {
     order: 3,
@@ -79,7 +81,7 @@ pub const DAMPED_CONTACT: Tableau = Tableau {
         0.04913143354024661,
         -0.125,
     ],
-    decay: &[
+    stability_limits: &[
         (0.0, 2.3),
         (0.1, 2.8),
         (0.4, 2.8),
@@ -205,7 +207,7 @@ mod tests {
             let zeta = 0.005 * f64::from(k);
             // The faster motion's |lambda| / w.
             let fast = zeta.max(1.0) + (zeta * zeta - 1.0).max(0.0).sqrt();
-            let longest = PAIR.longest_step(1.0, zeta);
+            let longest = PAIR.stability_limit(1.0, zeta);
             for share in 1..=100 {
                 let reach = longest * f64::from(share) / 100.0;
                 let most = match (reach > 1.0, zeta) {
@@ -224,7 +226,7 @@ mod tests {
         }
         // v' = -rate v.
         for share in 1..=100 {
-            let reach = PAIR.longest_step(1.0, f64::INFINITY) * f64::from(share) / 100.0;
+            let reach = PAIR.stability_limit(1.0, f64::INFINITY) * f64::from(share) / 100.0;
             let left = amplification(1e-9 * reach, 0.5e9);
             assert!(left <= 1.0 + 1e-6, "h |lambda| {reach}: {left}");
         }

@@ -46,7 +46,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("mass_kg = 0.0148", "mass_kg = 0", "cage.mass_kg", "out of range", "> 0 kg"),
         ("inner_diameter_mm = 45.0", "inner_diameter_mm = 42.0", "cage.inner_diameter_mm", "reaches into the inner ring", ">= 43 mm"),
         ("inner_diameter_mm = 45.0", "inner_diameter_mm = 54.0", "cage.inner_diameter_mm", "less than its outer one", "< 53 mm"),
-        ("inner_diameter_mm = 45.0", "inner_diameter_mm = 50.0", "cage.inner_diameter_mm", "roller centres must lie within", "< 49 mm"),
+        ("inner_diameter_mm = 45.0", "inner_diameter_mm = 50.0", "cage.inner_diameter_mm", "roller centres must be within", "< 49 mm"),
         ("outer_diameter_mm = 53.0", "outer_diameter_mm = 56.0", "cage.outer_diameter_mm", "reaches into the outer ring", "<= 55 mm"),
         ("guidance", "guidance = \"outer_ring\"", "cage.guidance", "did you mean \"outer-ring\"", "\"outer-ring\", \"inner-ring\", \"rollers\""),
         ("law = ", "law = \"slice\"", "contact.law", "did you mean \"sliced\"", "\"ecl\", \"sliced\""),
@@ -198,7 +198,7 @@ fn regress_cross_key_problems_name_every_key_and_line() {
             ("bearing.outer_raceway_diameter_mm", Some(3))
         ]
     );
-    // The override stands on no line: the first key of the file that takes part does.
+    // The override is on no line: the first key of the file that takes part is named.
     assert_eq!(problem.line, Some(2));
 }
 
@@ -324,7 +324,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "defects.0.shape",
             map.as_str(),
             "defects.0.shape.depth_map.depth_um",
-            "what lies beyond is left out",
+            "what is beyond is left out",
         ),
         ("defects.1", second, "defects.1", "overlaps defect 1"),
         (
@@ -337,7 +337,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
             "defects.0.axial_offset_mm",
             "2.5",
             "defects.0.axial_offset_mm",
-            "what lies beyond is left out",
+            "what is beyond is left out",
         ),
     ] {
         let loaded = with(OUTER, &[(key, value)]).unwrap_or_else(|p| panic!("{}", report(&p)));

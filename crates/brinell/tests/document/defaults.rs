@@ -1,4 +1,4 @@
-//! What stands in for keys left out, and that it is owned up to.
+//! What replaces keys left out, and that it is owned up to.
 
 use brinell::bearing::catalogue;
 use brinell::document::{Origin, read, template};

@@ -33,8 +33,8 @@ fn regress_a_path_has_32_parts_at_most() {
 
 #[test]
 fn regress_tables_and_lists_lie_32_deep_at_most() {
-    let words = "tables and lists lie in each other more than 32 levels deep";
-    // The parser lets 80 parts of a key stand in each of 80 tables.
+    let words = "tables and lists are nested more than 32 levels deep";
+    // The parser allows 80 parts of a key in each of 80 tables.
     let key = vec!["a"; 79].join(".");
     let tables = format!(
         "{}{key} = 1{}\n",

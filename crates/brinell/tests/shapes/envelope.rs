@@ -1,7 +1,7 @@
 //! Where damage lies across the roller, the envelope that a roller follows, and the reaction of edges.
 
 use super::{LAW, at, defect, grid_mm, oblique};
-use brinell::defect::{Angles, Defect, Side, acting, edge_gradient, energy, spall};
+use brinell::defect::{Angles, Defect, Side, damaged_contact, edge_gradient, energy, spall};
 use brinell::scenario::{self, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_cou
             [-1.0, z + 1.5],
         ]],
     };
-    // As nodes half a step inside the border, which stand for their cells.
+    // As nodes half a step inside the border, which represent their cells.
     let mapped = scenario::Shape::DepthMap {
         grid: grid_mm([1.2, 1.7], 0.1, |s, z| {
             if s.abs() < 1.01 && z.abs() < 1.46 {
@@ -48,7 +48,7 @@ fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_cou
                     make(drawn(offset), 0.0, law, path),
                 ];
                 let force = |d: &Defect, u: f64| {
-                    acting([d].into_iter(), &LAW, &at(u), Side::Outer, 9e-6)
+                    damaged_contact([d].into_iter(), &LAW, &at(u), Side::Outer, 9e-6)
                         .map(|a| (a.elastic, a.floor.damaged_length))
                 };
                 for d in &moved {
@@ -69,8 +69,8 @@ fn analytic_axial_offset_moves_any_shape_and_what_leaves_the_roller_does_not_cou
     }
     // Mirrored damage gives the same force.
     let pair = [1.1, -1.1].map(|z| make(drawn(z), 0.0, Law::Sliced, RollerPath::Envelope));
-    let [a, b] =
-        pair.map(|d| acting([&d].into_iter(), &LAW, &at(0.01), Side::Outer, 9e-6).unwrap());
+    let [a, b] = pair
+        .map(|d| damaged_contact([&d].into_iter(), &LAW, &at(0.01), Side::Outer, 9e-6).unwrap());
     assert!((a.elastic / b.elastic - 1.0).abs() < 1e-12);
 }
 

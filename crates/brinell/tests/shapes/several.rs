@@ -1,7 +1,7 @@
 //! Several defects at one contact.
 
 use super::{LAW, at, defect, grid_mm};
-use brinell::defect::{Angles, Defect, Side, acting, energy};
+use brinell::defect::{Angles, Defect, Side, damaged_contact, energy};
 use brinell::scenario::{self, EdgeReaction, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
     };
     let (shallow, deep) = (flat(4.0, 3.0), flat(2.0, 9.0));
     let force = |d: &[&Defect], u| {
-        acting(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6)
+        damaged_contact(d.iter().copied(), &LAW, &at(u), Side::Outer, 20e-6)
             .unwrap()
             .elastic
     };
@@ -47,10 +47,10 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
         RollerPath::Point,
         30,
     );
-    let alone = acting([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6)
+    let alone = damaged_contact([&ridge].into_iter(), &LAW, &at(0.0), Side::Outer, -1e-6)
         .unwrap()
         .elastic;
-    let with = acting(
+    let with = damaged_contact(
         [&deep, &ridge].into_iter(),
         &LAW,
         &at(0.0),
@@ -97,7 +97,7 @@ fn analytic_halves_that_touch_or_overlap_are_the_whole_under_the_envelope() {
                     let angles = over(on, side, u);
                     for delta in [5e-6, 25e-6, 60e-6] {
                         let force = |d: &[Defect]| {
-                            acting(d.iter(), &LAW, &angles, side, delta).map(|a| a.elastic)
+                            damaged_contact(d.iter(), &LAW, &angles, side, delta).map(|a| a.elastic)
                         };
                         let (one, two) = (force(std::slice::from_ref(&whole)), force(&halves));
                         let stored = |d: &[Defect]| energy(d.iter(), &LAW, &angles, side, delta);

@@ -139,7 +139,7 @@ pub(super) fn channel(
         };
         if let Some(found) = file.channels().iter().find(|c| c.name == along) {
             notes.push(format!(
-                "channel {along}, along the load, as nobody named one"
+                "channel {along}, along the load, as none was named"
             ));
             return Ok(one((found.name.clone(), found.clone())));
         }

@@ -21,7 +21,7 @@ pub(crate) use stretch::{Beyond, Reading, Rest};
 use stretch::{scale, stretch};
 use unit::{Scaled, unit};
 
-/// Most samples analysed unless told: 82 s at 51.2 kHz. Bounds memory, whatever the file.
+/// Most samples analysed by default: 82 s at 51.2 kHz. Bounds memory, whatever the file.
 pub(crate) const MOST: usize = 1 << 22;
 
 /// What was asked of a file.
@@ -73,9 +73,9 @@ impl Measured {
     }
 }
 
-/// What is asked where nobody says how fast the shaft turns.
+/// The request for a missing shaft speed.
 pub(super) const ASK_SPEED: &str = "the file states no shaft speed, and defect frequencies follow from it; give --speed RPM, or --speed-channel NAME";
-/// What is asked where nobody says which bearing it is.
+/// The request for a missing bearing.
 pub(super) const ASK_BEARING: &str = "which bearing? Give --bearing NAME, or --rollers, --pitch and --diameter, or frequencies (--bpfo, --bpfi, --bsf, --ftf)";
 
 fn usage(message: String) -> Failure {

@@ -66,7 +66,7 @@ fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
     Some((even(&times, unit), name))
 }
 
-/// A warning, where a rate that was given is not the one that the file tells.
+/// A warning, where a rate that was given differs from the file's.
 fn contradiction(
     given: &str,
     hz: f64,
@@ -79,7 +79,7 @@ fn contradiction(
         (None, Some((Ok(other), name))) => (other, format!("the column `{name}`")),
         (None, Some((Err(why), name))) => {
             return Some(format!(
-                "{given} Hz was taken, but the times in `{name}` tell no rate: {why}"
+                "{given} Hz was taken, but the times in `{name}` give no rate: {why}"
             ));
         }
     };

@@ -107,7 +107,7 @@ fn of_full_scale(
     })
 }
 
-/// The unit of the file's numbers as they stand.
+/// The unit of the file's numbers as written.
 fn of_file(
     name: &str,
     channel: &Channel,
@@ -125,7 +125,7 @@ fn of_file(
             Unit::given(text).map_err(|error| usage(format!("--{whose}unit {text}: {error}")))?;
         if is_wav && stated.is_none() && largest > 1.0 && given.name != "counts" {
             return Err(usage(format!(
-                "--{whose}unit {text}: the numbers of this WAV are counts of a converter ({}, full scale {largest}); what that is in {} \
+                "--{whose}unit {text}: the numbers of this WAV are counts of an ADC ({}, full scale {largest}); what that is in {} \
                  the file does not say: give --{whose}full-scale, such as --{whose}full-scale {}, or --{whose}unit counts",
                 channel.stored_as,
                 given.name,

@@ -27,7 +27,7 @@ enum Body<'a> {
 pub(super) struct Tag {
     pub(super) kind: u32,
     pub(super) bytes: u64,
-    /// Up to four bytes of data may stand within the tag.
+    /// Up to four bytes of data may be within the tag.
     pub(super) small: Option<[u8; 4]>,
 }
 

@@ -276,7 +276,7 @@ fn text(bytes: &[u8]) -> String {
     text.trim().trim_matches('"').trim().to_owned()
 }
 
-/// Gives the columns the names and units that stand above them.
+/// Gives the columns the names and units that are above them.
 fn name(
     columns: &mut [Column],
     delimiter: Delimiter,

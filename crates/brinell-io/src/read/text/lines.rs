@@ -20,7 +20,7 @@ const MAX_LINE: usize = 16 << 20;
 /// Values handed on at a time, whatever the blocks and threads: what is summed piece by piece comes out the same.
 const PIECE: usize = 16 << 10;
 
-/// Streams the values of one field of every line from where `reader` stands.
+/// Streams the values of one field of every line from where `reader` is.
 pub(super) fn column(
     reader: &mut (impl Read + Send),
     layout: &Layout,

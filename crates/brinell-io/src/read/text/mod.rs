@@ -21,7 +21,7 @@ use layout::Layout;
 /// Lines that decide the layout.
 const SAMPLE: u64 = 256 << 10;
 
-/// What stands between the numbers of a line.
+/// What is between the numbers of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
     /// `,`
@@ -46,7 +46,7 @@ impl Delimiter {
     }
 }
 
-/// What stands before a number's fraction.
+/// What is before a number's fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimal {
     /// `0.5`

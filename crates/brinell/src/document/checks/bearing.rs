@@ -234,14 +234,14 @@ impl Checker<'_> {
         if c.inner_diameter_mm >= pitch {
             self.error(
                 CAGE_INNER,
-                "the roller centres must lie within the cage's section".into(),
+                "the roller centres must be within the cage's section".into(),
                 format!("< {}", short(pitch)),
                 &[PITCH],
             );
         } else if c.outer_diameter_mm <= pitch {
             self.error(
                 CAGE_OUTER,
-                "the roller centres must lie within the cage's section".into(),
+                "the roller centres must be within the cage's section".into(),
                 format!("> {}", short(pitch)),
                 &[PITCH],
             );

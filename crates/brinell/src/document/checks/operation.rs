@@ -21,7 +21,7 @@ const PASSBAND: f64 = 0.4;
 /// Lubrication Technology 98, 1976, 580-585); this leaves three times as much.
 const MOST_SPEED_FACTOR: f64 = 1e7;
 
-/// Multiple of the static load rating that no bearing carries. The rating stands for 4 GPa at the heaviest roller (ISO 76), and a line contact's
+/// Multiple of the static load rating that no bearing carries. The rating represents 4 GPa at the heaviest roller (ISO 76), and a line contact's
 /// pressure grows with the square root of the load, so this is 12.6 GPa, and 9.9 GPa on average over the contact: more than the hardness of
 /// bearing steel, some 8 GPa (60 HRC), which is the average pressure that it flows under. From about 30 times the rating on, a roller is squeezed
 /// so hard that a run hardly moves.
@@ -93,7 +93,7 @@ impl Checker<'_> {
             self.error(
                 SPEED,
                 format!(
-                    "{} r/min{place} on a pitch diameter of {} mm is a speed factor of {} mm r/min; no bearing stands more than {MOST_SPEED_FACTOR:e}",
+                    "{} r/min{place} on a pitch diameter of {} mm is a speed factor of {} mm r/min; no bearing allows more than {MOST_SPEED_FACTOR:e}",
                     short(speed),
                     short(pitch),
                     short(speed.abs() * pitch)

@@ -117,23 +117,23 @@ impl Checker<'_> {
             s.converter_range_m_per_s2.is_some(),
             s.converter_range_mv.is_some(),
         );
-        // 0 stands for bits that could not be read.
+        // 0 represents bits that could not be read.
         match s.converter_bits {
             Some(0) => {}
             Some(_) if !range && !volts => self.error(
                 BITS,
-                "a converter's steps follow from its range, which is not given".into(),
+                "an ADC's steps follow from its range, which is not given".into(),
                 either(),
                 &[],
             ),
             Some(_) if range && volts => self.error(
                 VOLTS,
-                "the converter's range is given twice".into(),
+                "the ADC's range is given twice".into(),
                 either(),
                 &[RANGE],
             ),
-            None if range => self.error(RANGE, "a range without a converter".into(), either(), &[]),
-            None if volts => self.error(VOLTS, "a range without a converter".into(), either(), &[]),
+            None if range => self.error(RANGE, "a range without an ADC".into(), either(), &[]),
+            None if volts => self.error(VOLTS, "a range without an ADC".into(), either(), &[]),
             _ => {}
         }
         if volts && self.s.sensor.sensitivity_mv_per_m_per_s2.is_none() {

@@ -54,7 +54,7 @@ impl Checker<'_> {
             [text, other] => {
                 let key = keys[usize::from(text.is_none())].clone();
                 let empty = text.or(other).is_some_and(|text| text.starts_with("[]"));
-                // A list that came out empty and does not stand there as such was reported as unreadable.
+                // A list that came out empty and is not there as such was reported as unreadable.
                 let unread = polygons.iter().all(Vec::is_empty) && !empty;
                 (!unread).then_some(key)
             }
@@ -95,7 +95,7 @@ impl Checker<'_> {
                 ),
                 Fault::Flat { polygon } => (
                     format!(
-                        "{} has no area: its corners lie on one line",
+                        "{} has no area: its corners are on one line",
                         which(polygon)
                     ),
                     "a polygon that encloses something",
@@ -158,7 +158,7 @@ impl Checker<'_> {
                 self.warn(
                     &format!("defects.{i}.axial_offset_mm"),
                     format!(
-                        "moves damage off the raceway's edge: z from {} to {} mm; the roller covers -{2} to {2} mm and what lies beyond is left out",
+                        "moves damage off the raceway's edge: z from {} to {} mm; the roller covers -{2} to {2} mm and what is beyond is left out",
                         short(low),
                         short(high),
                         short(half)
@@ -299,7 +299,7 @@ impl Checker<'_> {
             self.warn(
                 &key,
                 format!(
-                    "damage from z = {} to {} mm goes off the raceway's edge; the roller covers -{3} to {3} mm and what lies beyond is left out{2}",
+                    "damage from z = {} to {} mm goes off the raceway's edge; the roller covers -{3} to {3} mm and what is beyond is left out{2}",
                     short(low),
                     short(high),
                     hint_of_scale(high - low, 2.0 * half),

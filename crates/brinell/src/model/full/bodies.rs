@@ -22,7 +22,7 @@ pub(super) fn edge_reaction(
     ws.edge_force.fill(0.0);
     for side in SIDES {
         let contacts = &ws.contacts[side as usize];
-        for &slot in &model.exposure[side as usize].slots {
+        for &slot in &model.broad_phase[side as usize].slots {
             if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
                 continue;
             }
@@ -32,7 +32,7 @@ pub(super) fn edge_reaction(
                 ring: turn.angle,
             };
             let arm = model.geometry.pitch_radius + q[l.r() + slot];
-            let delta = contacts.approach[slot];
+            let delta = contacts.deformation[slot];
             let defects = model.defects_of(slot, side);
             let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
             ws.edge_force[slot] -= e.orbit / arm;

@@ -1,7 +1,7 @@
 //! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
 //!
 //! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. The rollers'
-//! share stands twice: `lanes` for a group of rollers at a time, and `plain` for one, with the functions of the standard library, to hold the other
+//! share is written twice: `lanes` for a group of rollers at a time, and `plain` for one, with the functions of the standard library, to hold the other
 //! against. Cages, rings and the push of edges are the same for both.
 
 mod bodies;

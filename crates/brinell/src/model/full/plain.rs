@@ -1,7 +1,7 @@
 //! The rollers one by one, with the functions of the standard library: slow, and plain to read beside the model's text.
 
 use super::{Sums, Turn};
-use crate::defect::{Angles, SIDES, Side, acting};
+use crate::defect::{Angles, SIDES, Side, damaged_contact};
 use crate::model::{Model, Power, Workspace};
 
 /// The rollers' accelerations, into `a`, and what they do to everything else.
@@ -18,7 +18,7 @@ pub(super) fn rollers(
     let [xi, xo] = [l.inner(), l.outer()].map(|at| [q[at], q[at + 1]]);
     let [vi, vo] = [l.inner(), l.outer()].map(|at| [v[at], v[at + 1]]);
     a.fill(0.0);
-    ws.heaviest = Default::default();
+    ws.max_elastic = Default::default();
     let mut sums = Sums {
         on_inner: [0.0; 2],
         on_outer: [0.0; 2],
@@ -58,14 +58,14 @@ pub(super) fn rollers(
                     tangential(vo) - (orbit_speed + roll),
                 ),
             };
-            let damage = acting(model.defects_of(slot, side), law, &angles, side, delta);
+            let damage = damaged_contact(model.defects_of(slot, side), law, &angles, side, delta);
             let elastic = damage.map_or_else(|| law.healthy(delta), |d| d.elastic);
             normal[k] = law.with_damping(elastic, rate);
             friction[k] = model.friction.force(normal[k], slip);
             power.contact += (normal[k] - elastic) * rate;
             power.friction += friction[k] * slip;
             let c = &mut ws.contacts[k];
-            c.approach[slot] = delta;
+            c.deformation[slot] = delta;
             c.approach_rate[slot] = rate;
             c.power[slot] = law.exponent.of(delta);
             c.elastic[slot] = elastic;
@@ -74,7 +74,7 @@ pub(super) fn rollers(
             c.slip[slot] = slip;
             c.on_damage[slot] = damage.is_some();
             c.damaged_length[slot] = damage.map_or(0.0, |d| d.floor.damaged_length);
-            ws.heaviest[k][0] = ws.heaviest[k][0].max(elastic);
+            ws.max_elastic[k][0] = ws.max_elastic[k][0].max(elastic);
         }
         let [q_in, q_out] = normal;
         let [f_in, f_out] = friction;

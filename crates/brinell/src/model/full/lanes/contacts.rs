@@ -1,28 +1,32 @@
-//! Contacts of rollers with raceways: how each moves, what may stand on damage, elementary functions, damage, and what those that are closed
+//! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what those that are closed
 //! carry.
 
 use super::{column, columns, pair, polar};
-use crate::defect::{Angles, SIDES, Side, acting_given};
+use crate::defect::{Angles, SIDES, Side, damaged_contact_given};
 use crate::elementary::Exponent;
 use crate::lanes::{self, Lanes};
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
 
-/// Finds what may stand on damage.
+/// Finds what may be on damage.
 #[inline(always)]
-pub(super) fn exposed<L: Lanes>(model: &Model, ws: &mut Workspace) {
+pub(super) fn candidates<L: Lanes>(model: &Model, ws: &mut Workspace) {
     let count = model.layout.slots / L::COUNT;
     let sin = column::<L>(&ws.sin, 0, count);
     let cos = column::<L>(&ws.cos, 0, count);
-    for (k, exposure) in model.exposure.iter().enumerate() {
-        if exposure.slots.is_empty() {
+    for (k, broad_phase) in model.broad_phase.iter().enumerate() {
+        if broad_phase.slots.is_empty() {
             continue;
         }
-        exposure.lanes::<L>((sin, cos), &ws.directions[k], &mut ws.exposed[k][..count]);
+        broad_phase.lanes::<L>(
+            (sin, cos),
+            &ws.directions[k],
+            &mut ws.candidates[k][..count],
+        );
     }
 }
 
-/// How each contact moves: approach, its rate and slip.
+/// How each contact moves: deformation, its rate and slip.
 #[inline(always)]
 pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
     let l = &model.layout;
@@ -67,11 +71,11 @@ pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: 
     }
 }
 
-/// Approach, its rate and slip, to write to.
+/// Elastic deformation, its rate and slip, to write to.
 #[inline(always)]
 fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 3] {
     [
-        &mut L::groups_mut(&mut contacts.approach)[..count],
+        &mut L::groups_mut(&mut contacts.deformation)[..count],
         &mut L::groups_mut(&mut contacts.approach_rate)[..count],
         &mut L::groups_mut(&mut contacts.slip)[..count],
     ]
@@ -87,82 +91,82 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
         let law = model.contact(side);
         let stiffness = L::splat(law.stiffness);
         let contacts = &mut ws.contacts[side as usize];
-        let approach = column::<L>(&contacts.approach, 0, count);
+        let deformation = column::<L>(&contacts.deformation, 0, count);
         let slip = column::<L>(&contacts.slip, 0, count);
-        let exposed = &ws.exposed[side as usize][..count];
+        let candidates = &ws.candidates[side as usize][..count];
         let power = &mut L::groups_mut(&mut contacts.power)[..count];
         let elastic = &mut L::groups_mut(&mut contacts.elastic)[..count];
         let tanh = &mut L::groups_mut(&mut contacts.friction)[..count];
-        let near = &mut ws.near[side as usize][..count];
+        let maybe_closed = &mut ws.maybe_closed[side as usize][..count];
         for group in 0..count {
-            let delta = L::new(approach[group]);
+            let delta = L::new(deformation[group]);
             // Outside the load zone whole groups of inner contacts are open; a raised edge may still meet one.
-            near[group] = exposed[group] != 0 || delta.any_positive();
+            maybe_closed[group] = candidates[group] != 0 || delta.any_positive();
             let mut x = L::zero();
-            if near[group] {
+            if maybe_closed[group] {
                 x = self::power(law.exponent, delta);
             }
             power[group] = x.array();
             elastic[group] = (stiffness * x).array();
         }
         for group in 0..count {
-            if near[group] {
+            if maybe_closed[group] {
                 tanh[group] = lanes::tanh(L::new(slip[group]) * per_slip).array();
             }
         }
     }
 }
 
-/// Elastic forces of the contacts that stand on damage, section 3, in place of those of healthy raceways.
+/// Elastic forces of the contacts that are on damage, section 3, in place of those of healthy raceways.
 #[inline(always)]
 pub(super) fn damage<L: Lanes>(model: &Model, q: &[f64], ring_angle: f64, ws: &mut Workspace) {
     for side in SIDES {
         let k = side as usize;
-        if model.exposure[k].slots.is_empty() {
+        if model.broad_phase[k].slots.is_empty() {
             continue;
         }
         let contacts = &mut ws.contacts[k];
         contacts.on_damage.fill(false);
         contacts.damaged_length.fill(0.0);
         let count = model.layout.slots / L::COUNT;
-        for (group, exposed) in ws.exposed[k][..count].iter().enumerate() {
-            if *exposed != 0 {
+        for (group, candidates) in ws.candidates[k][..count].iter().enumerate() {
+            if *candidates != 0 {
                 let first = group * L::COUNT;
-                on_damage(model, (side, first, *exposed), (q, ring_angle), contacts);
+                on_damage(model, (side, first, *candidates), (q, ring_angle), contacts);
             }
         }
     }
 }
 
-/// `exposed` has a bit for each slot from `first`.
+/// `candidates` has a bit for each slot from `first`.
 #[inline(never)]
 fn on_damage(
     model: &Model,
-    (side, first, mut exposed): (Side, usize, u8),
+    (side, first, mut candidates): (Side, usize, u8),
     (q, ring_angle): (&[f64], f64),
     contacts: &mut Contacts,
 ) {
     let l = &model.layout;
-    while exposed != 0 {
-        let slot = first + exposed.trailing_zeros() as usize;
-        exposed &= exposed - 1;
+    while candidates != 0 {
+        let slot = first + candidates.trailing_zeros() as usize;
+        candidates &= candidates - 1;
         let angles = Angles {
             orbit: q[l.theta() + slot],
             spin: q[l.phi() + slot],
             ring: ring_angle,
         };
-        let acting = acting_given(
+        let damaged = damaged_contact_given(
             model.defects_of(slot, side),
             model.contact(side),
             &angles,
             side,
-            contacts.approach[slot],
+            contacts.deformation[slot],
             contacts.power[slot],
         );
-        if let Some(acting) = acting {
-            contacts.elastic[slot] = acting.elastic;
+        if let Some(damaged) = damaged {
+            contacts.elastic[slot] = damaged.elastic;
             contacts.on_damage[slot] = true;
-            contacts.damaged_length[slot] = acting.floor.damaged_length;
+            contacts.damaged_length[slot] = damaged.floor.damaged_length;
         }
     }
 }
@@ -172,7 +176,7 @@ fn on_damage(
 pub(super) struct Closed<L> {
     pub(super) contact: L,
     pub(super) friction: L,
-    heaviest: L,
+    max_elastic: L,
 }
 
 /// Normal forces (section 2) and friction (section 4) of one side.
@@ -180,7 +184,7 @@ pub(super) struct Closed<L> {
 pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) -> Closed<L> {
     let count = model.layout.slots / L::COUNT;
     let contacts = &mut ws.contacts[side as usize];
-    let near = &ws.near[side as usize][..count];
+    let maybe_closed = &ws.maybe_closed[side as usize][..count];
     let rate = column::<L>(&contacts.approach_rate, 0, count);
     let slip = column::<L>(&contacts.slip, 0, count);
     let elastic = column::<L>(&contacts.elastic, 0, count);
@@ -192,11 +196,11 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
     let mut sums = Closed {
         contact: L::zero(),
         friction: L::zero(),
-        heaviest: L::zero(),
+        max_elastic: L::zero(),
     };
     for group in 0..count {
         let (mut normal, mut tangential) = (L::zero(), L::zero());
-        if near[group] {
+        if maybe_closed[group] {
             let elastic = L::new(elastic[group]);
             let rate = L::new(rate[group]);
             let pressed = rate.times_plus(damping, elastic).positive_part();
@@ -205,12 +209,12 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
             tangential = mu * normal * L::new(friction[group]);
             sums.contact = (normal - elastic).times_plus(rate, sums.contact);
             sums.friction = tangential.times_plus(L::new(slip[group]), sums.friction);
-            sums.heaviest = sums.heaviest.at_least(elastic);
+            sums.max_elastic = sums.max_elastic.at_least(elastic);
         }
         force[group] = normal.array();
         friction[group] = tangential.array();
     }
-    L::groups_mut(&mut ws.heaviest[side as usize])[0] = sums.heaviest.array();
+    L::groups_mut(&mut ws.max_elastic[side as usize])[0] = sums.max_elastic.array();
     sums
 }
 

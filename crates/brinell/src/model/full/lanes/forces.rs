@@ -30,7 +30,7 @@ pub(super) fn forces<L: Lanes>(
     let q_r = column::<L>(q, 0, count);
     let v_r = column::<L>(v, 0, count);
     let v_theta = column::<L>(v, 1, count);
-    let live = column::<L>(&model.live, 0, count);
+    let mask = column::<L>(&model.roller_mask, 0, count);
     let heavy = model.gravity != [0.0; 2];
     let (xi, xo) = (pair(&q[l.inner()..]), pair(&q[l.outer()..]));
     let [out_r, out_theta, out_phi] = columns_mut::<L>(a, count);
@@ -73,10 +73,10 @@ pub(super) fn forces<L: Lanes>(
         let mut a_t = (dr + dr).minus_times(dtheta, (tangential - drag) * per_mass);
         if heavy {
             // Nothing else moves the slots that have no roller.
-            let live = L::new(live[group]);
+            let mask = L::new(mask[group]);
             let (g_r, g_t) = polar(axes, &gravity);
-            a_r = live.times_plus(g_r, a_r);
-            a_t = live.times_plus(g_t, a_t);
+            a_r = mask.times_plus(g_r, a_r);
+            a_t = mask.times_plus(g_t, a_t);
         }
         // The pocket rubs where it presses: behind the roller or before it.
         let around = f_out - f_in + rub.xor(push.and_bits(1 << 63));

@@ -1,4 +1,4 @@
-//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may stand on damage; the elementary functions;
+//! The rollers, a group of lanes at a time, in passes: how each contact moves and what may be on damage; the elementary functions;
 //! damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
 
 mod contacts;
@@ -18,14 +18,14 @@ pub(super) fn rollers<L: Lanes>(
     turn: Turn,
     ws: &mut Workspace,
 ) -> Sums {
-    for (exposure, directions) in model.exposure.iter().zip(&mut ws.directions) {
-        exposure.turn(turn.angle, directions);
+    for (broad_phase, directions) in model.broad_phase.iter().zip(&mut ws.directions) {
+        broad_phase.turn(turn.angle, directions);
     }
     // A pass for each function that is a long chain of operations which wait for one another: with little in between, the processor
     // works on several groups at once.
     directions::<L::Pair>(model, q, ws);
     contacts::motion::<L>(model, q, v, turn.speed, ws);
-    contacts::exposed::<L::Pair>(model, ws);
+    contacts::candidates::<L::Pair>(model, ws);
     contacts::functions::<L::Pair>(model, ws);
     contacts::damage::<L::Pair>(model, q, turn.angle, ws);
     forces::forces::<L>(model, q, v, a, turn.speed, ws)

@@ -1,10 +1,10 @@
-//! What a roller stands on, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in constant time.
+//! Damage under a roller, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in constant time.
 
 use super::Shape;
 use super::bands::Band;
-use super::course::{Course, Line};
 use super::envelope::envelope;
 use super::map_slices::{along_the_envelope, at_a_point};
+use super::piecewise::{Line, PiecewisePolynomial};
 use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
 
@@ -58,11 +58,11 @@ pub(super) enum Cover {
 
 /// Depths under one side of a roller.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ground {
-    /// First and last s at which the contact stands on damage, m: the shape's arc, and what the envelope of raised edges adds.
+pub struct DepthProfile {
+    /// First and last s at which the contact is on damage, m: the shape's arc, and what the envelope of raised edges adds.
     pub(super) arc: (f64, f64),
     /// h_env of h_s, where the path is the envelope: for the laws that know one depth, and under slices that the damage covers from end to end.
-    pub(super) floor: Option<Course>,
+    pub(super) floor: Option<PiecewisePolynomial>,
     /// Slices.
     pub(super) cover: Cover,
     /// n_s.
@@ -84,7 +84,7 @@ pub(super) struct Surface {
     pub(super) extremes: (f64, f64),
 }
 
-impl Ground {
+impl DepthProfile {
     /// For a roller of length `length` that meets the damage with the relative radius R_eq (m); `depth` (m) is the defect's, `middle` (m) the z
     /// of a shape that is a width alone.
     pub(super) fn new(
@@ -98,7 +98,7 @@ impl Ground {
         let along_envelope = rules.path == RollerPath::Envelope;
         let surface = along_envelope.then(|| Surface::new(shape, depth, radius, sliced));
         let floor = surface.as_ref().map(|x| envelope(&x.floor, radius));
-        let mut ground = Self {
+        let mut profile = Self {
             arc: shape.arc(),
             floor,
             cover: Cover::Unsliced,
@@ -112,24 +112,24 @@ impl Ground {
                 .map(|k| slice_borders(k, rules.slices, length)[0])
                 .collect();
             cuts.push(0.5 * length);
-            ground.bands = Band::all(&borders, &crossings, &cuts);
-            ground.cover = match shape {
+            profile.bands = Band::all(&borders, &crossings, &cuts);
+            profile.cover = match shape {
                 Shape::DepthMap(grid) => Cover::Slices(if along_envelope {
                     along_the_envelope(grid, rules.slices, length, radius)
                 } else {
                     at_a_point(grid, rules.slices, length)
                 }),
                 _ if !along_envelope || shape.is_straight() => Cover::Even,
-                _ => Cover::Slices(ground.tracks(shape, (depth, middle), length, radius)),
+                _ => Cover::Slices(profile.tracks(shape, (depth, middle), length, radius)),
             };
         }
-        if let Cover::Slices(tracks) = &ground.cover {
-            ground.arc = tracks
+        if let Cover::Slices(tracks) = &profile.cover {
+            profile.arc = tracks
                 .iter()
                 .map(Track::span)
-                .fold(ground.arc, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+                .fold(profile.arc, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         }
-        ground
+        profile
     }
 
     /// Slices along the envelope of damage that has one depth at each s.

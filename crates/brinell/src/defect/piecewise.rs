@@ -93,12 +93,12 @@ impl Lookup {
 
 /// Pieces side by side, 0 before and after them; at a jump the right-hand value.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Course {
+pub struct PiecewisePolynomial {
     lookup: Lookup,
     pieces: Vec<Piece>,
 }
 
-impl Course {
+impl PiecewisePolynomial {
     /// From straight pieces in ascending order that do not overlap; what lies between them is 0.
     pub fn of_lines(lines: &[Line]) -> Self {
         let mut pieces: Vec<Piece> = Vec::with_capacity(lines.len());
@@ -136,11 +136,6 @@ impl Course {
     /// First and last s of what is not 0, m.
     pub fn span(&self) -> (f64, f64) {
         self.lookup.span()
-    }
-
-    /// Whether the function is 0 everywhere.
-    pub fn is_zero(&self) -> bool {
-        self.pieces.iter().all(|p| p.c == [0.0; 3])
     }
 
     /// The piece that holds s, and how far into it s lies.
@@ -217,7 +212,7 @@ mod tests {
 
     #[test]
     fn analytic_lines_gaps_and_jumps() {
-        let c = Course::of_lines(&[
+        let c = PiecewisePolynomial::of_lines(&[
             Line {
                 from: -1.0,
                 to: 0.0,
@@ -242,7 +237,7 @@ mod tests {
         }
         assert!((c.integral() - (1.0 + 2.5 + 3.0)).abs() < 1e-14);
         assert_eq!(c.slope(-0.3), 2.0);
-        assert_eq!(Course::of_lines(&[]).value(0.0), 0.0);
+        assert_eq!(PiecewisePolynomial::of_lines(&[]).value(0.0), 0.0);
     }
 
     #[test]
@@ -263,7 +258,7 @@ mod tests {
             })
             .filter(|l| l.to > l.from)
             .collect();
-        let c = Course::of_lines(&lines);
+        let c = PiecewisePolynomial::of_lines(&lines);
         for k in 0..100_000 {
             let s = 200.0 * f64::from(k) / 1e5;
             let plain = lines

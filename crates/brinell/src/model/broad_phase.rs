@@ -1,4 +1,4 @@
-//! Which contacts may stand on damage, found for a group of rollers at a time before any of it is looked up.
+//! Which contacts may be on damage, found for a group of rollers at a time before any of it is looked up.
 
 use super::Layout;
 use crate::defect::{Defect, Side};
@@ -19,7 +19,7 @@ struct Window {
 
 /// What of a model's damage can meet the contacts of one side.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Exposure {
+pub struct BroadPhase {
     /// Slots whose contact some defect can meet.
     pub slots: Vec<usize>,
     windows: Vec<Window>,
@@ -32,7 +32,7 @@ const NEVER: f64 = 2.0;
 /// Round-off of a cosine near 1, with room.
 const SLACK: f64 = 1e-14;
 
-impl Exposure {
+impl BroadPhase {
     /// For the defects of one model.
     pub(super) fn new(layout: &Layout, defects: &[Defect], side: Side) -> Self {
         let met_by = |defect: &Defect| -> Vec<bool> {
@@ -97,23 +97,25 @@ impl Exposure {
         }
     }
 
-    /// Lanes of each group that may stand on damage, a bit each: never too few.
+    /// Lanes of each group that may be on damage, a bit each: never too few.
     #[inline(always)]
     pub(super) fn lanes<L: Lanes>(
         &self,
         (sin, cos): (&[L::Group], &[L::Group]),
         directions: &[[f64; 2]],
-        exposed: &mut [u8],
+        candidates: &mut [u8],
     ) {
-        exposed.fill(0);
-        for (exposed, rollers) in exposed.iter_mut().zip(L::groups(&self.rollers)) {
-            *exposed = L::new(*rollers).above(L::zero());
+        candidates.fill(0);
+        for (candidates, rollers) in candidates.iter_mut().zip(L::groups(&self.rollers)) {
+            *candidates = L::new(*rollers).above(L::zero());
         }
         for (window, [x, y]) in self.windows.iter().zip(directions) {
             let (x, y, least) = (L::splat(*x), L::splat(*y), L::groups(&window.least));
-            for (((exposed, sin), cos), least) in exposed.iter_mut().zip(sin).zip(cos).zip(least) {
+            for (((candidates, sin), cos), least) in
+                candidates.iter_mut().zip(sin).zip(cos).zip(least)
+            {
                 let along = L::new(*cos).times_plus(x, L::new(*sin) * y);
-                *exposed |= along.above(L::new(*least));
+                *candidates |= along.above(L::new(*least));
             }
         }
     }
@@ -159,19 +161,19 @@ mod tests {
         for step in 0..40_000 {
             let (turn, ring) = (1e-4 * f64::from(step), 3.7e-3 * f64::from(step));
             for side in crate::defect::SIDES {
-                let exposure = &model.exposure[side as usize];
-                let mut directions = exposure.directions();
-                exposure.turn(ring, &mut directions);
+                let broad_phase = &model.broad_phase[side as usize];
+                let mut directions = broad_phase.directions();
+                broad_phase.turn(ring, &mut directions);
                 let theta = |slot: usize| model.pocket_angle[slot] + turn;
                 let (sin, cos): (Vec<f64>, Vec<f64>) =
                     (0..l.slots).map(|slot| theta(slot).sin_cos()).unzip();
-                let mut exposed = vec![0; l.slots / Portable::COUNT];
-                exposure.lanes::<Portable>(
+                let mut candidates = vec![0; l.slots / Portable::COUNT];
+                broad_phase.lanes::<Portable>(
                     (Portable::groups(&sin), Portable::groups(&cos)),
                     &directions,
-                    &mut exposed,
+                    &mut candidates,
                 );
-                for (group, lanes) in exposed.into_iter().enumerate() {
+                for (group, lanes) in candidates.into_iter().enumerate() {
                     for lane in 0..Portable::COUNT {
                         let slot = group * Portable::COUNT + lane;
                         let angles = crate::defect::Angles {

@@ -1,14 +1,14 @@
-//! The converter: whole steps between two ends.
+//! The ADC: whole steps between plus and minus full scale.
 
 /// An ideal converter of N bits over plus and minus full scale: 2^N codes, step 2 R / 2^N, a code at 0, so the highest is R less a step.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Converter {
+pub(super) struct Adc {
     step: f64,
     lowest: f64,
     highest: f64,
 }
 
-impl Converter {
+impl Adc {
     pub(super) fn new(bits: usize, full_scale: f64) -> Self {
         let half = 2f64.powi(bits as i32 - 1);
         Self {
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn analytic_steps_ends_and_count() {
-        let c = Converter::new(3, 4.0);
+        let c = Adc::new(3, 4.0);
         assert_eq!(c.step(), 1.0);
         let read: Vec<(f64, bool)> = [-9.0, -4.4, -0.2, 0.6, 3.4, 3.6].map(|x| c.read(x)).into();
         assert_eq!(
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn analytic_error_has_a_twelfth_of_the_step_squared() {
         // Holds where the signal crosses many steps (B. Widrow, IRE Trans. Circuit Theory 3 (1956) 266-276).
-        let c = Converter::new(12, 10.0);
+        let c = Adc::new(12, 10.0);
         let mut random = Random::new(4);
         let n = 200_000;
         let errors: Vec<f64> = (0..n)

@@ -1,32 +1,32 @@
-//! Force, stiffness and energy of a contact that stands on damage, one defect or several (section 3).
+//! Force, stiffness and energy of a contact that is on damage, one defect or several (section 3).
 //!
 //! Under `ecl` the defect with the smallest elastic sum acts. Under `sliced` all defects at a contact are one surface, the deepest at each point;
 //! a defect that leaves a point alone has no say there, so that it does not level another's raised edge. Along an envelope the roller follows
 //! the envelope of that joint surface, neighbouring defects included.
 
 use super::bands::Band;
-use super::ground::{Cover, Ground, slice_borders};
+use super::depth_profile::{Cover, DepthProfile, slice_borders};
 use super::joint::{Depths, Strip, rest};
 use super::map_slices::GAUSS;
 use super::track::settled;
 use super::{Angles, Defect, Shape, Side};
-use crate::contact::{Floor, Hertz};
+use crate::contact::{ContactReduction, Hertz};
 use crate::scenario::{Law, Surface};
 
 /// What acts in one contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Acting {
+pub struct DamagedContact {
     /// Elastic sum, N.
     pub elastic: f64,
     /// What the damage leaves.
-    pub floor: Floor,
+    pub floor: ContactReduction,
 }
 
 /// One defect under one side of a roller.
 #[derive(Clone, Copy)]
 struct Cut<'a> {
     defect: &'a Defect,
-    ground: &'a Ground,
+    profile: &'a DepthProfile,
     s: f64,
 }
 
@@ -36,10 +36,10 @@ impl<'a> Cut<'a> {
         let depths = match &self.defect.shape {
             Shape::DepthMap(grid) => Depths::Map(grid, z),
             _ => Depths::Within {
-                band: Band::at(&self.ground.bands, z),
+                band: Band::at(&self.profile.bands, z),
                 z,
-                floor: &self.ground.surface.as_ref()?.floor,
-                reached: self.ground.floor.as_ref()?,
+                floor: &self.profile.surface.as_ref()?.floor,
+                reached: self.profile.floor.as_ref()?,
             },
         };
         Some(Strip { depths, s: self.s })
@@ -51,19 +51,19 @@ impl<'a> Cut<'a> {
             return grid.under(self.s, z);
         }
         let holds = |c: [f64; 2]| c[0] <= self.s && self.s <= c[1];
-        let covered = Band::at(&self.ground.bands, z)?.chords(z).any(holds);
+        let covered = Band::at(&self.profile.bands, z)?.chords(z).any(holds);
         covered.then(|| self.defect.depth_at(self.s))
     }
 
     /// The next z above z at which that, or the form of the borders along s, may change; of a depth map along an envelope only where damage ends.
     fn next(&self, z: f64) -> f64 {
         if let Shape::DepthMap(grid) = &self.defect.shape {
-            return match &self.ground.surface {
+            return match &self.profile.surface {
                 None => grid.next_row(z),
                 Some(_) => grid.next_end(self.s, z),
             };
         }
-        let bands = &self.ground.bands;
+        let bands = &self.profile.bands;
         match bands.get(bands.partition_point(|b| b.z[1] <= z)) {
             Some(band) if band.z[0] <= z => band.next(self.s, z),
             Some(band) => band.z[0],
@@ -74,12 +74,12 @@ impl<'a> Cut<'a> {
     /// Distance of the line of contact from the damage, m; 0 on it.
     #[inline]
     fn away(&self) -> f64 {
-        let (first, last) = self.ground.arc;
+        let (first, last) = self.profile.arc;
         (first - self.s).max(self.s - last).max(0.0)
     }
 }
 
-/// The defects that bear on a contact: none where it stands on no damage; along an envelope also those beside it that a roller, resting on the
+/// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a roller, resting on the
 /// deepest floor under it, would reach.
 #[inline]
 fn cuts<'a>(
@@ -89,18 +89,18 @@ fn cuts<'a>(
 ) -> impl Iterator<Item = Cut<'a>> + Clone {
     let angles = *angles;
     let all = defects.filter_map(move |defect| {
-        let ground = defect.ground(side)?;
+        let profile = defect.depth_profile(side)?;
         let s = defect.local_angle(&angles, side) * defect.radius;
-        Some(Cut { defect, ground, s })
+        Some(Cut { defect, profile, s })
     });
     let deepest = all
         .clone()
         .filter(|cut| cut.away() == 0.0)
-        .map(|cut| cut.ground.surface.as_ref().map_or(0.0, |x| x.extremes.1))
+        .map(|cut| cut.profile.surface.as_ref().map_or(0.0, |x| x.extremes.1))
         .reduce(f64::max);
     all.filter(move |cut| {
         let away = cut.away();
-        deepest.is_some_and(|deepest| match &cut.ground.surface {
+        deepest.is_some_and(|deepest| match &cut.profile.surface {
             None => away == 0.0,
             Some(x) => away * away <= 2.0 * x.radius * (deepest - x.extremes.0),
         })
@@ -109,8 +109,8 @@ fn cuts<'a>(
 
 /// The highest raised edge (m, 0 or less) and R_eq of several defects along an envelope; `None` at a point.
 fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)> {
-    let radius = cuts.clone().next()?.ground.surface.as_ref()?.radius;
-    let surfaces = cuts.filter_map(|cut| cut.ground.surface.as_ref());
+    let radius = cuts.clone().next()?.profile.surface.as_ref()?.radius;
+    let surfaces = cuts.filter_map(|cut| cut.profile.surface.as_ref());
     Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
 }
 
@@ -151,7 +151,7 @@ fn joint<'a>(
                     Some((lowest, radius)) => {
                         let strips = cuts.clone().filter_map(move |cut| cut.strip(at));
                         let h = rest(strips, lowest, radius);
-                        // What lifts the roller counts before the line of contact stands on it.
+                        // What lifts the roller counts before the line of contact reaches it.
                         (is_covered || h < 0.0).then_some(h)
                     }
                 };
@@ -185,8 +185,8 @@ fn mean<'a>(
 ) -> Option<Mean> {
     let all = cuts.clone();
     let first = cuts.next()?;
-    let ground = first.ground;
-    let n = ground.slices as f64;
+    let profile = first.profile;
+    let n = profile.slices as f64;
     // What is covered, slices with any depth, what is left of them, and the sum over the rest; a slice counts 1.
     let (mut covered, mut met, mut left, mut sum) = (0.0, 0.0, 0.0, 0.0);
     let mut add = |count: f64, phi: f64, h: f64| {
@@ -198,16 +198,16 @@ fn mean<'a>(
         }
     };
     if cuts.next().is_some() {
-        let size = (ground.slices, first.defect.roller_length);
+        let size = (profile.slices, first.defect.roller_length);
         joint(all, size, |phi, h| add(1.0, phi, h));
     } else {
-        match &ground.cover {
+        match &profile.cover {
             Cover::Unsliced => {}
             Cover::Even => {
                 let length = first.defect.damaged_length(first.s);
                 let phi = settled(length / first.defect.roller_length);
                 if phi > 0.0 {
-                    let h = match &ground.floor {
+                    let h = match &profile.floor {
                         Some(floor) => floor.value(first.s).max(0.0),
                         None => first.defect.depth_at(first.s),
                     };
@@ -244,34 +244,34 @@ fn law_of<'a>(mut defects: impl Iterator<Item = &'a Defect>) -> Law {
 }
 
 /// What acts in the contact of a roller at `angles` on `side` that is pressed by `delta` (m); `None` off all damage.
-pub fn acting<'a>(
+pub fn damaged_contact<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
     angles: &Angles,
     side: Side,
     delta: f64,
-) -> Option<Acting> {
-    acting_given(defects, law, angles, side, delta, law.exponent.of(delta))
+) -> Option<DamagedContact> {
+    damaged_contact_given(defects, law, angles, side, delta, law.exponent.of(delta))
 }
 
 /// The same where `[delta]_+^n` is known already.
 #[inline]
-pub fn acting_given<'a>(
+pub fn damaged_contact_given<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
     angles: &Angles,
     side: Side,
     delta: f64,
     power: f64,
-) -> Option<Acting> {
+) -> Option<DamagedContact> {
     if law_of(defects.clone()) == Law::Sliced {
         let cuts = cuts(defects, angles, side);
         let undamaged = law.stiffness * power;
         let length = cuts.clone().next()?.defect.roller_length;
         let mean = mean(cuts, undamaged, delta, |x| law.healthy(x))?;
-        return Some(Acting {
+        return Some(DamagedContact {
             elastic: mean.value,
-            floor: Floor {
+            floor: ContactReduction {
                 share: 1.0 - mean.covered,
                 depth: 0.0,
                 damaged_length: mean.covered * length,
@@ -279,12 +279,12 @@ pub fn acting_given<'a>(
         });
     }
     floors(defects, angles, side)
-        .map(|floor| Acting {
+        .map(|floor| DamagedContact {
             elastic: law.damaged_given(power, delta, &floor),
             floor,
         })
         .reduce(|a, b| {
-            // With no force on either (a gap, or both floors below), the shorter remaining length stands for the contact.
+            // With no force on either (a gap, or both floors below), the shorter remaining length represents the contact.
             if b.elastic < a.elastic || (b.elastic == a.elastic && b.floor.share < a.floor.share) {
                 b
             } else {
@@ -301,7 +301,7 @@ pub fn floors<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
     side: Side,
-) -> impl Iterator<Item = Floor> + Clone {
+) -> impl Iterator<Item = ContactReduction> + Clone {
     let several = defects.clone().nth(1).is_some();
     let joint = several
         .then(|| {
@@ -309,8 +309,8 @@ pub fn floors<'a>(
             let (lowest, radius) = rolling(cuts.clone())?;
             cuts.clone().nth(1)?;
             let strips = cuts.filter_map(|cut| {
-                let lines = &cut.ground.surface.as_ref()?.floor;
-                let depths = Depths::Lines(lines, cut.ground.floor.as_ref());
+                let lines = &cut.profile.surface.as_ref()?.floor;
+                let depths = Depths::Lines(lines, cut.profile.floor.as_ref());
                 Some(Strip { depths, s: cut.s })
             });
             Some(rest(strips, lowest, radius))
@@ -322,7 +322,7 @@ pub fn floors<'a>(
         let floor = d.floor(u, side)?;
         Some(match &joint {
             None => floor,
-            Some(rest) => Floor {
+            Some(rest) => ContactReduction {
                 depth: d.depth_at(u * d.radius).min(*rest).max(0.0),
                 ..floor
             },
@@ -344,11 +344,11 @@ pub fn tangent<'a>(
         return mean(cuts, undamaged, delta, |x| law.tangent(x, None))
             .map_or(undamaged, |mean| mean.value);
     }
-    let acting = acting(defects, law, angles, side, delta);
-    law.tangent(delta, acting.map(|a| a.floor).as_ref())
+    let damaged = damaged_contact(defects, law, angles, side, delta);
+    law.tangent(delta, damaged.map(|a| a.floor).as_ref())
 }
 
-/// Elastic energy of a contact that may stand on any of `defects`, J: the integral of the acting elastic sum up to delta.
+/// Elastic energy of a contact that may be on any of `defects`, J: the integral of the elastic sum up to delta.
 pub fn energy<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     law: &Hertz,
@@ -371,7 +371,7 @@ pub fn energy<'a>(
         (None, _) => law.energy(delta),
         (Some(floor), None) => law.damaged_energy(delta, &floor),
         _ => {
-            // Overlapping damage: the acting defect may change on the way, so the work is integrated (midpoint rule).
+            // Overlapping damage: the defect that counts may change on the way, so the work is integrated (midpoint rule).
             const CELLS: u32 = 64;
             let dx = delta / f64::from(CELLS);
             let force = |x: f64| {
@@ -386,9 +386,9 @@ pub fn energy<'a>(
     }
 }
 
-/// Derivatives of a contact's elastic energy at a fixed approach with the angles that carry it over damage, N m.
+/// Derivatives of a contact's elastic energy at a fixed deformation with the angles that carry it over damage, N m.
 ///
-/// With E(x) the energy of the healthy contact at the approach x and Q(x) its force, dE/ds = (1/n_s) sum over slices of
+/// With E(x) the energy of the healthy contact at the deformation x and Q(x) its force, dE/ds = (1/n_s) sum over slices of
 /// dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta - psi - W or
 /// theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -451,12 +451,12 @@ pub fn edge_gradient<'a>(
         }
         return gradient;
     }
-    let (ground, s) = (first.ground, first.s);
-    let slope = match &ground.cover {
+    let (profile, s) = (first.profile, first.s);
+    let slope = match &profile.cover {
         Cover::Unsliced => 0.0,
         Cover::Even => {
             let phi = settled(first.defect.damaged_length(s) / first.defect.roller_length);
-            let floor = ground.floor.as_ref();
+            let floor = profile.floor.as_ref();
             floor.map_or(0.0, |floor| {
                 -phi * law.healthy(delta - floor.value(s).max(0.0)) * floor.slope(s)
             })
@@ -477,7 +477,7 @@ pub fn edge_gradient<'a>(
                     sum += track.count * (edge - phi * law.healthy(x) * sinks);
                 }
             }
-            sum / ground.slices as f64
+            sum / profile.slices as f64
         }
     };
     gradient.add(first.defect.surface, slope * first.defect.radius);

@@ -1,0 +1,347 @@
+use super::*;
+use crate::bearing::kinematics::{Geometry, Kinematics};
+use std::f64::consts::TAU;
+
+const COUNTS: [&str; 2] = ["bearing.rollers_per_row", "bearing.rows"];
+const BEARING: [&str; 14] = [
+    "bearing.inner_raceway_diameter_mm",
+    "bearing.outer_raceway_diameter_mm",
+    "bearing.pitch_diameter_mm",
+    "bearing.roller_diameter_mm",
+    "bearing.roller_length_mm",
+    "bearing.rollers_per_row",
+    "bearing.rows",
+    "bearing.row_stagger_deg",
+    "bearing.radial_clearance_um",
+    "bearing.outer_gap_um",
+    "bearing.inner_ring_mass_kg",
+    "bearing.outer_ring_mass_kg",
+    "bearing.roller_mass_kg",
+    "cage.mass_kg",
+];
+const CAGE: [&str; 5] = [
+    "cage.inner_diameter_mm",
+    "cage.outer_diameter_mm",
+    "cage.pocket_clearance_mm",
+    "cage.guide_clearance_mm",
+    "cage.guide_width_mm",
+];
+const OPTIONAL: [&str; 5] = [
+    "cage.guidance",
+    "contact.inner_stiffness",
+    "contact.outer_stiffness",
+    "contact.damping_ns_per_m",
+    "friction.raceway_coefficient",
+];
+
+fn number(entry: &Entry, key: &str) -> f64 {
+    match entry
+        .values
+        .iter()
+        .find(|value| value.key == key)
+        .map(|value| &value.value)
+    {
+        Some(Datum::Number(number)) => *number,
+        Some(Datum::Integer(count)) => *count as f64,
+        other => panic!("{}: {key} is {other:?}", entry.name),
+    }
+}
+
+fn bearing(entry: &Entry, key: &str) -> f64 {
+    number(entry, &format!("bearing.{key}"))
+}
+
+fn per_turn(name: &str) -> Kinematics {
+    let entry = find(name).unwrap();
+    let geometry = Geometry {
+        inner_raceway_diameter: bearing(entry, "inner_raceway_diameter_mm") * 1e-3,
+        outer_raceway_diameter: bearing(entry, "outer_raceway_diameter_mm") * 1e-3,
+        pitch_diameter: bearing(entry, "pitch_diameter_mm") * 1e-3,
+        roller_diameter: bearing(entry, "roller_diameter_mm") * 1e-3,
+        rollers_per_row: bearing(entry, "rollers_per_row") as usize,
+    };
+    Kinematics::pure_rolling(&geometry, TAU)
+}
+
+#[test]
+fn prop_every_entry_is_complete_and_has_no_other_keys() {
+    assert!(all().len() >= 6);
+    assert_eq!(all()[0].name, "NN3007");
+    for entry in all() {
+        assert!(
+            !entry.title.trim().is_empty() && !entry.title.contains('\n'),
+            "{}",
+            entry.name
+        );
+        for key in BEARING.iter().chain(&CAGE) {
+            number(entry, key);
+        }
+        for value in &entry.values {
+            let key = value.key.as_str();
+            assert!(
+                [&BEARING[..], &CAGE, &OPTIONAL].concat().contains(&key),
+                "{}: {key}",
+                entry.name
+            );
+            let fits = match &value.value {
+                Datum::Number(number) => {
+                    number.is_finite() && !COUNTS.contains(&key) && key != "cage.guidance"
+                }
+                Datum::Integer(count) => *count > 0 && COUNTS.contains(&key),
+                Datum::Text(choice) => {
+                    key == "cage.guidance"
+                        && ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str())
+                }
+            };
+            assert!(fits, "{}: {key} = {:?}", entry.name, value.value);
+        }
+        assert!(
+            entry.fact(BORE).is_some_and(|bore| bore > 0.0),
+            "{}",
+            entry.name
+        );
+        for fact in &entry.facts {
+            assert!(
+                [BORE, STATIC_RATING].contains(&fact.key.as_str()),
+                "{}: {}",
+                entry.name,
+                fact.key
+            );
+        }
+        let all = entry.values.iter().chain(&entry.facts);
+        let mut keys: Vec<_> = all.map(|value| &value.key).collect();
+        keys.sort();
+        keys.dedup();
+        assert_eq!(
+            keys.len(),
+            entry.values.len() + entry.facts.len(),
+            "{}",
+            entry.name
+        );
+    }
+}
+
+#[test]
+fn prop_every_value_says_where_it_comes_from() {
+    for entry in all() {
+        for value in entry.values.iter().chain(&entry.facts) {
+            assert!(
+                value.source.trim().len() > 10,
+                "{}: {} = {:?}",
+                entry.name,
+                value.key,
+                value.source
+            );
+            let says = value.source.to_lowercase().contains("estimated");
+            assert!(
+                !says || value.estimated,
+                "{}: {} is an estimate not marked as one",
+                entry.name,
+                value.key
+            );
+        }
+    }
+}
+
+#[test]
+fn prop_every_entry_fits_together() {
+    // Nominal diameters to 0.01 mm: the clearance is a key of its own.
+    for entry in all() {
+        let name = &entry.name;
+        let (inner, outer) = (
+            bearing(entry, "inner_raceway_diameter_mm"),
+            bearing(entry, "outer_raceway_diameter_mm"),
+        );
+        let (pitch, roller) = (
+            bearing(entry, "pitch_diameter_mm"),
+            bearing(entry, "roller_diameter_mm"),
+        );
+        assert!(
+            (inner + roller - pitch).abs() <= 0.01,
+            "{name}: inner raceway"
+        );
+        assert!(
+            (outer - roller - pitch).abs() <= 0.01,
+            "{name}: outer raceway"
+        );
+
+        let rollers = bearing(entry, "rollers_per_row");
+        let chord = pitch * (std::f64::consts::PI / rollers).sin();
+        assert!(
+            chord > roller + 2.0 * number(entry, "cage.pocket_clearance_mm"),
+            "{name}: rollers overlap"
+        );
+
+        let (cage_inner, cage_outer) = (
+            number(entry, "cage.inner_diameter_mm"),
+            number(entry, "cage.outer_diameter_mm"),
+        );
+        assert!(
+            inner < cage_inner && cage_inner < pitch && pitch < cage_outer && cage_outer < outer,
+            "{name}: cage"
+        );
+
+        for key in [
+            "roller_length_mm",
+            "inner_ring_mass_kg",
+            "outer_ring_mass_kg",
+            "roller_mass_kg",
+            "radial_clearance_um",
+        ] {
+            assert!(bearing(entry, key) > 0.0, "{name}: {key}");
+        }
+        assert!(
+            (0.0..360.0 / rollers).contains(&bearing(entry, "row_stagger_deg")),
+            "{name}: stagger"
+        );
+
+        // A steel roller of the effective length, and up to 20 % more where chamfers and crown do not bear.
+        let bearing_part =
+            7850e-9 * TAU / 8.0 * roller * roller * bearing(entry, "roller_length_mm");
+        let ratio = bearing(entry, "roller_mass_kg") / bearing_part;
+        assert!(
+            (0.97..1.2).contains(&ratio),
+            "{name}: roller mass is {ratio} of its volume"
+        );
+    }
+}
+
+#[test]
+fn prop_names_are_found_whatever_their_spelling() {
+    for spelling in ["NN3007", "nn3007", "NN 3007", " nn-30 07"] {
+        assert_eq!(
+            find(spelling).map(|entry| entry.name.as_str()),
+            Some("NN3007"),
+            "{spelling:?}"
+        );
+    }
+    assert_eq!(find("NN3008"), None);
+    assert_eq!(find(""), None);
+    for entry in all() {
+        assert!(std::ptr::eq(find(&entry.name).unwrap(), entry));
+    }
+}
+
+#[test]
+fn prop_bad_text_is_named() {
+    let fault = |text| parse(text).unwrap_err();
+    assert!(fault("X = 1").contains("X is not a table"));
+    assert!(fault("[X]").contains("X has no title"));
+    let extra =
+        "[X]\ntitle = 't'\n'a.b' = { value = 1.0, source = 's', estimated = false, unit = 'm' }";
+    assert!(fault(extra).contains("X: a.b is not"));
+}
+
+#[test]
+fn lit_nn3007_is_the_paper() {
+    // Li et al. 2023, Table 1 and the text after it.
+    let entry = find("NN3007").unwrap();
+    for (key, printed) in [
+        ("bearing.inner_raceway_diameter_mm", 43.0),
+        ("bearing.outer_raceway_diameter_mm", 55.0),
+        ("bearing.pitch_diameter_mm", 49.0),
+        ("bearing.roller_diameter_mm", 6.0),
+        ("bearing.roller_length_mm", 6.0),
+        ("bearing.rollers_per_row", 19.0),
+        ("bearing.rows", 2.0),
+        ("bearing.radial_clearance_um", 10.0),
+        ("bearing.outer_gap_um", 0.0),
+        ("bearing.inner_ring_mass_kg", 0.1010),
+        ("bearing.outer_ring_mass_kg", 0.0791),
+        ("bearing.roller_mass_kg", 0.0013),
+        ("cage.mass_kg", 0.0148),
+        ("cage.inner_diameter_mm", 45.0),
+        ("cage.outer_diameter_mm", 53.0),
+        ("cage.pocket_clearance_mm", 0.09),
+        ("cage.guide_clearance_mm", 1.0),
+        ("cage.guide_width_mm", 6.0),
+        ("contact.inner_stiffness", 1.828e8),
+        ("contact.outer_stiffness", 1.898e8),
+        ("contact.damping_ns_per_m", 200.0),
+        ("friction.raceway_coefficient", 0.02),
+    ] {
+        assert_eq!(number(entry, key), printed, "{key}");
+        let value = entry.values.iter().find(|value| value.key == key).unwrap();
+        assert!(
+            !value.estimated && value.source.starts_with("Li et al."),
+            "{key}"
+        );
+    }
+    // The one number that the paper does not give: half a roller pitch.
+    assert_eq!(bearing(entry, "row_stagger_deg"), 180.0 / 19.0);
+    assert_eq!(
+        entry.values.iter().filter(|value| value.estimated).count(),
+        1
+    );
+    assert_eq!(entry.values.len(), 23);
+}
+
+#[test]
+fn lit_nu206_factors_of_the_maker() {
+    // Schnur et al. 2025, Table 1: Schaeffler's factors for NU206-E-XL-TVP2, two decimals.
+    let k = per_turn("NU206");
+    for (value, printed) in [(k.bpfo, 5.24), (k.bpfi, 7.76), (k.bsf, 2.49), (k.ftf, 0.40)] {
+        assert!((value - printed).abs() <= 0.005, "{value} is not {printed}");
+    }
+}
+
+#[test]
+fn lit_nu205_frequencies_of_hou() {
+    // Hou et al. at 20 Hz. Their pitch is the mean of bore and outside diameter, 1.3 % off: hence 0.4 %.
+    let k = per_turn("NU205");
+    for (value, printed) in [(k.bpfo, 104.65 / 20.0), (k.bpfi, 155.35 / 20.0)] {
+        assert!(
+            (value / printed - 1.0).abs() < 0.004,
+            "{value} is not {printed}"
+        );
+    }
+}
+
+#[test]
+fn lit_estimated_masses_add_up_to_the_bearing() {
+    // SKF General catalogue, pp. 522-525: two digits, and our rings have no chamfers: 6 %.
+    for (name, printed) in [
+        ("N204", 0.11),
+        ("NU204", 0.11),
+        ("N205", 0.13),
+        ("NU205", 0.13),
+        ("NU2205", 0.16),
+        ("NU206", 0.20),
+    ] {
+        let entry = find(name).unwrap();
+        let row = bearing(entry, "rollers_per_row") * bearing(entry, "roller_mass_kg")
+            + number(entry, "cage.mass_kg");
+        let total =
+            bearing(entry, "inner_ring_mass_kg") + bearing(entry, "outer_ring_mass_kg") + row;
+        assert!(
+            (total / printed - 1.0).abs() < 0.06,
+            "{name}: {total} kg against {printed} kg"
+        );
+    }
+}
+
+#[test]
+fn lit_effective_lengths_follow_from_the_static_rating() {
+    // ISO 76, C0 from the SKF General catalogue, pp. 522-525; lengths rounded to 0.1 mm.
+    for (name, rating) in [
+        ("N204", 22e3),
+        ("NU204", 22e3),
+        ("N205", 27e3),
+        ("NU205", 27e3),
+        ("NU2205", 34e3),
+        ("NU206", 36.5e3),
+    ] {
+        let entry = find(name).unwrap();
+        let (roller, pitch) = (
+            bearing(entry, "roller_diameter_mm"),
+            bearing(entry, "pitch_diameter_mm"),
+        );
+        let length =
+            rating / (44.0 * (1.0 - roller / pitch) * bearing(entry, "rollers_per_row") * roller);
+        let given = bearing(entry, "roller_length_mm");
+        assert!(
+            (given - length).abs() <= 0.05,
+            "{name}: {given} mm against {length} mm"
+        );
+    }
+}
