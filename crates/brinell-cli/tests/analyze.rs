@@ -332,7 +332,7 @@ fn regress_uneven_times_are_told_by_their_worst_step() {
         .exits(2)
         .complains(&["no sample rate follows from `time [s]`", why]);
     call(&["--rate", "12000"]).exits(0).complains(&[
-        "warning: --rate 12000 Hz was taken, but the times in `time [s]` tell no rate",
+        "warning: --rate 12000 Hz was taken, but the times in `time [s]` give no rate",
         why,
     ]);
 }
