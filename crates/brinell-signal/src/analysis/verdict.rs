@@ -224,8 +224,7 @@ impl Record {
         (2..=SLOWER)
             .map(|m| lead.frequency / m as f64)
             .map(|f| (f, score(together, f)))
-            .filter(|(_, score)| *score >= lead.score - HARDLY)
-            .next_back()
+            .rfind(|(_, score)| *score >= lead.score - HARDLY)
             .map(|(frequency, score)| Elsewhere {
                 frequency,
                 score,
