@@ -147,24 +147,15 @@ pub fn course(shape: &Shape, points: usize) -> Vec<(f64, f64)> {
         let s = if k == end { last } else { s };
         let (before, after) = (width(s - hair), width(s + hair));
         let (mm, jump) = (1e3 * s, (after - before).abs() > 1e-6 * length);
+        // At an end the width on the inside; where there is hardly any, that of the end itself.
+        let end_width = |inside: f64| match inside < 1e-4 * length {
+            true => width(s),
+            false => inside,
+        };
         if k == 0 {
-            all.push((
-                mm,
-                1e3 * if after < 1e-4 * length {
-                    width(s)
-                } else {
-                    after
-                },
-            ));
+            all.push((mm, 1e3 * end_width(after)));
         } else if k == end {
-            all.push((
-                mm,
-                1e3 * if before < 1e-4 * length {
-                    width(s)
-                } else {
-                    before
-                },
-            ));
+            all.push((mm, 1e3 * end_width(before)));
         } else if jump {
             all.extend([(mm, 1e3 * before), (mm, 1e3 * after)]);
         } else {

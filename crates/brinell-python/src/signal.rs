@@ -3,8 +3,8 @@
 use crate::convert::{Samples, array, json_to_python, slice};
 use crate::errors::{SignalError, bad_value};
 use brinell::analysis::{
-    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, Sensitivity, Unit, to_json,
-    velocity,
+    Analysis, DefectOrders, Levels, MachineClass, Options, Quantity, SUPPLY_HZ, Sensitivity, Unit,
+    to_json, velocity,
 };
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::{KnownBearing, orders_of};
@@ -333,7 +333,7 @@ impl Findings {
 
 /// That an inverter's frequency is one.
 fn supply(hz: f64) -> PyResult<f64> {
-    match (1.0..=1000.0).contains(&hz) {
+    match SUPPLY_HZ.contains(&hz) {
         true => Ok(hz),
         false => Err(bad_value(format!(
             "supply_hz = {hz}: expected 1 to 1000 Hz"

@@ -340,6 +340,11 @@ fn prop_lines_of_the_supply_are_set_aside() {
         "{}",
         told.verdict()
     );
+    // Multiples of nothing would have no end.
+    for bad in [0.0, -50.0, f64::NAN, 1001.0] {
+        options.supply = Some(bad);
+        assert!(analyze(&x, fs, &options).is_err(), "{bad}");
+    }
 }
 
 /// A record of the healthy machine: lines too faint for damage are told where they have grown, and damage that was there before is none.

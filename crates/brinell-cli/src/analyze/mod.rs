@@ -18,8 +18,8 @@ use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_
 use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Levels, Options, Quantity, Side, analyze as analysis_of, compare,
-    to_json, velocity,
+    Analysis, Comparison, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of,
+    compare, to_json, velocity,
 };
 use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
@@ -84,7 +84,7 @@ pub(crate) fn analyze(args: &AnalyzeArgs) -> Result<ExitCode, Failure> {
             args.tolerance
         )));
     }
-    if let Some(hz) = args.supply.filter(|hz| !(1.0..=1000.0).contains(hz)) {
+    if let Some(hz) = args.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
         return Err(Failure::Usage(format!(
             "--supply {hz}: expected 1 to 1000 Hz"
         )));

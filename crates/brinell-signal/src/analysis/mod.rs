@@ -68,6 +68,7 @@ use crate::{
     Transformed, VelocityBands, kurtogram, psd,
 };
 use hypotheses::{Best, Told};
+use std::ops::RangeInclusive;
 use std::thread::{self, ScopedJoinHandle};
 use together::Envelopes;
 use verdict::Record;
@@ -110,6 +111,8 @@ impl Options {
     }
 }
 
+/// Allowed values of [`Options::supply`], Hz.
+pub const SUPPLY_HZ: RangeInclusive<f64> = 1.0..=1000.0;
 /// Fourth powers of larger values, and of the inverse of smaller ones, leave a double's range.
 const LARGEST: f64 = 1e60;
 
@@ -258,9 +261,9 @@ impl Analysis {
 /// sampled too slowly for the defect frequencies, or an option is out of range.
 pub fn analyze(x: &[f64], fs: f64, options: &Options) -> Result<Analysis, AnalysisError> {
     check(x, fs, options)?;
-    let flaws = soundness::flaws(x, fs, options.shaft);
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let x: Vec<f64> = x.iter().map(|v| v - mean).collect();
+    let flaws = soundness::flaws(&x, fs, options.shaft);
     // What is missing has no speed.
     let whole = !(flaws.iter()).any(|f| matches!(f, Flaw::Held { .. }));
     let Heard {
@@ -436,6 +439,9 @@ fn check(x: &[f64], fs: f64, options: &Options) -> Result<(), AnalysisError> {
             samples: x.len(),
             value,
         });
+    }
+    if let Some(hz) = options.supply.filter(|hz| !SUPPLY_HZ.contains(hz)) {
+        return Err(out_of_range("supply (Hz)", hz, "1 to 1000"));
     }
     let strikes = || options.orders.strikes();
     for (_, name, order) in strikes() {

@@ -54,7 +54,7 @@ impl fmt::Display for Flaw {
     }
 }
 
-/// Of a signal sampled at `fs` Hz on a machine whose shaft turns `shaft` times a second.
+/// Of a signal less its mean, sampled at `fs` Hz on a machine whose shaft turns `shaft` times a second.
 pub(super) fn flaws(x: &[f64], fs: f64, shaft: f64) -> Vec<Flaw> {
     let revolution = (fs / shaft).max(4.0);
     [
@@ -86,12 +86,11 @@ fn at_limits(x: &[f64]) -> Option<Flaw> {
 }
 
 fn one_event(x: &[f64], fs: f64, revolution: f64) -> Option<Flaw> {
-    let mean = x.iter().sum::<f64>() / x.len() as f64;
     let blocks = x.chunks(revolution as usize);
     if blocks.len() < ONE_EVENT.1 {
         return None;
     }
-    let energies = blocks.map(|b| b.iter().map(|v| (v - mean).powi(2)).sum::<f64>());
+    let energies = blocks.map(|b| b.iter().map(|v| v * v).sum::<f64>());
     let (mut whole, mut largest) = (0.0, (0, 0.0));
     for (k, energy) in energies.enumerate() {
         whole += energy;

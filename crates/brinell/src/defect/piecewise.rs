@@ -170,12 +170,15 @@ impl PiecewisePolynomial {
         })
     }
 
+    /// Each piece and where it ends, m.
+    fn with_ends(&self) -> impl Iterator<Item = (&Piece, f64)> {
+        let ends = self.pieces.iter().skip(1).map(|p| p.start);
+        self.pieces.iter().zip(ends.chain([self.lookup.last]))
+    }
+
     /// Integral over all s, m^2.
     pub fn integral(&self) -> f64 {
-        let ends = self.pieces.iter().skip(1).map(|p| p.start);
-        self.pieces
-            .iter()
-            .zip(ends.chain([self.lookup.last]))
+        self.with_ends()
             .map(|(p, end)| {
                 let x = end - p.start;
                 x * (p.c[0] + x * (p.c[1] / 2.0 + x * p.c[2] / 3.0))
@@ -185,10 +188,7 @@ impl PiecewisePolynomial {
 
     /// Largest value at a breakpoint or between, m; straight pieces, and parabolas that open upwards, as those of an envelope.
     pub fn largest(&self) -> f64 {
-        let ends = self.pieces.iter().skip(1).map(|p| p.start);
-        self.pieces
-            .iter()
-            .zip(ends.chain([self.lookup.last]))
+        self.with_ends()
             .map(|(p, end)| {
                 let x = end - p.start;
                 p.c[0].max(p.c[0] + x * (p.c[1] + x * p.c[2]))
