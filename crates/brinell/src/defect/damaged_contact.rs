@@ -330,6 +330,19 @@ pub fn floors<'a>(
     })
 }
 
+/// Mean over the slices of what the deformation of each, m, gives.
+#[inline]
+fn over_slices<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+    delta: f64,
+    of: impl Fn(f64) -> f64,
+) -> f64 {
+    let undamaged = of(delta);
+    mean(cuts(defects, angles, side), undamaged, delta, of).map_or(undamaged, |mean| mean.value)
+}
+
 /// d(elastic)/d(delta) of a contact, on damage or not, N/m.
 pub fn tangent<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
@@ -339,10 +352,7 @@ pub fn tangent<'a>(
     delta: f64,
 ) -> f64 {
     if law_of(defects.clone()) == Law::Sliced {
-        let cuts = cuts(defects, angles, side);
-        let undamaged = law.tangent(delta, None);
-        return mean(cuts, undamaged, delta, |x| law.tangent(x, None))
-            .map_or(undamaged, |mean| mean.value);
+        return over_slices(defects, angles, side, delta, |x| law.tangent(x, None));
     }
     let damaged = damaged_contact(defects, law, angles, side, delta);
     law.tangent(delta, damaged.map(|a| a.floor).as_ref())
@@ -357,10 +367,7 @@ pub fn energy<'a>(
     delta: f64,
 ) -> f64 {
     if law_of(defects.clone()) == Law::Sliced {
-        let cuts = cuts(defects, angles, side);
-        let undamaged = law.energy(delta);
-        return mean(cuts, undamaged, delta, |x| law.energy(x))
-            .map_or(undamaged, |mean| mean.value);
+        return over_slices(defects, angles, side, delta, |x| law.energy(x));
     }
     if delta <= 0.0 {
         return 0.0;
