@@ -11,7 +11,7 @@ use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
-use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
+use brinell::pressure::{pressure_beside, pressures, static_limit};
 use brinell::scenario::{Bearing, Scenario, Speed};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -58,10 +58,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             let size = zone.shift[0].hypot(zone.shift[1]);
             say!("Static balance under the full load (mean over a pitch of the cage)");
             say!("  heaviest contact        {} N", short(zone.largest, 4));
-            let [inner, outer] = pressures(b, zone.largest).map(|p| short(1e-6 * p, 4));
+            let [inner, outer] = pressures(s, zone.largest).map(|p| short(1e-6 * p, 4));
             say!(
                 "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
-                1e-6 * STATIC_LIMIT
+                1e-6 * static_limit(b)
             );
             for (k, defect) in model.defects.iter().enumerate() {
                 if let Some((left, pressure)) = pressure_beside(&model, b, k, zone.largest) {

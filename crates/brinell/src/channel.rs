@@ -157,14 +157,35 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
     let c = &f.ws.contacts[side as usize];
     match quantity {
         ContactQuantity::Force => c.force[slot],
-        ContactQuantity::Length => f.model.geometry.roller_length - c.damaged_length[slot],
+        ContactQuantity::Length => contact_length(f.model, f.ws, side, slot),
         ContactQuantity::Stiffness => contact_stiffness(f.model, f.ws, side, slot),
         ContactQuantity::Slip => c.slip[slot],
     }
 }
 
+/// Effective contact length, m: of a roller what damage leaves of it, L - L_s; of a ball what carries of its ellipse's axis across the groove.
+#[doc(hidden)]
+pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
+    let c = &ws.contacts[side as usize];
+    let law = model.contact(side);
+    let whole = match &law.strips {
+        None => model.geometry.roller_length,
+        Some(strips) => {
+            let delta = match model.kind {
+                ModelKind::Full => c.deformation[slot],
+                // One contact in series for both sides.
+                ModelKind::Lumped => law.deflection(c.elastic[slot]),
+            };
+            strips
+                .pressed(delta)
+                .length([f64::NEG_INFINITY, f64::INFINITY])
+        }
+    };
+    whole - c.damaged_length[slot]
+}
+
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with which it would
-/// close (Eqs. 22, 23).
+/// close (Eqs. 22, 23), for a ball over damage 0.
 #[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -177,7 +198,11 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     if !c.on_damage[slot] {
         return law.stiffness;
     }
-    if c.deformation[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
+    if law.strips.is_some() && c.deformation[slot] <= 0.0 {
+        return 0.0;
+    }
+    let by_share = model.kind == ModelKind::Lumped && law.strips.is_none();
+    if c.deformation[slot] <= 0.0 || (by_share && share > 0.0) {
         return law.stiffness * share;
     }
     let healthy = match model.kind {

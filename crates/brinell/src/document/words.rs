@@ -15,6 +15,11 @@ macro_rules! words {
     };
 }
 
+words! { Element:
+    Roller = "roller", "cylindrical rollers";
+    Ball = "ball", "balls in grooves, radial load";
+}
+
 words! { ClearanceClass:
     CN = "CN", "normal";
     C2 = "C2", "less than CN";

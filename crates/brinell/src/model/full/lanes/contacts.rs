@@ -223,6 +223,10 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
 fn power<L: Lanes>(exponent: Exponent, delta: L) -> L {
     match exponent {
         Exponent::TenNinths => lanes::ten_ninths(delta),
+        Exponent::ThreeHalves => {
+            let x = delta.positive_part();
+            x * x.sqrt()
+        }
         Exponent::One => delta.positive_part(),
         Exponent::Other(_) => delta.each(|x| exponent.of(x)),
     }
