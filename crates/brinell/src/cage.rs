@@ -7,6 +7,7 @@ mod film;
 
 pub use film::HalfFilm;
 
+use crate::lanes::Lanes;
 use crate::scenario::GuidanceFilm;
 use std::f64::consts::PI;
 
@@ -20,11 +21,14 @@ pub const TRACTION_SLOPE: f64 = 22.28;
 /// Its decay, s/m.
 pub const TRACTION_DECAY: f64 = 181.46;
 
-/// Traction curve of the pocket in its slip velocity (m/s), Eq. (48).
-#[inline]
-pub fn traction(slip: f64) -> f64 {
-    let s = slip.abs();
-    (-TRACTION_LIMIT + TRACTION_SLOPE * s) * (-TRACTION_DECAY * s).exp() + TRACTION_LIMIT
+/// Traction coefficient of the pocket at the slip velocity |u| (m/s), Eq. (48).
+#[inline(always)]
+pub fn traction<L: Lanes>(u: L) -> L {
+    // Beyond this slip the exponential is below the last bit of the limit.
+    let u = u.abs().at_most(L::splat(40.0 / TRACTION_DECAY));
+    let limit = L::splat(TRACTION_LIMIT);
+    let rise = u.times_plus(L::splat(TRACTION_SLOPE), -limit);
+    rise.times_plus((u * L::splat(-TRACTION_DECAY)).exp(), limit)
 }
 
 /// Contact of rollers and pockets.
@@ -39,16 +43,14 @@ pub struct Pocket {
 }
 
 impl Pocket {
-    /// F_c on the roller along e_t for the gap s and its rate ds, N.
-    #[inline]
-    pub fn force(&self, s: f64, ds: f64) -> f64 {
-        if s > self.clearance {
-            (self.stiffness * (s - self.clearance) + self.damping * ds).max(0.0)
-        } else if s < -self.clearance {
-            -(self.stiffness * (-s - self.clearance) - self.damping * ds).max(0.0)
-        } else {
-            0.0
-        }
+    /// |F_c| and its elastic part in each lane, N: Eqs. (44), (45), of the deformation beyond the clearance (m, 0 where the pocket is open) and
+    /// the rate at which the gap on that side closes (m/s).
+    #[inline(always)]
+    pub fn press<L: Lanes>(&self, depth: L, closing: L) -> (L, L) {
+        let elastic = L::splat(self.stiffness) * depth;
+        let size = closing.times_plus(L::splat(self.damping), elastic);
+        let size = depth.if_above(L::zero(), size.positive_part(), L::zero());
+        (size, elastic)
     }
 
     /// Deformation beyond the clearance, signed as s, m.
@@ -60,16 +62,6 @@ impl Pocket {
             s + self.clearance
         } else {
             0.0
-        }
-    }
-
-    /// Friction on the roller along e_r for the slip u of its surface, N.
-    #[inline]
-    pub fn friction(&self, force: f64, u: f64) -> f64 {
-        if u == 0.0 {
-            0.0
-        } else {
-            -traction(u) * force.abs() * u.signum()
         }
     }
 }
@@ -300,10 +292,11 @@ mod tests {
             damping: 20.0,
             clearance: 9e-5,
         };
-        assert_eq!(p.force(8e-5, 1.0), 0.0);
-        assert!((p.force(10e-5, 0.0) - 100.0).abs() < 1e-9);
-        assert!((p.force(-10e-5, 0.0) + 100.0).abs() < 1e-9);
-        assert_eq!(p.force(9.1e-5, -10.0), 0.0);
-        assert_eq!(p.force(-9.1e-5, 10.0), 0.0);
+        assert_eq!(p.penetration(8e-5), 0.0);
+        assert!((p.penetration(10e-5) - 1e-5).abs() < 1e-18);
+        assert!((p.penetration(-10e-5) + 1e-5).abs() < 1e-18);
+        assert_eq!(p.press(0.0, 1.0), (0.0, 0.0));
+        assert!((p.press(1e-5, 0.0).0 - 100.0).abs() < 1e-9);
+        assert_eq!(p.press(1e-6, -10.0).0, 0.0);
     }
 }

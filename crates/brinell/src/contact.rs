@@ -4,7 +4,8 @@
 
 pub mod ball;
 
-use crate::elementary::{Exponent, eight_ninths};
+use crate::elementary::Exponent;
+use crate::lanes::{Lanes, eight_ninths};
 use ball::Strips;
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
@@ -50,10 +51,10 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// K `[delta]_+^n`, N.
-    #[inline]
-    pub fn healthy(&self, delta: f64) -> f64 {
-        self.stiffness * self.exponent.of(delta)
+    /// K `[delta]_+^n` of each lane, N: Eqs. (29), (36).
+    #[inline(always)]
+    pub fn healthy<L: Lanes>(&self, delta: L) -> L {
+        L::splat(self.stiffness) * self.exponent.of(delta)
     }
 
     /// Law `ecl`: K (g `[delta]_+^n` + (1 - g) `[delta - h]_+^n`), N.
@@ -69,14 +70,11 @@ impl Hertz {
         self.stiffness * (floor.share * power + (1.0 - floor.share) * sunk)
     }
 
-    /// Force of a closed contact: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N.
-    #[inline]
-    pub fn with_damping(&self, elastic: f64, ddelta: f64) -> f64 {
-        if elastic > 0.0 {
-            (elastic + self.damping * ddelta).max(0.0)
-        } else {
-            0.0
-        }
+    /// Force of a closed contact, in each lane: `[elastic + c ddelta]_+` where the elastic sum is positive, else 0, N. Eqs. (30), (37).
+    #[inline(always)]
+    pub fn with_damping<L: Lanes>(&self, elastic: L, ddelta: L) -> L {
+        let pressed = ddelta.times_plus(L::splat(self.damping), elastic);
+        elastic.if_above(L::zero(), pressed.positive_part(), L::zero())
     }
 
     /// Elastic energy of the healthy contact, J.

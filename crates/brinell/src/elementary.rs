@@ -1,6 +1,6 @@
 //! Powers x^n of the load-deflection law, for x >= 0.
 
-use crate::lanes::ninth;
+use crate::lanes::Lanes;
 
 /// The exponent n of Q = K delta^n, with the line contact's 10/9 done without `powf`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,57 +39,19 @@ impl Exponent {
         }
     }
 
-    /// `[x]_+^n`.
-    #[inline]
-    pub fn of(self, x: f64) -> f64 {
-        if x <= 0.0 {
-            return 0.0;
-        }
+    /// `[x]_+^n` of each lane.
+    #[inline(always)]
+    pub fn of<L: Lanes>(self, x: L) -> L {
         match self {
-            Self::TenNinths => ten_ninths(x),
-            Self::ThreeHalves => x * x.sqrt(),
-            Self::One => x,
-            Self::Other(n) => x.powf(n),
+            Self::TenNinths => x.ten_ninths(),
+            Self::ThreeHalves => {
+                let x = x.positive_part();
+                x * x.sqrt()
+            }
+            Self::One => x.positive_part(),
+            Self::Other(n) => x.each(|x| if x > 0.0 { x.powf(n) } else { 0.0 }),
         }
     }
-}
-
-/// x^(8/9) for x >= 0, relative error below 3e-15.
-#[inline]
-pub fn eight_ninths(x: f64) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let (z, rest) = inverse_ninth_root(x);
-    x * z * series(rest, ninth::ONE)
-}
-
-/// x^(10/9) for x > 0, relative error below 5e-15 for normal x: one number's share of [`crate::lanes::ten_ninths`], which says how.
-#[inline]
-fn ten_ninths(x: f64) -> f64 {
-    let (z, rest) = inverse_ninth_root(x);
-    let square = z * z;
-    let root = square * square * x;
-    root * root * series(rest, ninth::EIGHT)
-}
-
-/// z = x^(-1/9) to 3e-5, and 1 - x z^9.
-#[inline]
-fn inverse_ninth_root(x: f64) -> (f64, f64) {
-    let upper = (x.to_bits() >> 32) as f64;
-    let guess = f64::from_bits(((ninth::ORIGIN - upper * (1.0 / 9.0)) as u64) << 32);
-    let rest = |z: f64| {
-        let cube = z * z * z;
-        1.0 - cube * cube * (cube * x)
-    };
-    let z = guess * series(rest(guess), ninth::FIT);
-    (z, rest(z))
-}
-
-/// A polynomial, highest coefficient first.
-#[inline]
-fn series<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
-    coefficients.into_iter().fold(0.0, |sum, c| sum * x + c)
 }
 
 #[cfg(test)]
@@ -105,14 +67,6 @@ mod tests {
             worst = worst.max((Exponent::TenNinths.of(x) / exact - 1.0).abs());
         }
         assert!(worst < 4e-15, "relative error {worst:e}");
-    }
-
-    #[test]
-    fn analytic_eight_ninths_agrees_with_powf() {
-        for i in 0..100_000 {
-            let x = f64::from(i) / 1e5;
-            assert!((eight_ninths(x) - x.powf(8.0 / 9.0)).abs() <= 3e-15 * x.powf(8.0 / 9.0));
-        }
     }
 
     #[test]

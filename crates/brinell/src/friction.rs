@@ -9,18 +9,6 @@ pub struct Friction {
     pub slip_velocity: f64,
 }
 
-impl Friction {
-    /// Force on the roller along e_t for the slip s of the ring's surface over the roller's, N.
-    #[inline]
-    pub fn force(&self, normal: f64, slip: f64) -> f64 {
-        if normal > 0.0 {
-            self.coefficient * normal * (slip / self.slip_velocity).tanh()
-        } else {
-            0.0
-        }
-    }
-}
-
 /// Drag coefficient area 0.5 C_d rho_f L d of one roller, kg/m: F_d = that times v_t |v_t|, against the orbit.
 pub(crate) fn drag_factor(coefficient: f64, density: f64, length: f64, diameter: f64) -> f64 {
     0.5 * coefficient * density * length * diameter

@@ -14,7 +14,7 @@ pub const SETTING: &str = "BRINELL_KERNEL";
 /// every product on x86-64, the others fuse products with sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kernel {
-    /// One roller at a time, with the standard library's functions. Several times slower than the others.
+    /// One roller at a time, with the standard library's sine, exponential and tanh. Several times slower than the others.
     Plain,
     /// Whatever the target always has: SSE2 on x86-64, NEON on 64-bit Arm.
     Portable,

@@ -1,6 +1,7 @@
 //! Elementary functions over lanes.
 
 use super::Lanes;
+use super::ninth::{EIGHT, FIT, ORIGIN};
 
 /// 1.5 * 2^52: added to a number of moderate size, it leaves the nearest integer in the low bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -28,7 +29,7 @@ fn polynomial<L: Lanes, const N: usize>(x: L, coefficients: [f64; N]) -> L {
 /// pi/2 in three parts, short enough that their multiples are exact (Cody and Waite), and the minimax polynomials of
 /// the Cephes library on [-pi/4, pi/4].
 #[inline(always)]
-pub fn sin_cos<L: Lanes>(x: L) -> (L, L) {
+pub(super) fn sin_cos<L: Lanes>(x: L) -> (L, L) {
     const PARTS: [f64; 3] = [
         1.570_796_251_296_997,
         7.549_789_415_861_596e-8,
@@ -111,44 +112,20 @@ fn exp_parts<L: Lanes>(x: L) -> (L, L) {
 
 /// e^x for |x| <= 700, relative error below 4e-16.
 #[inline(always)]
-pub fn exp<L: Lanes>(x: L) -> L {
+pub(super) fn exp<L: Lanes>(x: L) -> L {
     let (rest, scale) = exp_parts(x);
     rest + scale
 }
 
 /// tanh x, error below 4e-16 relative.
 #[inline(always)]
-pub fn tanh<L: Lanes>(x: L) -> L {
+pub(super) fn tanh<L: Lanes>(x: L) -> L {
     // Beyond 20 the result is 1 to the last bit.
     let limit = L::splat(20.0);
     let size = x.abs().at_most(limit);
     let (rest, scale) = exp_parts(size + size);
     let less_one = rest + (scale - L::splat(1.0));
     (less_one / (less_one + L::splat(2.0))).with_sign(x)
-}
-
-/// Constants of x^(-1/9) and x^(10/9).
-pub(crate) mod ninth {
-    /// -1/9 of the upper half's distance from 1.0, plus what balances the error of the straight line at both ends.
-    pub(crate) const ORIGIN: f64 = 1_191_820_186.0;
-    /// (1 - e)^(-1/9) for |e| <= 0.263, which is as far as the guess is off: Chebyshev's fit, to 3e-5; highest first
-    /// (`validation/coefficients/fits.py`).
-    pub(crate) const FIT: [f64; 4] = [
-        4.550_793_648_527_396_7e-2,
-        6.415_495_782_232_466e-2,
-        1.110_914_322_528_898_1e-1,
-        9.999_790_091_846_329e-1,
-    ];
-    /// The series of (1 - e)^(-1/9), for the e below 3e-4 that is left.
-    pub(crate) const ONE: [f64; 4] = [95.0 / 2_187.0, 5.0 / 81.0, 1.0 / 9.0, 1.0];
-    /// The same of (1 - e)^(-8/9).
-    pub(crate) const EIGHT: [f64; 5] = [
-        15_470.0 / 19_683.0,
-        1_768.0 / 2_187.0,
-        68.0 / 81.0,
-        8.0 / 9.0,
-        1.0,
-    ];
 }
 
 /// 1 - x z^9.
@@ -163,8 +140,7 @@ fn one_minus_ninth<L: Lanes>(x: L, z: L) -> L {
 /// z = x^(-1/9) from the exponent bits to 3 %, then a step z (1 - e)^(-1/9) with e = 1 - x z^9 and a cubic. The result is
 /// x^2 z^8 (1 - e)^(-8/9) with the e that is left: no division.
 #[inline(always)]
-pub fn ten_ninths<L: Lanes>(x: L) -> L {
-    use ninth::{EIGHT, FIT, ORIGIN};
+pub(super) fn ten_ninths<L: Lanes>(x: L) -> L {
     /// 2^52: integers below it are in the low bits of the sum.
     const INTEGER: f64 = 4_503_599_627_370_496.0;
     /// INTEGER - (INTEGER + upper) / 9 + SHIFTED has ORIGIN - upper / 9 in its low bits.

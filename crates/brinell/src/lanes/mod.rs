@@ -1,7 +1,7 @@
 //! Several numbers at a time, and the elementary functions that the right-hand side spends its time in.
 //!
-//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `portable` holds it as an array,
-//! `x86` in a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
+//! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `one` is a single
+//! number, `portable` an array, `x86` a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
 //! in round-off alone: the portable one rounds every product, the others fuse products with sums.
 //!
 //! The lanes of `x86` are this crate's own: whoever makes one must have asked the processor first, which safe code elsewhere need not.
@@ -14,6 +14,8 @@
 mod blend;
 mod column;
 mod functions;
+mod ninth;
+mod one;
 #[cfg(target_arch = "x86_64")]
 mod pair;
 mod portable;
@@ -22,8 +24,7 @@ mod x86;
 
 pub use blend::{blend, inner_products, positive, weighted_square};
 pub use column::Column;
-pub(crate) use functions::ninth;
-pub use functions::{exp, sin_cos, tanh, ten_ninths};
+pub(crate) use ninth::eight_ninths;
 pub use portable::Portable;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::{Avx2, Avx512};
@@ -47,7 +48,7 @@ pub trait Lanes:
     /// Two groups at once, for long chains of operations that wait for one another; a group itself where it is the widest, or two of them
     /// would not fit the registers.
     type Pair: Lanes;
-    /// Numbers in a group: 4 or 8.
+    /// Numbers in a group: 1, 4 or 8.
     const COUNT: usize;
     /// An array of them.
     type Group: Copy + AsRef<[f64]> + AsMut<[f64]>;
@@ -131,6 +132,30 @@ pub trait Lanes:
 
     /// Sum of the lanes, in a fixed order.
     fn sum(self) -> f64;
+
+    /// (sin x, cos x), |x| <= 1e5.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        functions::sin_cos(self)
+    }
+
+    /// e^x, |x| <= 700.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        functions::exp(self)
+    }
+
+    /// tanh x.
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        functions::tanh(self)
+    }
+
+    /// `[x]_+^(10/9)`.
+    #[inline(always)]
+    fn ten_ninths(self) -> Self {
+        functions::ten_ninths(self)
+    }
 }
 
 /// What [`Lanes`] says of groups, for arrays of `$count`.

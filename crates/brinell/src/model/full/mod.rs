@@ -1,12 +1,13 @@
 //! The equations of motion of every part, section 8 of the model: Eqs. (28), (35), (41), (51).
 //!
-//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. The rollers'
-//! share is written twice: `lanes` for a group of rollers at a time, and `plain` for one, with the functions of the standard library, to hold the other
-//! against. Cages, rings and the push of edges are the same for both.
+//! Levers are those of the centred bearing, as in the paper; the energy that this leaves over is booked as [`Power::lever`]. All
+//! is written once, over lanes: as many rollers at a time as the kernel has, or one.
 
 mod bodies;
-mod lanes;
-mod plain;
+mod contacts;
+mod forces;
+mod pockets;
+mod rollers;
 
 use super::{Kernel, Model, Power, Workspace};
 #[cfg(target_arch = "x86_64")]
@@ -22,21 +23,21 @@ pub(super) fn accelerations(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws:
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Kernel::Avx2 => unsafe { with_avx2(model, t, y, a, ws) },
-        Kernel::Plain => equations::<Portable, true>(model, t, y, a, ws),
-        _ => equations::<Portable, false>(model, t, y, a, ws),
+        Kernel::Plain => equations::<f64>(model, t, y, a, ws),
+        _ => equations::<Portable>(model, t, y, a, ws),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn with_avx512(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
-    equations::<Avx512, false>(model, t, y, a, ws);
+    equations::<Avx512>(model, t, y, a, ws);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(model: &Model, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
-    equations::<Avx2, false>(model, t, y, a, ws);
+    equations::<Avx2>(model, t, y, a, ws);
 }
 
 /// Angle and speed of the inner ring.
@@ -55,9 +56,9 @@ struct Sums {
     power: Power,
 }
 
-/// Accelerations at (t, y); the rollers one by one where `PLAIN`.
+/// Accelerations at (t, y).
 #[inline(always)]
-pub(super) fn equations<L: Lanes, const PLAIN: bool>(
+pub(super) fn equations<L: Lanes>(
     model: &Model,
     t: f64,
     y: &[f64],
@@ -69,11 +70,7 @@ pub(super) fn equations<L: Lanes, const PLAIN: bool>(
     let (speed, angle) = model.rotation.at(t);
     let turn = Turn { speed, angle };
     bodies::guidance(model, (q, v), speed, ws);
-    let mut sums = if PLAIN {
-        plain::rollers(model, (q, v), a, turn, ws)
-    } else {
-        lanes::rollers::<L>(model, (q, v), a, turn, ws)
-    };
+    let mut sums = rollers::rollers::<L>(model, (q, v), a, turn, ws);
     if model.rules.is_conservative() && !model.defects.is_empty() {
         bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
     }

@@ -1,7 +1,8 @@
 //! Pockets, section 5.
 
-use super::{Plane, along_t, column, columns, polar};
-use crate::lanes::{self, Lanes};
+use super::rollers::{Plane, along_t, column, columns, polar};
+use crate::cage::traction;
+use crate::lanes::Lanes;
 use crate::model::{Model, Workspace};
 
 /// x, y and theta of each lane's cage, and their rates.
@@ -104,16 +105,12 @@ pub(super) fn pockets<L: Lanes>(
                 let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
                 // Both sides at once: what closes on the side of s, with its sign.
                 let closing = ds * one.with_sign(s);
-                let elastic = L::splat(model.pocket.stiffness) * depth;
-                let size = closing
-                    .times_plus(L::splat(model.pocket.damping), elastic)
-                    .positive_part();
-                let size = depth.if_above(L::zero(), size, L::zero());
+                let (size, elastic) = model.pocket.press(depth, closing);
                 push = size.with_sign(s);
                 // sigma = -sign(F_c), 0 where the pocket is open.
                 let sigma = size.if_above(L::zero(), one.with_sign(-push), L::zero());
                 let u = dr - sigma * radius * (dphi - cage.dtheta) - vc_r;
-                rub = -(traction(u.abs()) * size).with_sign_of(u);
+                rub = -(traction(u) * size).with_sign_of(u);
                 sums.pocket = (size - elastic).times_plus(closing, sums.pocket);
                 sums.friction -= rub * u;
                 sums.lever = (dtheta * push).minus_times(xc_r, sums.lever);
@@ -134,16 +131,4 @@ pub(super) fn pockets<L: Lanes>(
         }
     }
     sums
-}
-
-/// The traction curve, Eq. (48), of |u|: see [`crate::cage::traction`].
-#[inline(always)]
-fn traction<L: Lanes>(u: L) -> L {
-    use crate::cage::{TRACTION_DECAY, TRACTION_LIMIT, TRACTION_SLOPE};
-    // Beyond this slip the exponential is below the last bit of the limit.
-    let enough = L::splat(40.0 / TRACTION_DECAY);
-    let u = u.if_above(enough, enough, u);
-    let limit = L::splat(TRACTION_LIMIT);
-    let rise = u.times_plus(L::splat(TRACTION_SLOPE), -limit);
-    rise.times_plus(lanes::exp(u * L::splat(-TRACTION_DECAY)), limit)
 }

@@ -1,12 +1,8 @@
 //! The rollers, a group of lanes at a time, in passes: how each contact moves and what may be on damage; the elementary functions;
 //! damage; and forces, pockets and what the bodies feel. Padded slots never close a contact and never move.
 
-mod contacts;
-mod forces;
-mod pockets;
-
-use super::{Sums, Turn};
-use crate::lanes::{self, Lanes};
+use super::{Sums, Turn, contacts, forces};
+use crate::lanes::Lanes;
 use crate::model::{Model, Workspace};
 
 /// The rollers' accelerations, into `a`, and what they do to everything else.
@@ -33,13 +29,13 @@ pub(super) fn rollers<L: Lanes>(
 
 /// Column `k` of a structure of arrays, as `count` groups.
 #[inline(always)]
-fn column<L: Lanes>(from: &[f64], k: usize, count: usize) -> &[L::Group] {
+pub(super) fn column<L: Lanes>(from: &[f64], k: usize, count: usize) -> &[L::Group] {
     &L::groups(from)[k * count..][..count]
 }
 
 /// r, theta and phi.
 #[inline(always)]
-fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
+pub(super) fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
     [
         column::<L>(from, 0, count),
         column::<L>(from, 1, count),
@@ -49,23 +45,23 @@ fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] {
 
 /// Three columns to write to.
 #[inline(always)]
-fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> [&mut [L::Group]; 3] {
+pub(super) fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> [&mut [L::Group]; 3] {
     let (first, rest) = L::groups_mut(from).split_at_mut(count);
     let (second, third) = rest.split_at_mut(count);
     [first, second, &mut third[..count]]
 }
 
 /// A vector in the plane, the same in every lane.
-type Plane<L> = [L; 2];
+pub(super) type Plane<L> = [L; 2];
 
 #[inline(always)]
-fn pair<L: Lanes>(from: &[f64]) -> Plane<L> {
+pub(super) fn pair<L: Lanes>(from: &[f64]) -> Plane<L> {
     [L::splat(from[0]), L::splat(from[1])]
 }
 
 /// u along e_r and along e_t.
 #[inline(always)]
-fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
+pub(super) fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
     (
         cos.times_plus(u[0], sin * u[1]),
         sin.minus_times(u[0], cos * u[1]),
@@ -74,7 +70,7 @@ fn polar<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> (L, L) {
 
 /// u along e_t.
 #[inline(always)]
-fn along_t<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> L {
+pub(super) fn along_t<L: Lanes>((sin, cos): (L, L), u: &Plane<L>) -> L {
     sin.minus_times(u[0], cos * u[1])
 }
 
@@ -86,7 +82,7 @@ fn directions<L: Lanes>(model: &Model, q: &[f64], ws: &mut Workspace) {
     let sin = &mut L::groups_mut(&mut ws.sin)[..count];
     let cos = &mut L::groups_mut(&mut ws.cos)[..count];
     for group in 0..count {
-        let (s, c) = lanes::sin_cos(L::new(theta[group]));
+        let (s, c) = L::new(theta[group]).sin_cos();
         sin[group] = s.array();
         cos[group] = c.array();
     }

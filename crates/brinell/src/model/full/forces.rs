@@ -2,7 +2,7 @@
 
 use super::contacts::closed;
 use super::pockets::pockets;
-use super::{along_t, column, columns_mut, pair, polar};
+use super::rollers::{along_t, column, columns_mut, pair, polar};
 use crate::defect::Side;
 use crate::lanes::Lanes;
 use crate::model::full::Sums;

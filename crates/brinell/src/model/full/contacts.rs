@@ -1,10 +1,9 @@
 //! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what those that are closed
 //! carry.
 
-use super::{column, columns, pair, polar};
+use super::rollers::{column, columns, pair, polar};
 use crate::defect::{Angles, SIDES, Side, damaged_contact_given};
-use crate::elementary::Exponent;
-use crate::lanes::{self, Lanes};
+use crate::lanes::Lanes;
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
 
@@ -104,14 +103,14 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
             maybe_closed[group] = candidates[group] != 0 || delta.any_positive();
             let mut x = L::zero();
             if maybe_closed[group] {
-                x = self::power(law.exponent, delta);
+                x = law.exponent.of(delta);
             }
             power[group] = x.array();
             elastic[group] = (stiffness * x).array();
         }
         for group in 0..count {
             if maybe_closed[group] {
-                tanh[group] = lanes::tanh(L::new(slip[group]) * per_slip).array();
+                tanh[group] = (L::new(slip[group]) * per_slip).tanh().array();
             }
         }
     }
@@ -191,7 +190,7 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
     // tanh of the slip, and then the friction.
     let friction = &mut L::groups_mut(&mut contacts.friction)[..count];
     let force = &mut L::groups_mut(&mut contacts.force)[..count];
-    let damping = L::splat(model.contact(side).damping);
+    let law = model.contact(side);
     let mu = L::splat(model.friction.coefficient);
     let mut sums = Closed {
         contact: L::zero(),
@@ -203,8 +202,7 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
         if maybe_closed[group] {
             let elastic = L::new(elastic[group]);
             let rate = L::new(rate[group]);
-            let pressed = rate.times_plus(damping, elastic).positive_part();
-            normal = elastic.if_above(L::zero(), pressed, L::zero());
+            normal = law.with_damping(elastic, rate);
             // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
             tangential = mu * normal * L::new(friction[group]);
             sums.contact = (normal - elastic).times_plus(rate, sums.contact);
@@ -216,18 +214,4 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
     }
     L::groups_mut(&mut ws.max_elastic[side as usize])[0] = sums.max_elastic.array();
     sums
-}
-
-/// `[delta]_+^n`.
-#[inline(always)]
-fn power<L: Lanes>(exponent: Exponent, delta: L) -> L {
-    match exponent {
-        Exponent::TenNinths => lanes::ten_ninths(delta),
-        Exponent::ThreeHalves => {
-            let x = delta.positive_part();
-            x * x.sqrt()
-        }
-        Exponent::One => delta.positive_part(),
-        Exponent::Other(_) => delta.each(|x| exponent.of(x)),
-    }
 }
