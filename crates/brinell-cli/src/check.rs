@@ -193,7 +193,7 @@ fn clearance(b: &Bearing) -> String {
     let Some(bore) = bore_diameter_mm(b) else {
         return both;
     };
-    let classes: Vec<&str> = classes_of(bore, diametral)
+    let classes: Vec<&str> = classes_of(b.element, bore, diametral)
         .iter()
         .map(|c| c.name())
         .collect();

@@ -6,6 +6,36 @@
 use crate::scenario::{Bearing, Contact};
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Relative radii of curvature of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curvature {
+    /// R_x, along the rolling direction, m.
+    pub along: f64,
+    /// R_y, across the groove, m.
+    pub across: f64,
+}
+
+impl Curvature {
+    /// Of a ball and a groove (diameters in m): the raceway's at its bottom, negative around the balls, and the groove's cross-section over the ball's.
+    pub fn new(ball: f64, raceway: f64, conformity: f64) -> Self {
+        let of_ball = 2.0 / ball;
+        Self {
+            along: 1.0 / (of_ball + 2.0 / raceway),
+            across: 1.0 / (of_ball - 1.0 / (conformity * ball)),
+        }
+    }
+
+    /// R of 1/R = 1/R_x + 1/R_y, m: Harris's sum of curvatures is 1/R.
+    pub fn radius(&self) -> f64 {
+        1.0 / (1.0 / self.along + 1.0 / self.across)
+    }
+
+    /// Gamma, Harris's F(rho).
+    pub fn difference(&self) -> f64 {
+        self.radius() * (1.0 / self.along - 1.0 / self.across)
+    }
+}
+
 /// The healthy contact of a ball and one groove.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipse {
@@ -18,12 +48,10 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// Of bodies with the relative radii of curvature R_x along the rolling direction and R_y across (m) and the modulus
-    /// E' = E/(1 - nu^2) (Pa). `None` where they do not touch in an ellipse.
-    pub fn new([along, across]: [f64; 2], modulus: f64) -> Option<Self> {
-        let radius = 1.0 / (1.0 / along + 1.0 / across);
-        let gamma = radius * (1.0 / along - 1.0 / across);
-        if !(along > 0.0 && across > 0.0 && modulus > 0.0 && gamma.abs() < 1.0) {
+    /// Of bodies of the modulus E' = E/(1 - nu^2), Pa. `None` where they do not touch in an ellipse.
+    pub fn new(of: Curvature, modulus: f64) -> Option<Self> {
+        let (radius, gamma) = (of.radius(), of.difference());
+        if !(of.along > 0.0 && of.across > 0.0 && modulus > 0.0 && gamma.abs() < 1.0) {
             return None;
         }
         let kappa = axis_ratio(gamma);
@@ -106,14 +134,17 @@ pub fn ellipses(bearing: &Bearing, contact: &Contact) -> Option<[Ellipse; 2]> {
     ];
     let ratio = contact.poisson_ratio?;
     let modulus = 1e9 * contact.youngs_modulus_gpa? / (1.0 - ratio * ratio);
-    let ball = 2e3 / bearing.roller_diameter_mm;
-    let of = |raceway: f64, conformity: f64| {
-        let groove = 1e3 / (conformity * bearing.roller_diameter_mm);
-        Ellipse::new([1.0 / (ball + raceway), 1.0 / (ball - groove)], modulus)
+    let of = |raceway_mm: f64, conformity: f64| {
+        let of = Curvature::new(
+            1e-3 * bearing.roller_diameter_mm,
+            1e-3 * raceway_mm,
+            conformity,
+        );
+        Ellipse::new(of, modulus)
     };
     Some([
-        of(2e3 / bearing.inner_raceway_diameter_mm, inner)?,
-        of(-2e3 / bearing.outer_raceway_diameter_mm, outer)?,
+        of(bearing.inner_raceway_diameter_mm, inner)?,
+        of(-bearing.outer_raceway_diameter_mm, outer)?,
     ])
 }
 

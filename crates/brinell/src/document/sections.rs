@@ -248,7 +248,7 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         },
         (None, Some(class)) => Fallback::Instead {
             value: bore_diameter_mm(b)
-                .and_then(|bore| class.one_sided_middle(bore))
+                .and_then(|bore| class.one_sided_middle(b.element, bore))
                 .unwrap_or(f64::NAN),
             how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
             assumed: true,

@@ -55,6 +55,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),
         ("heavy", case("xval/heavy-load-profile")),
+        ("balls", case("reference/ball-6205-outer")),
     ]
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{Checker, short};
 use crate::bearing::catalogue;
-use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
+use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
 use crate::scenario::Law;
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
@@ -154,7 +154,8 @@ impl Checker<'_> {
             return;
         }
         let bore = bore_diameter_mm(&self.s.bearing);
-        let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(bore).is_some());
+        let of = self.s.bearing.element;
+        let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(of, bore).is_some());
         if ways == [CLASS] && !known {
             let (key, message) = match bore {
                 None => (
@@ -163,7 +164,7 @@ impl Checker<'_> {
                 ),
                 Some(_) => (BORE, "ISO 5753-1 has no class for this bore"),
             };
-            let allowed = "a bore of up to 1000 mm".to_owned();
+            let allowed = format!("a bore of up to {} mm", largest_bore_mm(of));
             self.error(key, message.into(), allowed, &[CLASS]);
         }
     }
@@ -173,7 +174,7 @@ impl Checker<'_> {
         let b = &self.s.bearing;
         let (key, factor) = self.clearance_key();
         let (one_sided, bore) = (b.radial_clearance_um, bore_diameter_mm(b));
-        let largest = bore.and_then(|bore| ClearanceClass::C5.limits(bore));
+        let largest = bore.and_then(|bore| ClearanceClass::C5.limits(b.element, bore));
         if one_sided != 0.0 && one_sided.abs() < SMALLEST_CLEARANCE {
             self.warn(
                 key,
