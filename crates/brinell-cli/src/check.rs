@@ -12,7 +12,7 @@ use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
-use brinell::scenario::{Bearing, Scenario, Speed};
+use brinell::scenario::{Bearing, Element, Scenario, Speed};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
@@ -26,15 +26,18 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
+    let size = match b.element {
+        Element::Roller => format!("{} x {} mm", b.roller_diameter_mm, b.roller_length_mm),
+        Element::Ball => format!("of {} mm", b.roller_diameter_mm),
+    };
     say!(
-        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle",
+        "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
         b.preset
             .as_ref()
             .map_or(String::new(), |p| format!("{p}: ")),
         b.rows,
         b.rollers_per_row,
-        b.roller_diameter_mm,
-        b.roller_length_mm,
+        b.element.word(),
         b.pitch_diameter_mm,
     );
     say!("Clearance {}", clearance(b));

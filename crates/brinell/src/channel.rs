@@ -217,6 +217,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
 pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
     let l = &model.layout;
     let dof = l.dof();
+    let element = model.element.word();
     let mut channels = Vec::new();
     let mut add = |name: String, unit: &'static str, description: String, quantity: Quantity| {
         channels.push(Channel {
@@ -281,7 +282,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
         for roller in 0..l.rollers_per_row {
             let slot = l.slot(row, roller);
             let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
             use RollerQuantity as R;
             for (suffix, unit, what, quantity) in [
                 ("r", "m", "radial offset", R::R),
@@ -313,7 +314,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
         for roller in 0..l.rollers_per_row {
             let slot = l.slot(row, roller);
             let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
             for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
                 for (suffix, unit, what, quantity) in [
                     ("force", "N", "normal force", ContactQuantity::Force),

@@ -181,13 +181,14 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
         ("outer", pressures[1])
     };
     let limit = static_limit(&scenario.bearing);
+    let element = scenario.bearing.element.word();
     if highest > limit {
         warnings.push(warning(
             LOAD,
             list(o.load_n),
             format!(
-                "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest roller's {} kN, beyond the static limit of {:.0} MPa \
-                 (ISO 76): raceways and rollers would keep dents, and the model is elastic",
+                "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest {element}'s {} kN, beyond the static limit of {:.0} MPa \
+                 (ISO 76): raceways and {element}s would keep dents, and the model is elastic",
                 1e-6 * highest,
                 short(1e-3 * zone.largest),
                 1e-6 * limit

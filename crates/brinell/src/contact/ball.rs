@@ -85,16 +85,16 @@ impl Ellipse {
 
 /// kappa of kappa^2 = (2 F - E (1 + Gamma)) / (E (1 - Gamma)), other than its root 1 that every Gamma has, by bisection.
 fn axis_ratio(gamma: f64) -> f64 {
-    // Above its root where Gamma > 0, which makes kappa > 1.
+    // Below 0 between the roots and above beyond.
     let excess = |log: f64| {
         let kappa = log.exp();
         let [first, second] = elliptic_integrals(kappa);
         kappa * kappa * (1.0 - gamma) + (1.0 + gamma) - 2.0 * first / second
     };
-    // Nearer to a circle than 1e-6 nothing tells the roots apart.
+    // kappa > 1 where Gamma > 0. Nearer to a circle than 1e-6 nothing tells the roots apart.
     let sign = gamma.signum();
     let [mut near, mut far] = [1e-6, 40.0];
-    if excess(sign * near) * sign >= 0.0 {
+    if excess(sign * near) >= 0.0 {
         return 1.0;
     }
     loop {
@@ -102,7 +102,7 @@ fn axis_ratio(gamma: f64) -> f64 {
         if middle <= near || middle >= far {
             return (sign * middle).exp();
         }
-        if excess(sign * middle) * sign < 0.0 {
+        if excess(sign * middle) < 0.0 {
             near = middle;
         } else {
             far = middle;

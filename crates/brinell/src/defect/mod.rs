@@ -36,7 +36,7 @@ pub use random::spall;
 pub use shape::Shape;
 
 use crate::contact::{ContactReduction, remaining_share};
-use crate::scenario::{self, Surface};
+use crate::scenario::{self, Element, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Side of a roller: the raceway that it meets there.
@@ -90,6 +90,8 @@ fn heights(defect: &scenario::Defect, length: f64) -> Option<[f64; 2]> {
 /// One defect on its surface, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Defect {
+    /// What rolls over it.
+    pub element: Element,
     /// Damaged surface; a roller counts from 0 here.
     pub surface: Surface,
     /// Row, from 0.
@@ -197,6 +199,7 @@ impl Defect {
         });
         Some(Self {
             windows,
+            element: bearing.element,
             surface,
             row: defect.row.checked_sub(1)?,
             center: defect.center_deg.to_radians(),

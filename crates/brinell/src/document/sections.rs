@@ -21,8 +21,8 @@ const STEEL: f64 = 7.85e-6;
 /// Palmgren's line contact, N/mm^(10/9) for L in mm (model.md, section 2).
 const PALMGREN: f64 = 8.06e4;
 /// Where some keys have a meaning.
-const ROLLERS: &str = "bearing.element = \"roller\"";
-const BALLS: &str = "bearing.element = \"ball\"";
+const ROLLERS: &str = "bearing.element is \"roller\"";
+const BALLS: &str = "bearing.element is \"ball\"";
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 pub(super) const PAPER: &str = "Li et al. 2023";

@@ -153,6 +153,13 @@ impl Surface {
     }
 }
 
+impl Element {
+    /// As the scenario file says it: `roller` or `ball`.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
+    }
+}
+
 impl Accuracy {
     /// As the scenario file says it: `standard` or `reference`.
     pub fn word(self) -> &'static str {

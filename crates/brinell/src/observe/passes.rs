@@ -283,6 +283,6 @@ pub fn place(defect: &Defect) -> String {
     match defect.surface {
         Surface::OuterRaceway => format!("outer raceway, row {row}"),
         Surface::InnerRaceway => format!("inner raceway, row {row}"),
-        Surface::Roller(k) => format!("roller {}, row {row}", k + 1),
+        Surface::Roller(k) => format!("{} {}, row {row}", defect.element.word(), k + 1),
     }
 }
