@@ -158,7 +158,7 @@ fn at_ends(loads: &[f64], forces: &[f64]) -> Option<(f64, f64)> {
 
 impl Observer for FromStart {
     fn sample(&mut self, _: u64, f: &Frame) {
-        if f.model.kind != ModelKind::Full || f.t < self.settled {
+        if !f.model.kind.moves_every_part() || f.t < self.settled {
             return;
         }
         let l = &f.model.layout;

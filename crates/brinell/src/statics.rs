@@ -6,9 +6,10 @@
 
 mod load_zone;
 
-use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
+use crate::defect::{Angles, Side, cover_slices, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
+use crate::slices::{Approach, Cover, Slices};
 pub use load_zone::{StaticLoadZone, static_load_zone};
 
 /// Question put to the solver.
@@ -222,7 +223,7 @@ fn evaluate(
         .sum();
     for (slot, roller) in rollers.iter_mut().enumerate() {
         *roller = match model.kind {
-            ModelKind::Full => between_raceways(model, problem, slot, x),
+            ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
             ModelKind::Lumped => in_series(model, problem, slot, x),
         };
         potential += roller.energy;
@@ -260,7 +261,20 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let outer_at = cos * x[2] + sin * x[3] + model.geometry.outer_gap;
     let own = model.inertia.roller
         * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let sliced = |slices: &Slices, side: Side, delta: f64| {
+        let mut cover = Cover::new(slices.count);
+        let covered = cover_slices(model.defects_of(slot, side), &angles, side, &mut cover);
+        let at = Approach {
+            deformation: delta,
+            ..Approach::default()
+        };
+        slices.carry(model.contact(side), &at, covered.then_some(&cover))
+    };
     let contact = |side: Side, delta: f64| -> (f64, f64) {
+        if let Some(slices) = &model.slices {
+            let carried = sliced(slices, side, delta);
+            return (carried.force, carried.stiffness[0]);
+        }
         let law = model.contact(side);
         let defects = model.defects_of(slot, side);
         match damaged_contact(defects.clone(), law, &angles, side, delta) {
@@ -320,6 +334,9 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let (q_in, k_in) = contact(Side::Inner, inner_at - r);
     let (q_out, k_out) = contact(Side::Outer, r - outer_at);
     let stored = |side, delta| {
+        if let Some(slices) = &model.slices {
+            return sliced(slices, side, delta).energy;
+        }
         energy(
             model.defects_of(slot, side),
             model.contact(side),

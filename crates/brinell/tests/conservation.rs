@@ -187,7 +187,7 @@ fn prop_power_balance_at_any_instant() {
             motion.derivative(t, &y, &mut dy);
             let power = motion.ws.power;
             let middle = motion.ws.clone();
-            let parametric = if model.kind == ModelKind::Full {
+            let parametric = if model.kind.moves_every_part() {
                 parametric_rate(&model, t, &y, &motion, H)
             } else {
                 0.0

@@ -7,6 +7,7 @@ use super::map_slices::{along_the_envelope, at_a_point};
 use super::piecewise::{Line, PiecewisePolynomial};
 use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
+use crate::slices::borders as slice_borders;
 
 /// How damage acts, the same for every contact of a model (section 3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,13 +37,6 @@ impl Rules {
     pub fn is_conservative(&self) -> bool {
         self.edge_reaction == EdgeReaction::Conservative
     }
-}
-
-/// First and last z of slice k (from 0) of n_s across a roller of length L, m.
-pub(super) fn slice_borders(k: usize, slices: usize, length: f64) -> [f64; 2] {
-    // From the middle, so that slices on both sides are mirror images to the bit.
-    let border = |k: usize| (2 * k as i64 - slices as i64) as f64 / (2.0 * slices as f64) * length;
-    [border(k), border(k + 1)]
 }
 
 /// What damage covers of the slices, and how deep.
@@ -174,7 +168,7 @@ impl DepthProfile {
                 (covered / (high - low), reached / covered)
             });
             let twice = alike && 2 * k + 1 != n;
-            Track::new(if twice { 2.0 } else { 1.0 }, parts, last)
+            Track::new(k, if twice { 2.0 } else { 1.0 }, parts, last)
         });
         tracks.collect()
     }

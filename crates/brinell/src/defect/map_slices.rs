@@ -3,11 +3,11 @@
 //! Between four nodes of the grid the surface is damaged unless all four are 0. Depths are straight along z there, so the mean at a point is exact; the
 //! mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows of the grid.
 
-use super::depth_profile::slice_borders;
 use super::envelope::envelope;
 use super::grid::Grid;
 use super::piecewise::PiecewisePolynomial;
 use super::track::{Part, Track};
+use crate::slices::borders as slice_borders;
 
 /// Lines z = const in a slice at the most.
 const MOST_LINES: usize = 12;
@@ -47,7 +47,7 @@ pub(super) fn at_a_point(grid: &Grid, slices: usize, length: f64) -> Vec<Track> 
                 Part::nothing(grid.s(column))
             });
         }
-        trimmed(parts, grid.s(grid.columns() - 1))
+        trimmed(k, parts, grid.s(grid.columns() - 1))
     });
     tracks.collect()
 }
@@ -67,13 +67,13 @@ fn section(grid: &Grid, column: usize, cells: &[(usize, [f64; 2])]) -> (f64, [f6
 }
 
 /// Without what is undamaged at both ends.
-fn trimmed(mut parts: Vec<Part>, last: f64) -> Option<Track> {
+fn trimmed(slice: usize, mut parts: Vec<Part>, last: f64) -> Option<Track> {
     let covers = |p: &Part| p.phi != [0.0; 4];
     let end = parts.iter().rposition(covers)? + 1;
     let last = parts.get(end).map_or(last, |p| p.start);
     parts.truncate(end);
     parts.drain(..parts.iter().position(covers)?);
-    Track::new(1.0, parts, last)
+    Track::new(slice, 1.0, parts, last)
 }
 
 /// One line z = const of a slice.
@@ -160,7 +160,7 @@ pub(super) fn along_the_envelope(
                 ],
             });
         }
-        trimmed(parts, *stops.last()?)
+        trimmed(k, parts, *stops.last()?)
     });
     tracks.collect()
 }

@@ -21,8 +21,8 @@ pub mod simplify;
 mod track;
 
 pub use damaged_contact::{
-    DamagedContact, EdgeGradient, damaged_contact, damaged_contact_given, edge_gradient, energy,
-    floors, tangent,
+    DamagedContact, EdgeGradient, cover_slices, damaged_contact, damaged_contact_given,
+    edge_gradient, edge_gradient_of_slices, energy, floors, tangent,
 };
 pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use envelope::envelope;

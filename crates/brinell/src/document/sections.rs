@@ -24,15 +24,20 @@ pub(super) const PAPER: &str = "Li et al. 2023";
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");
     k.key(name, stated("unnamed".into(), "no name given"), &mut s.name);
+    // Which keys act, and what others default to, depends on the equations.
+    if let Some(model) = k.foretold("simulation", "model") {
+        s.simulation.model = model;
+    }
+    let model = s.simulation.model;
     k.section(key("bearing", "geometry and masses"), |k| {
-        bearing(k, &mut s.bearing)
+        bearing(k, model, &mut s.bearing)
     });
     k.section(key("cage", "one cage for each row"), |k| {
         cage(k, &s.bearing, &mut s.cage)
     });
     k.section(
         key("contact", "rollers on raceways, along the normal"),
-        |k| contact(k, &s.bearing, &mut s.contact),
+        |k| contact(k, (model, &s.bearing), &mut s.contact),
     );
     k.section(
         key("friction", "rollers on raceways, along the surface"),
@@ -40,11 +45,11 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     );
     k.section(key("lubricant", "oil"), |k| lubricant(k, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| {
-        operation(k, &mut s.operation)
+        operation(k, model, &mut s.operation)
     });
     k.section(
         key("support", "springs and dampers that hold the rings"),
-        |k| support(k, s.operation.load_on, &mut s.support),
+        |k| support(k, (model, &s.bearing, s.operation.load_on), &mut s.support),
     );
     let load = s.operation.load_n;
     k.tables(
@@ -65,7 +70,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
 }
 
-fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
+fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
     k.preset(
         key("preset", "catalogue bearing that fills the keys left out"),
         &mut b.preset,
@@ -143,6 +148,42 @@ fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
         derived(roller, "steel cylinder"),
         &mut b.roller_mass_kg,
     );
+    k.key(
+        key(
+            "profile",
+            "p(z), how far roller and raceway together stand back",
+        ),
+        stated(RollerProfile::Straight, PAPER),
+        &mut b.profile,
+    );
+    k.key_acting_where(
+        key("width_mm", "B, width of the rings").above(0.0),
+        tilts(model),
+        derived(
+            1.6 * b.roller_length_mm * b.rows as f64,
+            "1.6 roller lengths a row",
+        ),
+        &mut b.width_mm,
+    );
+    let spacing = if b.rows == 1 {
+        stated(0.0, "a single row")
+    } else {
+        derived(1.5 * b.roller_length_mm, "1.5 roller lengths")
+    };
+    k.key_acting_where(
+        key("row_spacing_mm", "b, between the middles of two rows").from(0.0),
+        tilts(model),
+        spacing,
+        &mut b.row_spacing_mm,
+    );
+}
+
+/// Where the keys of `tilting` act.
+fn tilts(model: ModelKind) -> (bool, &'static str) {
+    (
+        model == ModelKind::Tilting,
+        "simulation.model is \"tilting\"",
+    )
 }
 
 /// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is given.
@@ -281,12 +322,13 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
 }
 
-fn contact<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
-    k.key(
-        key("law", "force of a damaged contact"),
-        stated(Law::Ecl, PAPER),
-        &mut c.law,
-    );
+fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contact) {
+    let law = match (model, &b.profile) {
+        (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
+        (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
+        _ => stated(Law::Sliced, "a profile has slices"),
+    };
+    k.key(key("law", "force of a damaged contact"), law, &mut c.law);
     k.key(
         key("roller_path", "how a roller follows the damage's depth"),
         stated(RollerPath::Point, PAPER),
@@ -380,7 +422,7 @@ fn lubricant<K: Keys>(k: &mut K, l: &mut Lubricant) {
     );
 }
 
-fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
+fn operation<K: Keys>(k: &mut K, model: ModelKind, o: &mut Operation) {
     k.key(
         key(
             "speed_rpm",
@@ -412,9 +454,22 @@ fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
         stated([0.0, 0.0], POINT_OF_SCOPE),
         &mut o.gravity_m_per_s2,
     );
+    k.key_acting_where(
+        key(
+            "load_offset_mm",
+            "Z_F, where along the axis the load acts; 0 is the bearing's middle",
+        ),
+        tilts(model),
+        stated(0.0, "in the middle"),
+        &mut o.load_offset_mm,
+    );
 }
 
-fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
+fn support<K: Keys>(
+    k: &mut K,
+    (model, b, load_on): (ModelKind, &Bearing, LoadOn),
+    s: &mut Support,
+) {
     // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
     let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
     let (inner, outer) = match load_on {
@@ -440,6 +495,34 @@ fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
         key("outer_damping_ns_per_m", "c_o").from(0.0),
         assumed(500.0, "the paper does not state it"),
         &mut s.outer_damping_ns_per_m,
+    );
+    let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
+    let (k_ti, k_to) = (s.inner_stiffness_n_per_m, s.outer_stiffness_n_per_m);
+    let (c_ti, c_to) = (s.inner_damping_ns_per_m, s.outer_damping_ns_per_m);
+    let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
+    k.key_acting_where(
+        key("inner_tilt_stiffness_nm_per_rad", "k_ti").from(0.0),
+        tilts(model),
+        derived(k_ti * lever, stiffness),
+        &mut s.inner_tilt_stiffness_nm_per_rad,
+    );
+    k.key_acting_where(
+        key("inner_tilt_damping_nms_per_rad", "c_ti").from(0.0),
+        tilts(model),
+        derived(c_ti * lever, damping),
+        &mut s.inner_tilt_damping_nms_per_rad,
+    );
+    k.key_acting_where(
+        key("outer_tilt_stiffness_nm_per_rad", "k_to").from(0.0),
+        tilts(model),
+        derived(k_to * lever, stiffness),
+        &mut s.outer_tilt_stiffness_nm_per_rad,
+    );
+    k.key_acting_where(
+        key("outer_tilt_damping_nms_per_rad", "c_to").from(0.0),
+        tilts(model),
+        derived(c_to * lever, damping),
+        &mut s.outer_tilt_damping_nms_per_rad,
     );
 }
 

@@ -1,7 +1,6 @@
 //! Linear momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external forces.
 
 use super::{Model, Workspace};
-use crate::scenario::ModelKind;
 
 /// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and |external|).
 /// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the lumped model with a fixed
@@ -39,7 +38,7 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
         add([support.damping * v[at], support.damping * v[at + 1]]);
         add([-load[0], -load[1]]);
     }
-    if model.kind == ModelKind::Full {
+    if model.kind.moves_every_part() {
         let g = &model.geometry;
         for slot in 0..l.rollers() {
             let (cos, sin) = (ws.cos[slot], ws.sin[slot]);

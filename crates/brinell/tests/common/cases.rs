@@ -87,7 +87,7 @@ pub fn random_state(model: &Model, seed: u64) -> Vec<f64> {
     let travel = random.signed();
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed());
     let spin = model.rolling_spin_speed(model.rotation.max_speed());
-    if model.kind == ModelKind::Full {
+    if model.kind.moves_every_part() {
         for slot in 0..l.rollers() {
             y[l.r() + slot] += 1e-5 * random.signed();
             y[l.theta() + slot] += travel + 1.2 * pocket * random.signed();
