@@ -40,6 +40,11 @@ pub fn state(model: &Model) -> Result<Vec<f64>, NoBalance> {
         if full {
             y[l.r()..l.r() + l.rollers()].copy_from_slice(&balance.r[..l.rollers()]);
         }
+        if let Some(tilted) = &balance.tilting {
+            y[l.beta()..][..l.rollers()].copy_from_slice(&tilted.rollers[..l.rollers()]);
+            y[l.inner_tilt()..][..2].copy_from_slice(&tilted.rings[0]);
+            y[l.outer_tilt()..][..2].copy_from_slice(&tilted.rings[1]);
+        }
     }
     if model.outer_ring_is_fixed() {
         outer = [0.0; 2];
