@@ -7,7 +7,6 @@ use brinell::defect::wrap;
 use brinell::observe::Findings;
 use brinell::observe::load_zone::BINS;
 use brinell::result::{Quantity, Spread};
-use brinell::scenario::ModelKind;
 use brinell::simulate::{Observer, Simulation};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;

@@ -152,44 +152,30 @@ impl Slices {
     pub fn press<L: Lanes>(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Pressed {
         let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
         let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
-        let (zero, one) = (L::zero(), L::splat(1.0));
-        let [mut elastic, mut force, mut moment, mut loss, mut touching] = [zero; 5];
+        let one = L::splat(1.0);
+        let mut sums = Sums::<L>::new();
         for k in 0..self.z.len() / L::COUNT {
             let z = L::new(L::groups(&self.z)[k]);
             let weight = L::new(L::groups(&self.weight)[k]);
             let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
-            let mut add = |delta: L, share: L| {
-                if !delta.any_positive() {
-                    return;
+            let d = tilt_rate.times_plus(z, rate);
+            if let Some(cover) = cover {
+                let fraction = L::new(L::groups(&cover.fraction)[k]);
+                let depth = L::new(L::groups(&cover.depth)[k]);
+                sums.add(law, (z, d), delta, (one - fraction) * weight);
+                if fraction.any_positive() {
+                    sums.add(law, (z, d), delta - depth, fraction * weight);
                 }
-                let spring = share * law.healthy(delta);
-                let d = tilt_rate.times_plus(z, rate);
-                let pressed = (share * L::splat(law.damping)).times_plus(d, spring);
-                let pressed = delta.if_above(zero, pressed.positive_part(), zero);
-                elastic += spring;
-                force += pressed;
-                moment = z.times_plus(pressed, moment);
-                loss = (pressed - spring).times_plus(d, loss);
-                touching += delta.if_above(zero, share, zero);
-            };
-            match cover {
-                None => add(delta, weight),
-                Some(cover) => {
-                    let fraction = L::new(L::groups(&cover.fraction)[k]);
-                    let depth = L::new(L::groups(&cover.depth)[k]);
-                    add(delta, (one - fraction) * weight);
-                    if fraction.any_positive() {
-                        add(delta - depth, fraction * weight);
-                    }
-                }
+            } else {
+                sums.add(law, (z, d), delta, weight);
             }
         }
         Pressed {
-            elastic: elastic.sum(),
-            force: force.sum(),
-            moment: moment.sum(),
-            loss: loss.sum(),
-            touching: touching.sum(),
+            elastic: sums.elastic.sum(),
+            force: sums.force.sum(),
+            moment: sums.moment.sum(),
+            loss: sums.loss.sum(),
+            touching: sums.touching.sum(),
         }
     }
 
@@ -219,5 +205,45 @@ impl Slices {
             }
         }
         sum
+    }
+}
+
+/// [`Pressed`] in lanes.
+struct Sums<L> {
+    elastic: L,
+    force: L,
+    moment: L,
+    loss: L,
+    touching: L,
+}
+
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self {
+            elastic: L::zero(),
+            force: L::zero(),
+            moment: L::zero(),
+            loss: L::zero(),
+            touching: L::zero(),
+        }
+    }
+
+    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a closure would not be compiled for
+    /// the kernel's instructions.
+    #[inline(always)]
+    fn add(&mut self, law: &Hertz, (z, d): (L, L), delta: L, share: L) {
+        if !delta.any_positive() {
+            return;
+        }
+        let zero = L::zero();
+        let spring = share * law.healthy(delta);
+        let pressed = (share * L::splat(law.damping)).times_plus(d, spring);
+        let pressed = delta.if_above(zero, pressed.positive_part(), zero);
+        self.elastic += spring;
+        self.force += pressed;
+        self.moment = z.times_plus(pressed, self.moment);
+        self.loss = (pressed - spring).times_plus(d, self.loss);
+        self.touching += delta.if_above(zero, share, zero);
     }
 }

@@ -54,7 +54,11 @@ pub(super) fn motion<L: Lanes, const TILT: bool>(
     } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
-    let tilting = TILT.then(|| Tilting::<L>::new(model, (q, v), count));
+    let tilting = if TILT {
+        Some(Tilting::<L>::new(model, (q, v), count))
+    } else {
+        None
+    };
     let [delta_in, rate_in, slip_in, tilt_in, turn_in] = motion_of::<L>(inner, count);
     let [delta_out, rate_out, slip_out, tilt_out, turn_out] = motion_of::<L>(outer, count);
     for group in 0..count {
@@ -206,14 +210,16 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                     at.tilt = contacts.tilt[slot];
                     at.tilt_rate = contacts.tilt_rate[slot];
                 }
-                let covered = (ws.candidates[k][group] >> lane) & 1 == 1 && {
+                let mut covered = false;
+                if (ws.candidates[k][group] >> lane) & 1 == 1 {
                     let angles = Angles {
                         orbit: q[l.theta() + slot],
                         spin: q[l.phi() + slot],
                         ring: ring_angle,
                     };
-                    cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover)
-                };
+                    covered =
+                        cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover);
+                }
                 contacts.on_damage[slot] = covered;
                 let pressed = if covered {
                     slices.press::<L>(law, &at, Some(&ws.cover))

@@ -52,7 +52,11 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
 
     let mut on_inner = [L::zero(); 2];
     let mut on_outer = [L::zero(); 2];
-    let mut turning = TILT.then(|| Turning::<L>::new(model, q));
+    let mut turning = if TILT {
+        Some(Turning::<L>::new(model, q))
+    } else {
+        None
+    };
     let (mut drive, mut drags, mut lever) = (L::zero(), L::zero(), pockets.lever);
     for group in 0..count {
         let r = L::new(q_r[group]);
