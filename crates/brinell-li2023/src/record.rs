@@ -7,7 +7,6 @@ use brinell::defect::wrap;
 use brinell::observe::Findings;
 use brinell::observe::load_zone::BINS;
 use brinell::result::{Quantity, Spread};
-use brinell::scenario::ModelKind;
 use brinell::simulate::{Observer, Simulation};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -158,7 +157,7 @@ fn at_ends(loads: &[f64], forces: &[f64]) -> Option<(f64, f64)> {
 
 impl Observer for FromStart {
     fn sample(&mut self, _: u64, f: &Frame) {
-        if f.model.kind != ModelKind::Full || f.t < self.settled {
+        if !f.model.kind.moves_every_part() || f.t < self.settled {
             return;
         }
         let l = &f.model.layout;

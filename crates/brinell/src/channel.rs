@@ -35,6 +35,8 @@ enum Quantity {
     Roller(RollerQuantity, usize),
     Contact(ContactQuantity, Side, usize),
     PocketForce(usize),
+    /// beta of a roller.
+    Tilt(usize),
     /// x, y or the sensor's own direction of the sensor channels: not in a frame.
     Sensor(usize),
 }
@@ -55,6 +57,7 @@ enum RollerQuantity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ContactQuantity {
     Force,
+    Moment,
     Length,
     Stiffness,
     Slip,
@@ -99,12 +102,13 @@ impl Channel {
             Quantity::State(k) => f.y[k],
             Quantity::Acceleration(k) => f.a[k],
             Quantity::CageSpeed(k) => match f.model.kind {
-                ModelKind::Full => f.y[k],
+                ModelKind::Full | ModelKind::Tilting => f.y[k],
                 ModelKind::Lumped => f.model.rolling_orbit_speed(f.model.rotation.at(f.t).0),
             },
             Quantity::Roller(quantity, slot) => roller(f, quantity, slot),
             Quantity::Contact(quantity, side, slot) => contact(f, quantity, side, slot),
             Quantity::PocketForce(slot) => f.ws.pocket_force[slot],
+            Quantity::Tilt(slot) => f.y[f.model.layout.beta() + slot],
             Quantity::Sensor(_) => f64::NAN,
         }
     }
@@ -117,7 +121,7 @@ fn roller(f: &Frame, quantity: RollerQuantity, slot: usize) -> f64 {
     let (cos, sin) = (f.ws.cos[slot], f.ws.sin[slot]);
     let r = f.y[l.r() + slot];
     let (orbit, orbit_speed, orbit_rate, spin, spin_speed) = match f.model.kind {
-        ModelKind::Full => (
+        ModelKind::Full | ModelKind::Tilting => (
             f.y[l.theta() + slot],
             f.y[dof + l.theta() + slot],
             f.a[l.theta() + slot],
@@ -158,6 +162,7 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
     match quantity {
         ContactQuantity::Force => c.force[slot],
         ContactQuantity::Length => contact_length(f.model, f.ws, side, slot),
+        ContactQuantity::Moment => c.moment[slot],
         ContactQuantity::Stiffness => contact_stiffness(f.model, f.ws, side, slot),
         ContactQuantity::Slip => c.slip[slot],
     }
@@ -172,7 +177,7 @@ pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) ->
         None => model.geometry.roller_length,
         Some(strips) => {
             let delta = match model.kind {
-                ModelKind::Full => c.deformation[slot],
+                ModelKind::Full | ModelKind::Tilting => c.deformation[slot],
                 // One contact in series for both sides.
                 ModelKind::Lumped => law.deflection(c.elastic[slot]),
             };
@@ -191,8 +196,17 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     let c = &ws.contacts[side as usize];
     let law = model.contact(side);
     let length = model.geometry.roller_length;
+    if model.slices.is_some() {
+        // Of delta at z = 0, before profile and damage (section 16).
+        let power = law.exponent.of(c.deformation[slot]);
+        return if power > 0.0 && c.elastic[slot] > 0.0 {
+            c.elastic[slot] / power
+        } else {
+            law.stiffness * (1.0 - c.damaged_length[slot] / length)
+        };
+    }
     let share = match model.rules.law {
-        Law::Sliced if model.kind == ModelKind::Full => 1.0 - c.damaged_length[slot] / length,
+        Law::Sliced if model.kind.moves_every_part() => 1.0 - c.damaged_length[slot] / length,
         _ => crate::contact::remaining_share(length, c.damaged_length[slot]),
     };
     if !c.on_damage[slot] {
@@ -206,7 +220,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
         return law.stiffness * share;
     }
     let healthy = match model.kind {
-        ModelKind::Full => law.stiffness * c.power[slot],
+        ModelKind::Full | ModelKind::Tilting => law.stiffness * c.power[slot],
         ModelKind::Lumped => model.series_contact.healthy(c.deformation[slot]),
     };
     // Equal forces must give the healthy stiffness to the bit.
@@ -277,6 +291,15 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
             Quantity::CageSpeed(dof + at + 2),
         );
     }
+    if model.tilt.is_some() {
+        for (ring, at) in [("inner", l.inner_tilt()), ("outer", l.outer_tilt())] {
+            for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                let text = format!("slope of the {ring} ring's axis along {axis}");
+                let quantity = Quantity::State(at + k);
+                add(format!("{ring}_tilt_{axis}"), "rad", text, quantity);
+            }
+        }
+    }
     let digits = l.rollers_per_row.to_string().len().max(2);
     for row in 0..l.rows {
         for roller in 0..l.rollers_per_row {
@@ -301,6 +324,15 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
                     unit,
                     format!("{what} {of}"),
                     quantity,
+                );
+            }
+            if model.tilt.is_some() {
+                let text = format!("tilt {of}");
+                add(
+                    format!("roller{number}_tilt"),
+                    "rad",
+                    text,
+                    Quantity::Tilt(slot),
                 );
             }
             for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
@@ -336,6 +368,18 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
                     add(
                         format!("contact{number}_{name}_{suffix}"),
                         unit,
+                        text,
+                        quantity,
+                    );
+                }
+            }
+            if model.tilt.is_some() {
+                for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
+                    let text = format!("moment of the line load at the {name} contact {of}");
+                    let quantity = Quantity::Contact(ContactQuantity::Moment, side, slot);
+                    add(
+                        format!("contact{number}_{name}_moment"),
+                        "N m",
                         text,
                         quantity,
                     );

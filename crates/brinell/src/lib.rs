@@ -145,6 +145,8 @@ pub mod scenario;
 pub mod sensor;
 pub mod simulate;
 #[doc(hidden)]
+pub mod slices;
+#[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
 pub mod start;

@@ -332,7 +332,7 @@ fn coarse_slices(scenario: &Scenario, model: &Model) -> Option<Problem> {
     let counts = c.law == Law::Sliced
         && c.roller_path == RollerPath::Envelope
         && c.slices < ENVELOPE_SLICES
-        && model.kind == ModelKind::Full
+        && model.kind.moves_every_part()
         && scenario.defects.iter().any(|d| slanted(&d.shape));
     counts.then(|| {
         warning(
@@ -440,7 +440,7 @@ fn parametric(scenario: &Scenario, energy: &EnergyAudit) -> Option<String> {
         )
     };
     let remedy = match scenario.simulation.model {
-        ModelKind::Full => {
+        ModelKind::Full | ModelKind::Tilting => {
             "Energy is conserved with contact.law = \"sliced\", contact.roller_path = \"envelope\" and contact.edge_reaction = \"conservative\""
         }
         ModelKind::Lumped => {

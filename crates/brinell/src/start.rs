@@ -1,7 +1,7 @@
 //! The state at t = 0, section 9 of the model.
 
 use crate::model::Model;
-use crate::scenario::{ModelKind, Start};
+use crate::scenario::Start;
 use crate::statics::{self, NoBalance, Problem};
 
 /// Displacement of both rings in x and y for the starts that are not in balance (the paper), m.
@@ -15,7 +15,7 @@ pub fn state(model: &Model) -> Result<Vec<f64>, NoBalance> {
     let l = &model.layout;
     let dof = l.dof();
     let mut y = vec![0.0; 2 * dof];
-    let full = model.kind == ModelKind::Full;
+    let full = model.kind.moves_every_part();
     if full {
         for slot in 0..l.rollers() {
             y[l.theta() + slot] = model.pocket_angle[slot];
@@ -39,6 +39,11 @@ pub fn state(model: &Model) -> Result<Vec<f64>, NoBalance> {
         (inner, outer) = (balance.inner, balance.outer);
         if full {
             y[l.r()..l.r() + l.rollers()].copy_from_slice(&balance.r[..l.rollers()]);
+        }
+        if let Some(tilted) = &balance.tilting {
+            y[l.beta()..][..l.rollers()].copy_from_slice(&tilted.rollers[..l.rollers()]);
+            y[l.inner_tilt()..][..2].copy_from_slice(&tilted.rings[0]);
+            y[l.outer_tilt()..][..2].copy_from_slice(&tilted.rings[1]);
         }
     }
     if model.outer_ring_is_fixed() {

@@ -5,11 +5,15 @@
 //! on the rollers, damage is taken as it lies at the given angles. SI; frame as in [`crate::model`].
 
 mod load_zone;
+mod newton;
+mod tilting;
 
-use crate::defect::{Angles, Side, damaged_contact, energy, tangent};
+use crate::defect::{Angles, Side, cover_slices, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
+use crate::slices::{Approach, Cover, Slices};
 pub use load_zone::{StaticLoadZone, static_load_zone};
+use newton::{Minimum, State, minimise};
 
 /// Question put to the solver.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,10 +69,26 @@ pub struct Balance {
     pub outer_force: Vec<f64>,
     /// Stiffness of the bearing between its rings, N/m: the force on the inner ring is minus this times its displacement.
     pub stiffness: [[f64; 2]; 2],
-    /// Largest force left over on a ring, N.
+    /// Tilts, where rollers and rings tilt.
+    pub tilting: Option<Tilted>,
+    /// Largest force left over on a ring, N; of a moment its share of the pitch radius.
     pub residual: f64,
     /// Newton iterations.
     pub iterations: usize,
+}
+
+/// The tilts of a balance, section 16.
+#[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
+pub struct Tilted {
+    /// tau of the inner and of the outer ring, rad.
+    pub rings: [[f64; 2]; 2],
+    /// beta of each slot's roller, rad.
+    pub rollers: Vec<f64>,
+    /// T of each slot's inner and outer contact, N m.
+    pub moments: [Vec<f64>; 2],
+    /// Stiffness of the bearing between its rings over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad. Along the axis cylindrical rollers hold nothing.
+    pub stiffness: [[f64; 4]; 4],
 }
 
 /// No balance was found.
@@ -106,85 +126,52 @@ struct Roller {
 /// Rings' offsets (x_i, y_i, x_o, y_o).
 type Offsets = [f64; 4];
 
-const MAX_ITERATIONS: usize = 200;
-
 /// Solves a static problem.
 ///
 /// # Errors
 /// Where the rings are not held against the load.
 #[doc(hidden)]
 pub fn solve(model: &Model, problem: &Problem) -> Result<Balance, NoBalance> {
+    if let Some(tilt) = &model.tilt {
+        return tilting::solve(model, tilt, problem);
+    }
     let free = [
         !problem.fix_inner,
         !problem.fix_inner,
         !problem.fix_outer,
         !problem.fix_outer,
     ];
-    let mut x: Offsets = std::array::from_fn(|k| {
-        let guess = problem.guess[k / 2][k % 2];
-        if free[k] { guess } else { 0.0 }
-    });
+    let guess: Offsets = std::array::from_fn(|k| problem.guess[k / 2][k % 2]);
     let mut rollers = vec![Roller::default(); model.layout.rollers()];
-    let mut trial_rollers = rollers.clone();
     let forces = external(model, problem);
-    let weight =
-        rollers.len() as f64 * model.inertia.roller * centrifugal(model, problem.speed).abs();
-    let scale = forces
+    let scale = force_scale(model, problem, &forces);
+    let found = minimise(guess, &free, (scale, softest(model)), |x| {
+        let potential = evaluate(model, problem, &forces, x, &mut rollers);
+        let (gradient, hessian) = derivatives(model, problem, &forces, x, &rollers);
+        State {
+            potential,
+            gradient,
+            hessian,
+        }
+    })?;
+    evaluate(model, problem, &forces, &found.x, &mut rollers);
+    Ok(finish(model, problem, &found, &rollers))
+}
+
+/// The largest force at play, N: loads, and the weight and centrifugal force of all rollers.
+fn force_scale(model: &Model, problem: &Problem, forces: &[f64]) -> f64 {
+    let count = model.layout.rollers() as f64;
+    let weight = count * model.inertia.roller * centrifugal(model, problem.speed).abs();
+    forces
         .iter()
         .fold(0.0_f64, |m, f| m.max(f.abs()))
         .max(weight)
-        .max(1e-9);
-    // The series stiffness at a deflection of a micrometre: any value of this order starts the damping.
-    let mut damping = 1e-3 * model.series_contact.tangent(1e-6, None).max(1.0);
-    let mut potential = evaluate(model, problem, &forces, &x, &mut rollers);
-    let mut residual = 0.0;
-    for iterations in 0..MAX_ITERATIONS {
-        let (gradient, hessian) = derivatives(model, problem, &forces, &x, &rollers, &free);
-        residual = gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs()));
-        if residual <= 1e-10 * scale {
-            return Ok(finish(model, problem, x, &rollers, residual, iterations));
-        }
-        let mut improved = false;
-        for _ in 0..60 {
-            let mut damped = hessian;
-            (0..4).for_each(|k| damped[k][k] += if free[k] { damping } else { 1.0 });
-            let Some(step) = solve4(damped, gradient.map(|g| -g)) else {
-                damping *= 10.0;
-                continue;
-            };
-            let trial: Offsets =
-                std::array::from_fn(|k| if free[k] { x[k] + step[k] } else { x[k] });
-            let trial_potential = evaluate(model, problem, &forces, &trial, &mut trial_rollers);
-            let (trial_gradient, _) =
-                derivatives(model, problem, &forces, &trial, &trial_rollers, &free);
-            let smaller = trial_gradient.iter().fold(0.0_f64, |m, g| m.max(g.abs())) < residual;
-            // Near the solution the potential no longer resolves the progress, but the residual does.
-            if trial_potential < potential
-                || (smaller && trial_potential <= potential + 1e-12 * potential.abs())
-            {
-                x = trial;
-                potential = trial_potential;
-                std::mem::swap(&mut rollers, &mut trial_rollers);
-                damping *= 0.1;
-                improved = true;
-                break;
-            }
-            damping = (damping * 10.0).max(1e-6);
-        }
-        if !improved {
-            if residual <= 1e-7 * scale {
-                return Ok(finish(model, problem, x, &rollers, residual, iterations));
-            }
-            return Err(NoBalance {
-                residual,
-                iterations,
-            });
-        }
-    }
-    Err(NoBalance {
-        residual,
-        iterations: MAX_ITERATIONS,
-    })
+        .max(1e-9)
+}
+
+/// Where the damping of Newton's method begins, N/m: the series stiffness at a deflection of a micrometre. Any value of this order does.
+fn softest(model: &Model) -> f64 {
+    1e-3 * model.series_contact.tangent(1e-6, None).max(1.0)
 }
 
 /// Centripetal acceleration of a roller in pure rolling, m/s^2.
@@ -222,7 +209,7 @@ fn evaluate(
         .sum();
     for (slot, roller) in rollers.iter_mut().enumerate() {
         *roller = match model.kind {
-            ModelKind::Full => between_raceways(model, problem, slot, x),
+            ModelKind::Full | ModelKind::Tilting => between_raceways(model, problem, slot, x),
             ModelKind::Lumped => in_series(model, problem, slot, x),
         };
         potential += roller.energy;
@@ -260,7 +247,20 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let outer_at = cos * x[2] + sin * x[3] + model.geometry.outer_gap;
     let own = model.inertia.roller
         * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let sliced = |slices: &Slices, side: Side, delta: f64| {
+        let mut cover = Cover::new(slices.count);
+        let covered = cover_slices(model.defects_of(slot, side), &angles, side, &mut cover);
+        let at = Approach {
+            deformation: delta,
+            ..Approach::default()
+        };
+        slices.carry(model.contact(side), &at, covered.then_some(&cover))
+    };
     let contact = |side: Side, delta: f64| -> (f64, f64) {
+        if let Some(slices) = &model.slices {
+            let carried = sliced(slices, side, delta);
+            return (carried.force, carried.stiffness[0]);
+        }
         let law = model.contact(side);
         let defects = model.defects_of(slot, side);
         match damaged_contact(defects.clone(), law, &angles, side, delta) {
@@ -320,6 +320,9 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let (q_in, k_in) = contact(Side::Inner, inner_at - r);
     let (q_out, k_out) = contact(Side::Outer, r - outer_at);
     let stored = |side, delta| {
+        if let Some(slices) = &model.slices {
+            return sliced(slices, side, delta).energy;
+        }
         energy(
             model.defects_of(slot, side),
             model.contact(side),
@@ -348,7 +351,6 @@ fn derivatives(
     forces: &Offsets,
     x: &Offsets,
     rollers: &[Roller],
-    free: &[bool; 4],
 ) -> (Offsets, [[f64; 4]; 4]) {
     let (ki, ko) = (
         model.inner_support.stiffness,
@@ -368,25 +370,11 @@ fn derivatives(
             }
         }
     }
-    for i in 0..4 {
-        if !free[i] {
-            gradient[i] = 0.0;
-            for j in 0..4 {
-                (hessian[i][j], hessian[j][i]) = (0.0, 0.0);
-            }
-        }
-    }
     (gradient, hessian)
 }
 
-fn finish(
-    model: &Model,
-    problem: &Problem,
-    x: Offsets,
-    rollers: &[Roller],
-    residual: f64,
-    iterations: usize,
-) -> Balance {
+fn finish(model: &Model, problem: &Problem, found: &Minimum<4>, rollers: &[Roller]) -> Balance {
+    let x = &found.x;
     let slots = model.layout.slots;
     let gather = |f: fn(&Roller) -> f64| {
         let mut values = vec![0.0; slots];
@@ -410,34 +398,8 @@ fn finish(
         inner_force: gather(|r| r.inner),
         outer_force: gather(|r| r.outer),
         stiffness,
-        residual,
-        iterations,
+        tilting: None,
+        residual: found.residual,
+        iterations: found.iterations,
     }
-}
-
-/// Gaussian elimination with partial pivoting; `None` where the matrix is singular.
-fn solve4(mut a: [[f64; 4]; 4], mut b: Offsets) -> Option<Offsets> {
-    for column in 0..4 {
-        let pivot =
-            (column..4).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        if a[pivot][column] == 0.0 || !a[pivot][column].is_finite() {
-            return None;
-        }
-        a.swap(column, pivot);
-        b.swap(column, pivot);
-        for row in column + 1..4 {
-            let factor = a[row][column] / a[column][column];
-            for k in column..4 {
-                a[row][k] -= factor * a[column][k];
-            }
-            b[row] -= factor * b[column];
-        }
-    }
-    for row in (0..4).rev() {
-        for k in row + 1..4 {
-            b[row] -= a[row][k] * b[k];
-        }
-        b[row] /= a[row][row];
-    }
-    Some(b)
 }

@@ -45,7 +45,7 @@ pub fn to_json(parts: &Parts) -> Value {
         "name": scenario.name,
         "status": status(&outcome.end),
         "simulated": {
-            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped" },
+            "model": match scenario.simulation.model { ModelKind::Full => "full", ModelKind::Lumped => "lumped", ModelKind::Tilting => "tilting" },
             "accuracy": match scenario.simulation.accuracy { Accuracy::Standard => "standard", Accuracy::Reference => "reference" },
             "duration_s": scenario.simulation.duration_s,
             "reached_s": outcome.reached,

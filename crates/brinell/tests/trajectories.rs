@@ -131,6 +131,11 @@ fn xval_given_slices_oblique() {
     given_later("slices-oblique", 0.015);
 }
 
+#[test]
+fn xval_given_tilting_edge() {
+    given_later("tilting-edge", 0.015);
+}
+
 /// A channel may differ by this many times what two equally tight runs of the independent program differ by...
 const SELF_FACTOR: f64 = 10.0;
 /// ... or by this much, the larger: our own tolerance (`reference` accuracy) and dense output come on top of theirs.

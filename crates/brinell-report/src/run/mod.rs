@@ -116,6 +116,7 @@ fn subtitle(scenario: &Scenario) -> String {
     let model = match scenario.simulation.model {
         ModelKind::Full => "full model",
         ModelKind::Lumped => "lumped model",
+        ModelKind::Tilting => "tilting model",
     };
     format!(
         "{bearing}, {damage}, {}, load {} N, {model}",

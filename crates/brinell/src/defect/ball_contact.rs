@@ -100,7 +100,10 @@ fn parts<'a>(
     };
     if cuts.next().is_some() {
         let size = (first.profile.slices, first.profile.extent);
-        joint(all, size, |z, phi, h| slice(1.0, &mut from, z, phi, h));
+        joint(all, size, |k, phi, h| {
+            let z = slice_borders(k, size.0, size.1);
+            slice(1.0, &mut from, z, phi, h);
+        });
     } else if let Cover::Across(across) = &first.profile.cover {
         if across.mirrored {
             (from, side) = (0.0, 2.0);

@@ -13,6 +13,7 @@ use super::track::settled;
 use super::{Angles, Defect, Shape, Side};
 use crate::contact::{ContactReduction, Hertz};
 use crate::scenario::{Law, Surface};
+use crate::slices::{self, borders};
 
 /// What acts in one contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +73,10 @@ impl<'a> Cut<'a> {
         }
     }
 
+    fn is_on_roller(&self) -> bool {
+        matches!(self.defect.surface, Surface::Roller(_))
+    }
+
     /// Distance of the line of contact from the damage, m; 0 on it.
     #[inline]
     fn away(&self) -> f64 {
@@ -119,7 +124,7 @@ fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)
 pub(super) fn joint<'a>(
     cuts: impl Iterator<Item = Cut<'a>> + Clone,
     (slices, extent): (usize, Extent),
-    mut add: impl FnMut([f64; 2], f64, f64),
+    mut add: impl FnMut(usize, f64, f64),
 ) {
     let rolling = rolling(cuts.clone());
     let deepest = |z: f64| cuts.clone().filter_map(|cut| cut.under(z)).reduce(f64::max);
@@ -164,7 +169,7 @@ pub(super) fn joint<'a>(
         }
         let phi = settled(covered / (high - low));
         if phi > 0.0 {
-            add([low, high], phi, section / covered);
+            add(k, phi, section / covered);
         }
     }
 }
@@ -235,6 +240,84 @@ fn mean<'a>(
             (left * undamaged + sum) / n
         },
         covered: covered / n,
+    })
+}
+
+/// phi_k and h_k of every slice under a contact, into `cover`; false where it is on no damage, and nothing is written.
+pub fn cover_slices<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+    cover: &mut slices::Cover,
+) -> bool {
+    cover_cuts(cuts(defects, angles, side), cover)
+}
+
+fn cover_cuts<'a>(
+    mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
+    cover: &mut slices::Cover,
+) -> bool {
+    let all = cuts.clone();
+    let Some(first) = cuts.next() else {
+        return false;
+    };
+    let (profile, s) = (first.profile, first.s);
+    let (count, length) = (profile.slices, first.defect.roller_length);
+    cover.fraction.fill(0.0);
+    cover.depth.fill(0.0);
+    let mut put = |k: usize, phi: f64, h: f64| {
+        (cover.fraction[k], cover.depth[k]) = (phi, h);
+    };
+    if cuts.next().is_some() {
+        joint(all, (count, profile.extent), put);
+        return true;
+    }
+    match &profile.cover {
+        Cover::Unsliced | Cover::Across(_) => return false,
+        Cover::Even => {
+            let h = match &profile.floor {
+                Some(floor) => floor.value(s).max(0.0),
+                None => first.defect.depth_at(s),
+            };
+            let per_length = count as f64 / length;
+            let mut bands = profile.bands.iter().peekable();
+            for k in 0..count {
+                let [low, high] = borders(k, count, length);
+                let mut covered = 0.0;
+                while let Some(band) = bands.next_if(|band| band.z[0] < high) {
+                    if band.z[0] >= low {
+                        covered += band.covered(s);
+                    }
+                }
+                put(k, settled(covered * per_length), h);
+            }
+        }
+        Cover::Slices(tracks) => {
+            for track in tracks {
+                let (phi, h) = track.value(s);
+                put(track.slice, phi, h);
+                if track.count == 2.0 {
+                    put(count - 1 - track.slice, phi, h);
+                }
+            }
+        }
+    }
+    true
+}
+
+/// Derivatives of the elastic energy that `energy` gives of what damage covers: central differences over 0.2 um of the arc.
+pub fn edge_gradient_of_slices<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+    cover: &mut slices::Cover,
+    energy: impl Fn(Option<&slices::Cover>) -> f64,
+) -> EdgeGradient {
+    central_differences(cuts(defects, angles, side), |moved| {
+        match cover_cuts(moved, cover) {
+            true => energy(Some(cover)),
+            false => energy(None),
+        }
     })
 }
 
@@ -441,6 +524,52 @@ impl EdgeGradient {
     }
 }
 
+/// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart from those on the raceway.
+fn central_differences<'a, C: Iterator<Item = Cut<'a>> + Clone>(
+    cuts: C,
+    mut energy: impl FnMut(Moved<C>) -> f64,
+) -> EdgeGradient {
+    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
+    const STEP: f64 = 1e-7;
+    let mut gradient = EdgeGradient::default();
+    for on_roller in [false, true] {
+        let Some(one) = cuts.clone().find(|cut| cut.is_on_roller() == on_roller) else {
+            continue;
+        };
+        let mut held = |by: f64| {
+            energy(Moved {
+                cuts: cuts.clone(),
+                on_roller,
+                by,
+            })
+        };
+        let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
+        gradient.add(one.defect.surface, slope * one.defect.radius);
+    }
+    gradient
+}
+
+/// Cuts, those of one kind moved along the arc.
+#[derive(Clone)]
+struct Moved<C> {
+    cuts: C,
+    on_roller: bool,
+    /// m.
+    by: f64,
+}
+
+impl<'a, C: Iterator<Item = Cut<'a>>> Iterator for Moved<C> {
+    type Item = Cut<'a>;
+
+    fn next(&mut self) -> Option<Cut<'a>> {
+        let mut cut = self.cuts.next()?;
+        if cut.is_on_roller() == self.on_roller {
+            cut.s += self.by;
+        }
+        Some(cut)
+    }
+}
+
 /// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of the arc.
 pub fn edge_gradient<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
@@ -449,38 +578,21 @@ pub fn edge_gradient<'a>(
     side: Side,
     delta: f64,
 ) -> EdgeGradient {
-    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
-    const STEP: f64 = 1e-7;
     let mut gradient = EdgeGradient::default();
     let cuts = cuts(defects, angles, side);
     let Some(first) = cuts.clone().next() else {
         return gradient;
     };
     if cuts.clone().nth(1).is_some() {
-        let is_roller = |cut: &Cut| matches!(cut.defect.surface, Surface::Roller(_));
-        // Defects on the roller move over the contact apart from those on the raceway.
-        for on_roller in [false, true] {
-            let moves = |cut: &Cut| is_roller(cut) == on_roller;
-            let Some(one) = cuts.clone().find(moves) else {
-                continue;
-            };
-            let held = |step: f64| {
-                let moved = cuts.clone().map(move |mut cut| {
-                    if is_roller(&cut) == on_roller {
-                        cut.s += step;
-                    }
-                    cut
-                });
-                if let Some(strips) = &law.strips {
-                    return ball_contact::energy(moved, strips, delta).unwrap_or_default();
-                }
-                let undamaged = law.energy(delta);
-                mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
-            };
-            let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
-            gradient.add(one.defect.surface, slope * one.defect.radius);
+        if let Some(strips) = &law.strips {
+            return central_differences(cuts, |moved| {
+                ball_contact::energy(moved, strips, delta).unwrap_or_default()
+            });
         }
-        return gradient;
+        let undamaged = law.energy(delta);
+        return central_differences(cuts, |moved| {
+            mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
+        });
     }
     let (profile, s) = (first.profile, first.s);
     let slope = match &profile.cover {

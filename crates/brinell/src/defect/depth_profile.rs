@@ -9,6 +9,7 @@ use super::map_slices::{along_the_envelope, at_a_point};
 use super::piecewise::{Line, PiecewisePolynomial};
 use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
+use crate::slices::borders;
 
 /// How damage acts, the same for every contact of a model (section 3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,9 +72,7 @@ impl Extent {
 
 /// First and last z of slice k (from 0) of n_s, m.
 pub(super) fn slice_borders(k: usize, slices: usize, extent: Extent) -> [f64; 2] {
-    // From the middle, so that slices on both sides are mirror images to the bit.
-    let share = |k: usize| (2 * k as i64 - slices as i64) as f64 / (2.0 * slices as f64);
-    [k, k + 1].map(|k| extent.middle + share(k) * extent.length)
+    borders(k, slices, extent.length).map(|z| extent.middle + z)
 }
 
 /// What damage covers of the slices, and how deep.
@@ -143,12 +142,12 @@ impl DepthProfile {
             surface,
         };
         if sliced {
-            let (borders, crossings) = shape.borders(middle);
+            let (edges, crossings) = shape.borders(middle);
             let mut cuts: Vec<f64> = (0..rules.slices)
                 .map(|k| slice_borders(k, rules.slices, extent)[0])
                 .collect();
             cuts.push(extent.middle + 0.5 * extent.length);
-            profile.bands = Band::all(&borders, &crossings, &cuts);
+            profile.bands = Band::all(&edges, &crossings, &cuts);
             profile.cover = match shape {
                 _ if extent.of_balls => {
                     Cover::Across(profile.across(shape, (depth, middle), radius))
@@ -190,7 +189,7 @@ impl DepthProfile {
                 };
                 let of = |phi: f64| {
                     let parts = fit(&stops, depth, |s| (phi, floor(s)));
-                    Track::new((0, 1.0), parts, *half_length)
+                    Track::new(0, 1.0, parts, *half_length)
                 };
                 let range = [middle - 0.5 * width, middle + 0.5 * width];
                 return Across::of_rectangle(range, size, of);
@@ -253,7 +252,7 @@ impl DepthProfile {
                 (covered / (high - low), reached / covered)
             });
             let twice = alike && 2 * k + 1 != n;
-            Track::new((k, if twice { 2.0 } else { 1.0 }), parts, last)
+            Track::new(k, if twice { 2.0 } else { 1.0 }, parts, last)
         });
         tracks.collect()
     }

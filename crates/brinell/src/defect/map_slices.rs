@@ -73,7 +73,7 @@ fn trimmed(slice: usize, mut parts: Vec<Part>, last: f64) -> Option<Track> {
     let last = parts.get(end).map_or(last, |p| p.start);
     parts.truncate(end);
     parts.drain(..parts.iter().position(covers)?);
-    Track::new((slice, 1.0), parts, last)
+    Track::new(slice, 1.0, parts, last)
 }
 
 /// One line z = const of a slice.

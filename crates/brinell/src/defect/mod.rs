@@ -22,8 +22,8 @@ pub mod simplify;
 mod track;
 
 pub use damaged_contact::{
-    DamagedContact, EdgeGradient, damaged_contact, damaged_contact_given, depth_at_bottom,
-    edge_gradient, energy, floors, tangent,
+    DamagedContact, EdgeGradient, cover_slices, damaged_contact, damaged_contact_given,
+    depth_at_bottom, edge_gradient, edge_gradient_of_slices, energy, floors, tangent,
 };
 use depth_profile::Extent;
 pub use depth_profile::{DepthProfile, Rules, relative_radius};

@@ -57,7 +57,7 @@ fn slope(c: &[f64; 4], x: f64) -> f64 {
 /// phi_k(s) and h_k(s) of one slice, or of several that are alike.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
-    /// The slice, from 0: of two that are alike the upper one.
+    /// The slice, from 0; where `count` is 2 its mirror image is the other.
     pub(super) slice: usize,
     /// How many slices.
     pub(super) count: f64,
@@ -66,8 +66,8 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Of a slice and as many like it as make `count`, from pieces in ascending order up to `last` (m); `None` where nothing is covered.
-    pub(super) fn new((slice, count): (usize, f64), parts: Vec<Part>, last: f64) -> Option<Self> {
+    /// From pieces in ascending order up to `last` (m); `None` where nothing is covered.
+    pub(super) fn new(slice: usize, count: f64, parts: Vec<Part>, last: f64) -> Option<Self> {
         let first = parts.first()?.start;
         let covers = parts.iter().any(|p| p.phi != [0.0; 4]);
         covers.then(|| Self {
@@ -183,7 +183,7 @@ mod tests {
             (1e9 * s.powi(3) + 0.5, 2e3 * s * s)
         });
         assert_eq!(exact.len(), 1);
-        let track = Track::new((0, 1.0), exact, 1e-3).unwrap();
+        let track = Track::new(0, 1.0, exact, 1e-3).unwrap();
         for s in [-1e-3, -2e-4, 0.0, 3e-4, 1e-3] {
             let (phi, h) = track.value(s);
             assert!(
@@ -195,7 +195,7 @@ mod tests {
         }
         let root = |s: f64| ((s + 1e-3) / 2e-3).max(0.0).sqrt();
         let parts = fit(&[-1e-3, 1e-3], 1.0, |s| (root(s), 0.0));
-        let track = Track::new((0, 1.0), parts, 1e-3).unwrap();
+        let track = Track::new(0, 1.0, parts, 1e-3).unwrap();
         for k in 0..2000 {
             let s = -1e-3 + 2e-3 * (f64::from(k) / 2000.0).powi(3);
             let off = (track.value(s).0 - settled(root(s))).abs();

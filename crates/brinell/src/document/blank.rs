@@ -27,6 +27,9 @@ pub(crate) fn scenario() -> Scenario {
             inner_ring_mass_kg: NONE,
             outer_ring_mass_kg: NONE,
             roller_mass_kg: NONE,
+            profile: Leaf::blank(),
+            width_mm: NONE,
+            row_spacing_mm: NONE,
         },
         cage: Cage {
             mass_kg: NONE,
@@ -66,6 +69,10 @@ pub(crate) fn scenario() -> Scenario {
             inner_damping_ns_per_m: NONE,
             outer_stiffness_n_per_m: NONE,
             outer_damping_ns_per_m: NONE,
+            inner_tilt_stiffness_nm_per_rad: NONE,
+            inner_tilt_damping_nms_per_rad: NONE,
+            outer_tilt_stiffness_nm_per_rad: NONE,
+            outer_tilt_damping_nms_per_rad: NONE,
         },
         operation: Operation {
             speed_rpm: Leaf::blank(),
@@ -73,6 +80,7 @@ pub(crate) fn scenario() -> Scenario {
             load_on: Leaf::blank(),
             load_ramp_s: NONE,
             gravity_m_per_s2: [NONE; 2],
+            load_offset_mm: NONE,
         },
         defects: Vec::new(),
         sensor: Sensor::off(),

@@ -61,7 +61,9 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
-    const SUFFIXES: [(&str, &str); 20] = [
+    const SUFFIXES: [(&str, &str); 22] = [
+        ("_nms_per_rad", "N m s/rad"),
+        ("_nm_per_rad", "N m/rad"),
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
         ("_kg_per_m3", "kg/m^3"),
         ("_ns_per_m", "N s/m"),
@@ -223,6 +225,18 @@ pub fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
     }
 }
 
+impl<T> Fallback<T> {
+    /// The value, where there is one.
+    pub(crate) fn value(self) -> Option<T> {
+        match self {
+            Self::Derived { value, .. }
+            | Self::Instead { value, .. }
+            | Self::Fixed { value, .. } => Some(value),
+            Self::Required | Self::Catalogued | Self::Needed(_) => None,
+        }
+    }
+}
+
 /// One of the alternatives of [`Keys::one_of`].
 pub struct Variant<T> {
     pub(crate) name: &'static str,
@@ -259,6 +273,20 @@ pub trait Keys: Sized {
         fallback: Fallback<T>,
         value: &mut T,
     );
+
+    /// A key of one case, with a default; elsewhere it has no effect, which is said of a file that gives it. The words say where it has one.
+    fn key_acting_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        wanted: (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    );
+
+    /// The value of a key of a later section, before the walk is there: `None` where it is known already or the file does not give it.
+    fn foretold<T: Leaf>(&mut self, _section: &str, _name: &'static str) -> Option<T> {
+        None
+    }
 
     /// The key that names the catalogue bearing, whose values replace keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {

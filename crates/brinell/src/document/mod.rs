@@ -15,6 +15,7 @@ mod nearest;
 mod pointed;
 mod problem;
 mod problems;
+mod profile_leaf;
 mod provenance;
 mod reader;
 mod recorded;

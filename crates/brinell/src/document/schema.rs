@@ -63,6 +63,13 @@ impl Schema {
         self.object().properties.insert(spec.name.into(), schema);
     }
 
+    fn say_more(&mut self, name: &str, more: &str) {
+        let schema = self.object().properties.get_mut(name);
+        if let Some(Json::String(doc)) = schema.and_then(|s| s.get_mut("description")) {
+            doc.push_str(more);
+        }
+    }
+
     fn nested(&mut self, keys: impl FnOnce(&mut Self)) -> Object {
         self.objects.push(Object::default());
         keys(self);
@@ -129,13 +136,18 @@ impl Keys for Schema {
             object.catalogued.pop();
         }
         let word = if required { "required where" } else { "where" };
-        if let Some(Json::String(doc)) = object
-            .properties
-            .get_mut(spec.name)
-            .and_then(|schema| schema.get_mut("description"))
-        {
-            doc.push_str(&format!("; {word} {case}, and only there"));
-        }
+        self.say_more(spec.name, &format!("; {word} {case}, and only there"));
+    }
+
+    fn key_acting_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        (_, case): (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    ) {
+        self.key(spec, fallback, value);
+        self.say_more(spec.name, &format!("; acts only where {case}"));
     }
 
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::blank;
 use super::damage::defect;
 use super::keys::Fallback::{self, Catalogued, Needed, Required};
-use super::keys::{Keys, assumed, derived, key, stated};
+use super::keys::{Keys, Spec, assumed, derived, key, stated};
 use super::sensor::sensor;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::contact::ball;
@@ -30,15 +30,20 @@ pub(super) const PAPER: &str = "Li et al. 2023";
 pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     let name = key("name", "name of the run, free text");
     k.key(name, stated("unnamed".into(), "no name given"), &mut s.name);
+    // Which keys act, and what others default to, depends on the equations.
+    if let Some(model) = k.foretold("simulation", "model") {
+        s.simulation.model = model;
+    }
+    let model = s.simulation.model;
     k.section(key("bearing", "geometry and masses"), |k| {
-        bearing(k, &mut s.bearing)
+        bearing(k, model, &mut s.bearing)
     });
     k.section(key("cage", "one cage for each row"), |k| {
         cage(k, &s.bearing, &mut s.cage)
     });
     k.section(
         key("contact", "rollers on raceways, along the normal"),
-        |k| contact(k, &s.bearing, &mut s.contact),
+        |k| contact(k, (model, &s.bearing), &mut s.contact),
     );
     k.section(
         key("friction", "rollers on raceways, along the surface"),
@@ -46,11 +51,11 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     );
     k.section(key("lubricant", "oil"), |k| lubricant(k, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| {
-        operation(k, &mut s.operation)
+        operation(k, (model, &s.bearing), &mut s.operation)
     });
     k.section(
         key("support", "springs and dampers that hold the rings"),
-        |k| support(k, s.operation.load_on, &mut s.support),
+        |k| support(k, (model, &s.bearing, s.operation.load_on), &mut s.support),
     );
     let load = s.operation.load_n;
     k.tables(
@@ -71,7 +76,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
 }
 
-fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
+fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
     k.preset(
         key("preset", "catalogue bearing that fills the keys left out"),
         &mut b.preset,
@@ -183,6 +188,59 @@ fn bearing<K: Keys>(k: &mut K, b: &mut Bearing) {
         roller,
         &mut b.roller_mass_kg,
     );
+    k.key_where(
+        key(
+            "profile",
+            "p(z), how far roller and raceway together stand back",
+        ),
+        (!b.has_balls(), ROLLERS),
+        stated(RollerProfile::Straight, PAPER),
+        &mut b.profile,
+    );
+    tilt_key(
+        k,
+        (model, b.element),
+        key("width_mm", "B, width of the rings").above(0.0),
+        derived(
+            1.6 * b.roller_length_mm * b.rows as f64,
+            "1.6 roller lengths a row",
+        ),
+        &mut b.width_mm,
+    );
+    let spacing = if b.rows == 1 {
+        stated(0.0, "a single row")
+    } else {
+        derived(1.5 * b.roller_length_mm, "1.5 roller lengths")
+    };
+    tilt_key(
+        k,
+        (model, b.element),
+        key("row_spacing_mm", "b, between the middles of two rows").from(0.0),
+        spacing,
+        &mut b.row_spacing_mm,
+    );
+}
+
+/// A key of `tilting`, which balls do not do.
+fn tilt_key<K: Keys>(
+    k: &mut K,
+    (model, element): (ModelKind, Element),
+    spec: Spec,
+    fallback: Fallback<f64>,
+    value: &mut f64,
+) {
+    let acts = (
+        model == ModelKind::Tilting,
+        "simulation.model is \"tilting\"",
+    );
+    match element {
+        Element::Roller => k.key_acting_where(spec, acts, fallback, value),
+        Element::Ball => {
+            let without = fallback.clone().value();
+            k.key_where(spec, (false, ROLLERS), fallback, value);
+            *value = without.unwrap_or(*value);
+        }
+    }
 }
 
 /// Conformities of the grooves, which only balls have.
@@ -365,13 +423,16 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
 }
 
-fn contact<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
-    let (law, path) = match b.element {
-        Element::Roller => (stated(Law::Ecl, PAPER), stated(RollerPath::Point, PAPER)),
-        Element::Ball => (
-            stated(Law::Sliced, "the only law of balls"),
-            stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
-        ),
+fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contact) {
+    let law = match (model, &b.profile) {
+        _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
+        (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
+        (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
+        _ => stated(Law::Sliced, "a profile has slices"),
+    };
+    let path = match b.element {
+        Element::Roller => stated(RollerPath::Point, PAPER),
+        Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
     };
     k.key(
         key("law", "force of a damaged contact; of balls only sliced"),
@@ -519,7 +580,7 @@ fn lubricant<K: Keys>(k: &mut K, l: &mut Lubricant) {
     );
 }
 
-fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
+fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Operation) {
     k.key(
         key(
             "speed_rpm",
@@ -551,9 +612,23 @@ fn operation<K: Keys>(k: &mut K, o: &mut Operation) {
         stated([0.0, 0.0], POINT_OF_SCOPE),
         &mut o.gravity_m_per_s2,
     );
+    tilt_key(
+        k,
+        (model, b.element),
+        key(
+            "load_offset_mm",
+            "Z_F, where along the axis the load acts; 0 is the bearing's middle",
+        ),
+        stated(0.0, "in the middle"),
+        &mut o.load_offset_mm,
+    );
 }
 
-fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
+fn support<K: Keys>(
+    k: &mut K,
+    (model, b, load_on): (ModelKind, &Bearing, LoadOn),
+    s: &mut Support,
+) {
     // Soft where the load acts, or the support would carry it instead of the rollers (model.md, section 12).
     let why = "soft on the loaded ring, stiff on the other; the paper does not state it";
     let (inner, outer) = match load_on {
@@ -579,6 +654,38 @@ fn support<K: Keys>(k: &mut K, load_on: LoadOn, s: &mut Support) {
         key("outer_damping_ns_per_m", "c_o").from(0.0),
         assumed(500.0, "the paper does not state it"),
         &mut s.outer_damping_ns_per_m,
+    );
+    let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
+    let (k_ti, k_to) = (s.inner_stiffness_n_per_m, s.outer_stiffness_n_per_m);
+    let (c_ti, c_to) = (s.inner_damping_ns_per_m, s.outer_damping_ns_per_m);
+    let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
+    tilt_key(
+        k,
+        (model, b.element),
+        key("inner_tilt_stiffness_nm_per_rad", "k_ti").from(0.0),
+        derived(k_ti * lever, stiffness),
+        &mut s.inner_tilt_stiffness_nm_per_rad,
+    );
+    tilt_key(
+        k,
+        (model, b.element),
+        key("inner_tilt_damping_nms_per_rad", "c_ti").from(0.0),
+        derived(c_ti * lever, damping),
+        &mut s.inner_tilt_damping_nms_per_rad,
+    );
+    tilt_key(
+        k,
+        (model, b.element),
+        key("outer_tilt_stiffness_nm_per_rad", "k_to").from(0.0),
+        derived(k_to * lever, stiffness),
+        &mut s.outer_tilt_stiffness_nm_per_rad,
+    );
+    tilt_key(
+        k,
+        (model, b.element),
+        key("outer_tilt_damping_nms_per_rad", "c_to").from(0.0),
+        derived(c_to * lever, damping),
+        &mut s.outer_tilt_damping_nms_per_rad,
     );
 }
 

@@ -68,6 +68,7 @@ words! { NoiseColour:
 words! { ModelKind renamed "reference" to "lumped":
     Full = "full", "every part moves";
     Lumped = "lumped", "lumped rings, kinematic cage";
+    Tilting = "tilting", "every part moves, rollers and rings tilt too";
 }
 
 words! { Start:

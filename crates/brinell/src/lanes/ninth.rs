@@ -23,7 +23,7 @@ pub(super) const EIGHT: [f64; 5] = [
 
 /// x^(8/9) for x >= 0, relative error below 3e-15.
 #[inline]
-pub fn eight_ninths(x: f64) -> f64 {
+pub(crate) fn eight_ninths(x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
     }

@@ -4,9 +4,10 @@
 //! parametric work of stiffnesses that change under a roller (section 3), which [`parametric_work`] measures over a step.
 
 use super::{Layout, Model, Workspace};
-use crate::defect::{Angles, SIDES, Side, energy};
+use crate::defect::{Angles, SIDES, Side, cover_slices, energy};
 use crate::lanes::{Column, WIDTH};
 use crate::scenario::ModelKind;
+use crate::slices::{Approach, Cover};
 use std::ops::{AddAssign, Mul};
 
 /// Flows of energy, W; integrated over time, J. Dissipations count positive.
@@ -132,6 +133,16 @@ impl Energy {
             return e;
         }
         let g = &model.geometry;
+        let mut cover = Cover::new(model.slices.as_ref().map_or(0, |s| s.count));
+        if let Some(tilt) = &model.tilt {
+            let rings = [(l.inner_tilt(), &tilt.inner), (l.outer_tilt(), &tilt.outer)];
+            for (at, ring) in rings {
+                e.kinetic += 0.5 * ring.inertia * square(&v[at..]);
+                e.supports += 0.5 * ring.support.stiffness * square(&q[at..]);
+            }
+            let rates = &v[l.beta()..][..l.rollers()];
+            e.kinetic += 0.5 * tilt.roller_inertia * rates.iter().map(|b| b * b).sum::<f64>();
+        }
         for slot in 0..l.rollers() {
             let arm = g.pitch_radius + q[l.r() + slot];
             let (dr, dtheta, dphi) = (v[l.r() + slot], v[l.theta() + slot], v[l.phi() + slot]);
@@ -139,14 +150,12 @@ impl Energy {
                 + 0.5 * m.roller_spin * dphi * dphi;
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
-                let delta = ws.contacts[side as usize].deformation[slot];
-                e.contacts += energy(
-                    model.defects_of(slot, side),
-                    model.contact(side),
-                    &angles(slot),
-                    side,
-                    delta,
-                );
+                let contacts = &ws.contacts[side as usize];
+                let held = Held {
+                    delta: contacts.deformation[slot],
+                    tilt: contacts.tilt.get(slot).copied().unwrap_or_default(),
+                };
+                e.contacts += held.energy(model, (slot, side), &angles(slot), &mut cover);
             }
             let xc = &q[l.cage(l.row(slot))..];
             let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot])
@@ -159,12 +168,44 @@ impl Energy {
             e.kinetic +=
                 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
-            let ring = model.land_ring();
-            let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
+            let ring = model.land_at(row, q);
+            let offset = [q[at] - ring[0], q[at + 1] - ring[1]];
             e.cage +=
                 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);
         }
         e
+    }
+}
+
+/// How far a contact is pressed.
+#[derive(Clone, Copy)]
+struct Held {
+    /// delta, m.
+    delta: f64,
+    /// d(delta)/dz.
+    tilt: f64,
+}
+
+impl Held {
+    /// Elastic energy, J.
+    fn energy(
+        &self,
+        model: &Model,
+        (slot, side): (usize, Side),
+        angles: &Angles,
+        cover: &mut Cover,
+    ) -> f64 {
+        let (defects, law) = (model.defects_of(slot, side), model.contact(side));
+        let Some(slices) = &model.slices else {
+            return energy(defects, law, angles, side, self.delta);
+        };
+        let at = Approach {
+            deformation: self.delta,
+            tilt: self.tilt,
+            ..Approach::default()
+        };
+        let covered = cover_slices(defects, angles, side, cover);
+        slices.carry(law, &at, covered.then_some(cover)).energy
     }
 }
 
@@ -175,6 +216,8 @@ pub(crate) struct ContactState {
     spin: Column,
     ring: f64,
     deformation: [Column; 2],
+    /// Where rollers tilt.
+    tilt: [Column; 2],
     on_damage: [Vec<bool>; 2],
 }
 
@@ -187,6 +230,7 @@ impl ContactState {
             spin: zeros(),
             ring: 0.0,
             deformation: [zeros(), zeros()],
+            tilt: [0, 1].map(|_| Column::new(if layout.tilts { slots } else { 0 }, 0.0)),
             on_damage: [vec![false; slots], vec![false; slots]],
         }
     }
@@ -199,7 +243,7 @@ impl ContactState {
         let l = &model.layout;
         self.ring = model.rotation.at(t).1;
         match model.kind {
-            ModelKind::Full => {
+            ModelKind::Full | ModelKind::Tilting => {
                 self.orbit.copy_from_slice(&y[l.theta()..][..l.slots]);
                 self.spin.copy_from_slice(&y[l.phi()..][..l.slots]);
             }
@@ -211,6 +255,7 @@ impl ContactState {
         for side in SIDES {
             let k = side as usize;
             self.deformation[k].copy_from_slice(&ws.contacts[k].deformation);
+            self.tilt[k].copy_from_slice(&ws.contacts[k].tilt);
             self.on_damage[k].copy_from_slice(&ws.contacts[k].on_damage);
         }
     }
@@ -228,7 +273,12 @@ impl ContactState {
 /// the angle at a fixed deformation, the mean of both ends. Jumps at an edge are included.
 ///
 /// Where the edges push back (`conservative`) bodies and drive do that work, and none is parametric.
-pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &ContactState) -> f64 {
+pub(crate) fn parametric_work(
+    model: &Model,
+    before: &ContactState,
+    after: &ContactState,
+    cover: &mut Cover,
+) -> f64 {
     if model.rules.is_conservative() {
         return 0.0;
     }
@@ -243,7 +293,8 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
             }
             for lane in 0..WIDTH {
                 if from[lane] || to[lane] {
-                    work += work_at(model, side, WIDTH * group + lane, before, after);
+                    let at = (WIDTH * group + lane, side);
+                    work += work_at(model, at, (before, after), cover);
                 }
             }
         }
@@ -254,30 +305,35 @@ pub(crate) fn parametric_work(model: &Model, before: &ContactState, after: &Cont
 /// The share of one contact.
 fn work_at(
     model: &Model,
-    side: Side,
-    slot: usize,
-    before: &ContactState,
-    after: &ContactState,
+    (slot, side): (usize, Side),
+    (before, after): (&ContactState, &ContactState),
+    cover: &mut Cover,
 ) -> f64 {
     let k = side as usize;
     let (from, to) = (before.angles(slot), after.angles(slot));
-    let delta = [before.deformation[k][slot], after.deformation[k][slot]];
-    let change = |delta: f64| match model.kind {
-        ModelKind::Full => {
-            let (defects, law) = (|| model.defects_of(slot, side), model.contact(side));
-            let held = |angles: &Angles| energy(defects(), law, angles, side, delta);
-            held(&to) - held(&from)
-        }
-        // One contact in series for both sides: counted at the inner one where that is on damage.
-        ModelKind::Lumped
-            if side == Side::Outer && (before.on_damage[0][slot] || after.on_damage[0][slot]) =>
-        {
-            0.0
-        }
-        ModelKind::Lumped => {
-            let held = |angles: &Angles| super::lumped::energy_at(model, slot, angles, delta);
-            held(&to) - held(&from)
+    let mut change = |state: &ContactState| {
+        let held = Held {
+            delta: state.deformation[k][slot],
+            tilt: state.tilt[k].get(slot).copied().unwrap_or_default(),
+        };
+        match model.kind {
+            ModelKind::Full | ModelKind::Tilting => {
+                let mut at = |angles: &Angles| held.energy(model, (slot, side), angles, cover);
+                at(&to) - at(&from)
+            }
+            // One contact in series for both sides: counted at the inner one where that is on damage.
+            ModelKind::Lumped
+                if side == Side::Outer
+                    && (before.on_damage[0][slot] || after.on_damage[0][slot]) =>
+            {
+                0.0
+            }
+            ModelKind::Lumped => {
+                let at =
+                    |angles: &Angles| super::lumped::energy_at(model, slot, angles, held.delta);
+                at(&to) - at(&from)
+            }
         }
     };
-    0.5 * (change(delta[0]) + change(delta[1]))
+    0.5 * (change(before) + change(after))
 }

@@ -2,7 +2,8 @@
 //!
 //! The state is y = (q, dq/dt): `dof` positions, then their rates in the same order. Positions are structures of arrays,
 //! so that one operation on all rollers runs over contiguous memory: r of every slot, theta of every slot, phi of every
-//! slot, then (x, y, theta) of each cage, then (x, y) of the inner and of the outer ring. Roller j of row i (both from 0)
+//! slot and, where they tilt, beta of every slot; then (x, y, theta) of each cage, then (x, y) of the inner and of the outer ring and, where
+//! they tilt, their (tau_x, tau_y). Roller j of row i (both from 0)
 //! has slot j N_r + i: rows are interleaved, and slots are padded to a multiple of eight with inert ones.
 
 use crate::lanes::WIDTH;
@@ -16,15 +17,18 @@ pub struct Layout {
     pub rollers_per_row: usize,
     /// Padded number of roller slots.
     pub slots: usize,
+    /// Whether rollers and rings tilt.
+    pub tilts: bool,
 }
 
 impl Layout {
     /// For N_r rows of Z rollers.
-    pub fn new(rows: usize, rollers_per_row: usize) -> Self {
+    pub fn new(rows: usize, rollers_per_row: usize, tilts: bool) -> Self {
         Self {
             rows,
             rollers_per_row,
             slots: (rows * rollers_per_row).next_multiple_of(WIDTH),
+            tilts,
         }
     }
 
@@ -61,7 +65,7 @@ impl Layout {
     ///
     /// Padded to a multiple of eight, so that the rates are on cache lines if the positions are; the last few are inert.
     pub fn dof(&self) -> usize {
-        (self.outer() + 2).next_multiple_of(WIDTH)
+        (self.outer() + if self.tilts { 6 } else { 2 }).next_multiple_of(WIDTH)
     }
 
     /// First r.
@@ -79,14 +83,24 @@ impl Layout {
         2 * self.slots
     }
 
+    /// First beta, where rollers tilt.
+    pub fn beta(&self) -> usize {
+        3 * self.slots
+    }
+
+    /// Coordinates of a roller.
+    fn columns(&self) -> usize {
+        if self.tilts { 4 } else { 3 }
+    }
+
     /// x of the cage of `row`; y and theta follow.
     pub fn cage(&self, row: usize) -> usize {
-        3 * self.slots + 3 * row
+        self.columns() * self.slots + 3 * row
     }
 
     /// x of the inner ring; y follows.
     pub fn inner(&self) -> usize {
-        3 * self.slots + 3 * self.rows
+        self.cage(self.rows)
     }
 
     /// x of the outer ring; y follows.
@@ -94,24 +108,38 @@ impl Layout {
         self.inner() + 2
     }
 
+    /// tau_x of the inner ring, where rings tilt; tau_y follows.
+    pub fn inner_tilt(&self) -> usize {
+        self.outer() + 2
+    }
+
+    /// tau_x of the outer ring; tau_y follows.
+    pub fn outer_tilt(&self) -> usize {
+        self.outer() + 4
+    }
+
     /// Name of the body and coordinate behind entry `index` of the positions, rows and rollers counted from 1.
     pub fn name(&self, index: usize) -> String {
         let axis = |k: usize| ["x", "y", "theta"][k];
-        if index < 3 * self.slots {
+        if index < self.cage(0) {
             let slot = index % self.slots;
-            let coordinate = ["r", "theta", "phi"][index / self.slots];
+            let coordinate = ["r", "theta", "phi", "beta"][index / self.slots];
             format!(
                 "{coordinate} of roller {} in row {}",
                 self.roller(slot) + 1,
                 self.row(slot) + 1
             )
         } else if index < self.inner() {
-            let k = index - 3 * self.slots;
+            let k = index - self.cage(0);
             format!("{} of cage {}", axis(k % 3), k / 3 + 1)
         } else if index < self.outer() {
             format!("{} of the inner ring", axis(index - self.inner()))
-        } else {
+        } else if index < self.inner_tilt() {
             format!("{} of the outer ring", axis(index - self.outer()))
+        } else if index < self.outer_tilt() {
+            format!("tilt {} of the inner ring", axis(index - self.inner_tilt()))
+        } else {
+            format!("tilt {} of the outer ring", axis(index - self.outer_tilt()))
         }
     }
 }
@@ -122,11 +150,14 @@ mod tests {
 
     #[test]
     fn prop_every_position_has_its_own_name() {
-        let layout = Layout::new(3, 7);
-        let real = (0..layout.outer() + 2)
-            .filter(|&k| k >= 3 * layout.slots || k % layout.slots < layout.rollers());
-        let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k)).collect();
-        assert_eq!(names.len(), 3 * 21 + 3 * 3 + 4);
-        assert_eq!(Layout::new(2, 19).slots, 40);
+        for (tilts, coordinates) in [(false, 3 * 21 + 3 * 3 + 4), (true, 4 * 21 + 3 * 3 + 8)] {
+            let layout = Layout::new(3, 7, tilts);
+            let end = layout.outer() + if tilts { 6 } else { 2 };
+            let real =
+                (0..end).filter(|&k| k >= layout.cage(0) || k % layout.slots < layout.rollers());
+            let names: std::collections::BTreeSet<String> = real.map(|k| layout.name(k)).collect();
+            assert_eq!(names.len(), coordinates);
+        }
+        assert_eq!(Layout::new(2, 19, false).slots, 40);
     }
 }

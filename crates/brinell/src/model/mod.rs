@@ -12,6 +12,7 @@ pub(crate) mod lumped;
 mod momentum;
 mod motion;
 mod stability;
+mod tilt;
 mod workspace;
 
 pub use crate::kernel::Kernel;
@@ -21,6 +22,7 @@ pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
 pub use stability::PAIR;
+pub use tilt::{Tilt, TiltingRing};
 pub use workspace::Workspace;
 
 use crate::bearing::kinematics::{self, Kinematics};
@@ -33,7 +35,10 @@ use crate::friction::{Friction, drag_factor};
 use crate::kernel;
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
-use crate::scenario::{Element, Guidance, GuidanceFilm, LoadOn, ModelKind, Scenario, Start};
+use crate::scenario::{
+    Element, Guidance, GuidanceFilm, Law, LoadOn, ModelKind, RollerProfile, Scenario, Start,
+};
+use crate::slices::Slices;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A scenario built in code that no model can be made of.
@@ -148,6 +153,10 @@ pub struct Model {
     pub(crate) row_lanes: Vec<Column>,
     /// How damage acts.
     pub rules: Rules,
+    /// The slices, where each counts by itself: where rollers tilt or have a profile.
+    pub slices: Option<Slices>,
+    /// What tilts, where anything does.
+    pub tilt: Option<Tilt>,
     /// Start.
     pub start: Start,
 }
@@ -203,7 +212,10 @@ impl Model {
             damping: s.contact.damping_ns_per_m,
             strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
         };
-        let layout = Layout::new(b.rows, b.rollers_per_row);
+        let tilts = s.simulation.model == ModelKind::Tilting;
+        let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
+        let rules = Rules::new(&s.contact);
+        let sliced = tilts || (rules.law == Law::Sliced && b.profile != RollerProfile::Straight);
         let stagger = b.row_stagger_deg.to_radians();
         let pocket_angle = (0..layout.slots)
             .map(|slot| {
@@ -321,7 +333,17 @@ impl Model {
             gravity: s.operation.gravity_m_per_s2,
             pocket_angle,
             defects,
-            rules: Rules::new(&s.contact),
+            slices: sliced.then(|| {
+                let g = &geometry;
+                Slices::new(
+                    rules.slices,
+                    g.roller_length,
+                    2.0 * g.roller_radius,
+                    &b.profile,
+                )
+            }),
+            tilt: tilts.then(|| Tilt::new(s, &layout, &geometry, &inertia)),
+            rules,
             start: s.simulation.start,
         })
     }
@@ -386,6 +408,22 @@ impl Model {
         }
     }
 
+    /// x and y of that ring's centre at the middle of `row`, of positions or of their rates.
+    #[inline(always)]
+    pub fn land_at(&self, row: usize, of: &[f64]) -> [f64; 2] {
+        let at = self.land_ring();
+        let mut x = [of[at], of[at + 1]];
+        if let Some(tilt) = &self.tilt {
+            let slope = match self.land_on() {
+                Side::Inner => self.layout.inner_tilt(),
+                Side::Outer => self.layout.outer_tilt(),
+            };
+            x[0] += tilt.rows[row] * of[slope];
+            x[1] += tilt.rows[row] * of[slope + 1];
+        }
+        x
+    }
+
     /// Whether the outer ring of the lumped model is rigidly mounted (section 10).
     pub fn outer_ring_is_fixed(&self) -> bool {
         self.kind == ModelKind::Lumped && self.load.on == LoadOn::InnerRing
@@ -394,7 +432,7 @@ impl Model {
     /// Support of the outer ring in the equations that hold.
     pub fn acting_outer_support(&self) -> Support {
         match self.kind {
-            ModelKind::Full => self.outer_support,
+            ModelKind::Full | ModelKind::Tilting => self.outer_support,
             ModelKind::Lumped => Support {
                 stiffness: 0.0,
                 damping: 0.0,
@@ -407,8 +445,7 @@ impl Model {
     pub fn mass(&self) -> Vec<f64> {
         let (l, m) = (&self.layout, &self.inertia);
         let mut mass = vec![0.0; l.dof()];
-        let full = self.kind == ModelKind::Full;
-        if full {
+        if self.kind.moves_every_part() {
             for slot in 0..l.rollers() {
                 mass[l.r() + slot] = m.roller;
                 mass[l.theta() + slot] = m.roller * self.geometry.pitch_radius.powi(2);
@@ -425,6 +462,11 @@ impl Model {
         } else {
             m.outer_ring
         });
+        if let Some(tilt) = &self.tilt {
+            mass[l.beta()..][..l.rollers()].fill(tilt.roller_inertia);
+            mass[l.inner_tilt()..][..2].fill(tilt.inner.inertia);
+            mass[l.outer_tilt()..][..2].fill(tilt.outer.inertia);
+        }
         mass
     }
 
@@ -432,7 +474,7 @@ impl Model {
     #[inline]
     pub fn accelerations(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         match self.kind {
-            ModelKind::Full => full::accelerations(self, t, y, a, ws),
+            ModelKind::Full | ModelKind::Tilting => full::accelerations(self, t, y, a, ws),
             ModelKind::Lumped => lumped::accelerations(self, t, y, a, ws),
         }
     }

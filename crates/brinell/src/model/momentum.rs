@@ -1,11 +1,11 @@
-//! Linear momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external forces.
+//! Momentum: every internal force has its reaction, so the bodies' mass times acceleration adds up to the external forces, and where rings tilt
+//! the same holds for the moments Z x force about the bearing's middle.
 
-use super::{Model, Workspace};
-use crate::scenario::ModelKind;
+use super::{Model, Tilt, Workspace};
 
 /// Force that appears from nowhere, relative to the forces at play: |sum m a - external| / (sum of |internal| and |external|).
 /// Round-off where Newton's third law holds. `None` where the outer ring's mount takes unknown forces (the lumped model with a fixed
-/// outer ring).
+/// outer ring). Where rings tilt, the larger one of that and the same of the moments.
 pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) -> Option<f64> {
     if model.outer_ring_is_fixed() {
         return None;
@@ -39,22 +39,13 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
         add([support.damping * v[at], support.damping * v[at + 1]]);
         add([-load[0], -load[1]]);
     }
-    if model.kind == ModelKind::Full {
-        let g = &model.geometry;
+    if model.kind.moves_every_part() {
         for slot in 0..l.rollers() {
             let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
-            let arm = g.pitch_radius + q[l.r() + slot];
-            let (dr, dtheta) = (v[l.r() + slot], v[l.theta() + slot]);
-            let radial = a[l.r() + slot] - arm * dtheta * dtheta;
-            let tangential = arm * a[l.theta() + slot] + 2.0 * dr * dtheta;
-            let orbit_speed = g.pitch_radius * dtheta;
-            let drag = model.drag * orbit_speed * orbit_speed.abs();
-            // Drag and the push of damage's slopes have no reaction on any body.
-            let external = drag - ws.edge_force[slot];
-            let (radial, tangential) = (m.roller * radial, m.roller * tangential + external);
+            let [radial, tangential] = internal_force(model, slot, (q, v, a), ws);
             add([
-                radial * cos - tangential * sin - m.roller * model.gravity[0],
-                radial * sin + tangential * cos - m.roller * model.gravity[1],
+                radial * cos - tangential * sin,
+                radial * sin + tangential * cos,
             ]);
         }
         for row in 0..l.rows {
@@ -66,9 +57,90 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
         }
     }
     scale += ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
-    Some(if scale > 0.0 {
+    let forces = relative(left, scale);
+    Some(match &model.tilt {
+        None => forces,
+        Some(tilt) => forces.max(moments(model, tilt, t, (q, v, a), ws)),
+    })
+}
+
+fn relative(left: [f64; 2], scale: f64) -> f64 {
+    if scale > 0.0 {
         (left[0].abs() + left[1].abs()) / scale
     } else {
         0.0
-    })
+    }
+}
+
+/// Moments Z x force that appear from nowhere, relative to those at play: the only check that sees a wrong lever of the cages' guidance.
+fn moments(
+    model: &Model,
+    tilt: &Tilt,
+    t: f64,
+    (q, v, a): (&[f64], &[f64], &[f64]),
+    ws: &Workspace,
+) -> f64 {
+    let l = &model.layout;
+    let m = &model.inertia;
+    let mut left = [0.0; 2];
+    let mut scale = 0.0;
+    let mut add = |f: [f64; 2]| {
+        left[0] += f[0];
+        left[1] += f[1];
+        scale += f[0].abs() + f[1].abs();
+    };
+    let w = model.rotation.at(t).0;
+    let (load_in, load_out) = model.load.on_rings(model.load.share(t));
+    let rings = [
+        (l.inner_tilt(), &tilt.inner, load_in),
+        (l.outer_tilt(), &tilt.outer, load_out),
+    ];
+    for (at, ring, load) in rings {
+        let spin = ring.polar_inertia * w;
+        add([ring.inertia * a[at], ring.inertia * a[at + 1]]);
+        add([spin * v[at + 1], -spin * v[at]]);
+        add([0, 1].map(|k| ring.support.stiffness * q[at + k]));
+        add([0, 1].map(|k| ring.support.damping * v[at + k]));
+        add(load.map(|f| -tilt.load_offset * f));
+    }
+    for slot in 0..l.rollers() {
+        let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
+        let [radial, tangential] = internal_force(model, slot, (q, v, a), ws);
+        let radial = tilt.levers[slot] * radial + tilt.roller_inertia * a[l.beta() + slot];
+        let tangential = tilt.levers[slot] * tangential;
+        add([
+            radial * cos - tangential * sin,
+            radial * sin + tangential * cos,
+        ]);
+    }
+    for row in 0..l.rows {
+        let at = l.cage(row);
+        add([0, 1].map(|k| tilt.rows[row] * m.cage * (a[at + k] - model.gravity[k])));
+    }
+    let carried = ws.contacts.iter().flat_map(|c| c.moment.iter());
+    relative(left, scale + carried.map(|t| t.abs()).sum::<f64>())
+}
+
+/// Force of the raceways and the pocket on a roller along e_r and e_t, from its motion, N.
+fn internal_force(
+    model: &Model,
+    slot: usize,
+    (q, v, a): (&[f64], &[f64], &[f64]),
+    ws: &Workspace,
+) -> [f64; 2] {
+    let (l, mass) = (&model.layout, model.inertia.roller);
+    let (cos, sin) = (ws.cos[slot], ws.sin[slot]);
+    let pitch = model.geometry.pitch_radius;
+    let arm = pitch + q[l.r() + slot];
+    let (dr, dtheta) = (v[l.r() + slot], v[l.theta() + slot]);
+    let orbit_speed = pitch * dtheta;
+    let drag = model.drag * orbit_speed * orbit_speed.abs();
+    let [gx, gy] = model.gravity;
+    let radial = a[l.r() + slot] - arm * dtheta * dtheta - (cos * gx + sin * gy);
+    let tangential = arm * a[l.theta() + slot] + 2.0 * dr * dtheta - (cos * gy - sin * gx);
+    // Drag and the push of damage's slopes have no reaction on any body.
+    [
+        mass * radial,
+        mass * tangential + drag - ws.edge_force[slot],
+    ]
 }

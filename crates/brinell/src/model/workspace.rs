@@ -4,6 +4,7 @@ use super::{Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
 use crate::lanes::{Column, WIDTH};
+use crate::slices::Cover;
 
 /// Contact of one side, structure of arrays over slots.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -26,12 +27,25 @@ pub struct Contacts {
     pub damaged_length: Column,
     /// Whether the contact is on damage.
     pub on_damage: Vec<bool>,
+    /// d(delta)/dz, its rate (1/s), T (N m) and what damping takes (W), where rollers tilt; else empty.
+    pub tilt: Column,
+    /// See above.
+    pub tilt_rate: Column,
+    /// See above.
+    pub moment: Column,
+    /// See above.
+    pub loss: Column,
 }
 
 impl Contacts {
-    fn new(slots: usize) -> Self {
+    fn new(slots: usize, tilts: bool) -> Self {
         let zeros = || Column::new(slots, 0.0);
+        let tilting = || Column::new(if tilts { slots } else { 0 }, 0.0);
         Self {
+            tilt: tilting(),
+            tilt_rate: tilting(),
+            moment: tilting(),
+            loss: tilting(),
             deformation: zeros(),
             approach_rate: zeros(),
             power: zeros(),
@@ -73,6 +87,8 @@ pub struct Workspace {
     pub kinematic_spin: f64,
     /// Largest elastic force of each side's contacts, N, in each lane.
     pub(super) max_elastic: [[f64; WIDTH]; 2],
+    /// What damage covers of the contact that is being looked at, slice by slice.
+    pub(super) cover: Cover,
     /// What guides each row's cage.
     pub(super) guidance: Vec<GuideForce>,
     /// Flows of energy at this instant, W.
@@ -92,7 +108,8 @@ impl Workspace {
         Self {
             cos: Column::new(slots, 1.0),
             sin: zeros(),
-            contacts: [Contacts::new(slots), Contacts::new(slots)],
+            contacts: [0, 1].map(|_| Contacts::new(slots, model.layout.tilts)),
+            cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
             edge_force: zeros(),
             pocket_force: zeros(),
             pocket_friction: zeros(),

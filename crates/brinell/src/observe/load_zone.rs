@@ -19,7 +19,7 @@ impl Places {
     pub fn at(&mut self, f: &Frame) -> &[usize] {
         let l = &f.model.layout;
         let orbits = match f.model.kind {
-            ModelKind::Full => &f.y[l.theta()..],
+            ModelKind::Full | ModelKind::Tilting => &f.y[l.theta()..],
             ModelKind::Lumped => &f.ws.kinematic_orbit[..],
         };
         self.0.clear();

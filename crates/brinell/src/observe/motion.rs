@@ -96,7 +96,9 @@ impl Motion {
         let [inner, outer] = [Side::Inner, Side::Outer].map(|s| &f.ws.contacts[s as usize].force);
         for slot in 0..self.rollers {
             let (orbit, spin) = match f.model.kind {
-                ModelKind::Full => (f.y[l.theta() + slot], f.y[l.phi() + slot]),
+                ModelKind::Full | ModelKind::Tilting => {
+                    (f.y[l.theta() + slot], f.y[l.phi() + slot])
+                }
                 ModelKind::Lumped => (f.ws.kinematic_orbit[slot], f.ws.kinematic_spin),
             };
             self.states[at * self.rollers + slot] = RollerState {
@@ -108,7 +110,7 @@ impl Motion {
         }
         for row in 0..self.rows {
             let angle = match f.model.kind {
-                ModelKind::Full => f.y[l.cage(row) + 2],
+                ModelKind::Full | ModelKind::Tilting => f.y[l.cage(row) + 2],
                 ModelKind::Lumped => {
                     f.ws.kinematic_orbit[l.slot(row, 0)] - f.model.pocket_angle[l.slot(row, 0)]
                 }

@@ -35,7 +35,7 @@ impl CageOrbit {
         let turn = if speed > 0.0 { TAU / speed } else { duration };
         // A cage of the lumped model has no freedom.
         let rows = match model.kind {
-            ModelKind::Full => model.layout.rows,
+            ModelKind::Full | ModelKind::Tilting => model.layout.rows,
             ModelKind::Lumped => 0,
         };
         let span = (TURNS as f64 * turn).min(duration);

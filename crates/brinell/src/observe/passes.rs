@@ -150,7 +150,7 @@ impl Passes {
                     continue;
                 }
                 let angles = match f.model.kind {
-                    ModelKind::Full => Angles {
+                    ModelKind::Full | ModelKind::Tilting => Angles {
                         orbit: f.y[l.theta() + slot],
                         spin: f.y[l.phi() + slot],
                         ring,

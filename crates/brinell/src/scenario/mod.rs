@@ -89,6 +89,12 @@ pub struct Bearing {
     pub outer_ring_mass_kg: f64,
     /// m, kg.
     pub roller_mass_kg: f64,
+    /// p(z), how far roller and raceway together stand back.
+    pub profile: RollerProfile,
+    /// B, of all rows; `tilting` only.
+    pub width_mm: f64,
+    /// b, between the middles of neighbouring rows; `tilting` only.
+    pub row_spacing_mm: f64,
 }
 
 impl Bearing {
@@ -234,6 +240,14 @@ pub struct Support {
     pub outer_stiffness_n_per_m: f64,
     /// c_o, N s/m.
     pub outer_damping_ns_per_m: f64,
+    /// k_ti; `tilting` only, like the next three.
+    pub inner_tilt_stiffness_nm_per_rad: f64,
+    /// c_ti.
+    pub inner_tilt_damping_nms_per_rad: f64,
+    /// k_to.
+    pub outer_tilt_stiffness_nm_per_rad: f64,
+    /// c_to.
+    pub outer_tilt_damping_nms_per_rad: f64,
 }
 
 /// `speed_rpm`: a number, or points (t in s, r/min) joined by lines and held beyond both ends.
@@ -267,6 +281,8 @@ pub struct Operation {
     pub load_ramp_s: f64,
     /// g, m/s^2.
     pub gravity_m_per_s2: [f64; 2],
+    /// Z_F, where along the axis the load acts; `tilting` only.
+    pub load_offset_mm: f64,
 }
 
 /// Which equations are integrated.
@@ -276,6 +292,36 @@ pub enum ModelKind {
     Full,
     /// The lumped model that the paper compares against: its reference model.
     Lumped,
+    /// Every part a moving body; rollers and rings tilt too.
+    Tilting,
+}
+
+impl ModelKind {
+    /// Whether every part moves.
+    pub fn moves_every_part(self) -> bool {
+        self != Self::Lumped
+    }
+}
+
+/// Drop of roller and raceway together along the roller (ISO/TS 16281), the same at both contacts.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RollerProfile {
+    /// None.
+    Straight,
+    /// ISO/TS 16281's.
+    Logarithmic,
+    /// An arc: z^2 / (2 R_c).
+    Crowned {
+        /// R_c.
+        crowned_radius_mm: f64,
+    },
+    /// Linear between points, constant beyond them.
+    Table {
+        /// z, rising.
+        z_mm: Vec<f64>,
+        /// p at each.
+        drop_um: Vec<f64>,
+    },
 }
 
 /// State at t = 0.

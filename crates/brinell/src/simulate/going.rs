@@ -10,6 +10,7 @@ use crate::model::energy::{ContactState, parametric_work};
 use crate::model::{Energy, Motion, Power, imbalance};
 use crate::sensor::Sensing;
 use crate::signal::decimate::FACTOR;
+use crate::slices::Cover;
 use crate::solver::{Stepper, System};
 use std::ops::ControlFlow;
 
@@ -50,6 +51,8 @@ pub(super) struct Run<'a> {
     energy: EnergyAudit,
     imbalance: Option<f64>,
     contact_states: [ContactState; 2],
+    /// What damage covers of one of them at a time.
+    cover: Cover,
     switches: Switches,
     y: Vec<f64>,
     a: Vec<f64>,
@@ -97,6 +100,7 @@ impl<'a> Run<'a> {
                 Some(0.0)
             },
             contact_states: [contact_state.clone(), contact_state],
+            cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
             switches,
             y: vec![0.0; n],
             a: vec![0.0; model.layout.dof()],
@@ -171,7 +175,7 @@ impl<'a> Run<'a> {
         self.energy.flows += flows;
         let [before, after] = &mut self.contact_states;
         after.store(model, t, y, &self.motion.ws);
-        self.energy.parametric += parametric_work(model, before, after);
+        self.energy.parametric += parametric_work(model, before, after, &mut self.cover);
         self.contact_states.swap(0, 1);
         self.switches.count(&self.motion.ws, &mut self.work);
         self.observer.step(&Frame {

@@ -1,7 +1,9 @@
 //! Scenarios and states that several test programs start from.
 
 use brinell::model::Model;
-use brinell::scenario::{Guidance, GuidanceFilm, ModelKind, Scenario};
+use brinell::scenario::{
+    EdgeReaction, Guidance, GuidanceFilm, ModelKind, RollerPath, Scenario, Surface,
+};
 use brinell::{document, start};
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
@@ -55,8 +57,24 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("reference-model", lumped),
         ("rest", case("xval/rest-speed-profile")),
         ("heavy", case("xval/heavy-load-profile")),
+        ("tilting", case("reference/tilting-edge")),
+        ("tilting-offset", tilting_offset()),
         ("balls", case("reference/ball-6205-outer")),
     ]
+}
+
+/// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges push.
+pub fn tilting_offset() -> Scenario {
+    let mut s = case("reference/tilting-edge");
+    s.operation.load_offset_mm = 3.0;
+    s.operation.gravity_m_per_s2 = [0.0, -9.81];
+    s.cage.guidance = Guidance::InnerRing;
+    s.cage.guidance_film = GuidanceFilm::Dynamic;
+    s.cage.guide_clearance_mm = 0.2;
+    s.contact.roller_path = RollerPath::Envelope;
+    s.contact.edge_reaction = EdgeReaction::Conservative;
+    s.defects[0].on = Surface::Roller(3);
+    s
 }
 
 /// A small generator of uniform numbers (xorshift64*), so that a failure names its seed and nothing else.
@@ -88,7 +106,7 @@ pub fn random_state(model: &Model, seed: u64) -> Vec<f64> {
     let travel = random.signed();
     let orbit = model.rolling_orbit_speed(model.rotation.max_speed());
     let spin = model.rolling_spin_speed(model.rotation.max_speed());
-    if model.kind == ModelKind::Full {
+    if model.kind.moves_every_part() {
         for slot in 0..l.rollers() {
             y[l.r() + slot] += 1e-5 * random.signed();
             y[l.theta() + slot] += travel + 1.2 * pocket * random.signed();
@@ -96,6 +114,10 @@ pub fn random_state(model: &Model, seed: u64) -> Vec<f64> {
             y[dof + l.r() + slot] += 0.05 * random.signed();
             y[dof + l.theta() + slot] += 0.05 * orbit * random.signed();
             y[dof + l.phi() + slot] += 0.05 * spin * random.signed();
+            if l.tilts {
+                y[l.beta() + slot] += 3e-3 * random.signed();
+                y[dof + l.beta() + slot] += 20.0 * random.signed();
+            }
         }
         for row in 0..l.rows {
             let at = l.cage(row);
@@ -118,6 +140,12 @@ pub fn random_state(model: &Model, seed: u64) -> Vec<f64> {
         for k in 0..2 {
             y[ring + k] += 2e-5 * random.signed();
             y[dof + ring + k] += 0.1 * random.signed();
+        }
+    }
+    if l.tilts {
+        for k in l.inner_tilt()..l.outer_tilt() + 2 {
+            y[k] += 1e-3 * random.signed();
+            y[dof + k] += 5.0 * random.signed();
         }
     }
     y

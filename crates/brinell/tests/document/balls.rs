@@ -58,6 +58,22 @@ fn regress_defaults_of_balls() {
 
 #[test]
 fn regress_what_balls_do_not_have_is_refused() {
+    for (key, value) in [
+        ("bearing.profile", "logarithmic"),
+        ("bearing.width_mm", "15"),
+        ("bearing.row_spacing_mm", "0"),
+        ("operation.load_offset_mm", "1"),
+        ("support.inner_tilt_stiffness_nm_per_rad", "1e3"),
+        ("support.outer_tilt_damping_nms_per_rad", "1"),
+    ] {
+        let words = "has a meaning only where bearing.element is \"roller\"";
+        refused(&[(key, value)], key, words);
+    }
+    refused(
+        &[("simulation.model", "tilting")],
+        "simulation.model",
+        "no ends that could tilt",
+    );
     let no_meaning = "has a meaning only where bearing.element is \"roller\"";
     refused(
         &[("bearing.roller_length_mm", "7.0")],

@@ -287,9 +287,10 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             Speed::Profile(times.zip(&points).map(|(t, point)| [t, point.1]).collect())
         }),
     ];
-    // A preset of rollers has no balls.
-    let balls = |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.4 == 1;
-    let words = (0..3usize, 0..2usize, 0..2usize, 0..3usize, 0..2usize);
+    // A preset of rollers has no balls, and balls do not tilt.
+    let balls =
+        |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
+    let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (
         any::<String>(),
@@ -331,6 +332,23 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     inner_ring_mass_kg: x[3],
                     outer_ring_mass_kg: x[4],
                     roller_mass_kg: x[5],
+                    profile: match (words.2, words.3) {
+                        (2, 0) => RollerProfile::Logarithmic,
+                        (2, 1) => RollerProfile::Crowned {
+                            crowned_radius_mm: 1e3 + x[0],
+                        },
+                        (2, _) => RollerProfile::Table {
+                            z_mm: vec![-x[0] - 1.0, x[1] + 1.0],
+                            drop_um: vec![0.0, 1e-12 * x[2]],
+                        },
+                        _ => RollerProfile::Straight,
+                    },
+                    width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
+                    row_spacing_mm: match (rows, balls(words)) {
+                        (1, _) => 0.0,
+                        (_, true) => 1.5 * d,
+                        (_, false) => 1.5 * (d * 1.1),
+                    },
                 },
                 cage: Cage {
                     mass_kg: x[6],
@@ -346,7 +364,11 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     contact_damping_ns_per_m: x[10],
                 },
                 contact: Contact {
-                    law: if balls(words) { Law::Sliced } else { Law::Ecl },
+                    law: if words.2 == 2 || balls(words) {
+                        Law::Sliced
+                    } else {
+                        Law::Ecl
+                    },
                     roller_path: RollerPath::Point,
                     slices: z,
                     edge_reaction: EdgeReaction::None,
@@ -371,6 +393,10 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     inner_damping_ns_per_m: x[5],
                     outer_stiffness_n_per_m: x[6],
                     outer_damping_ns_per_m: x[7],
+                    inner_tilt_stiffness_nm_per_rad: x[4] * (0.5e-3 * (7.0 * d)).powi(2),
+                    inner_tilt_damping_nms_per_rad: x[5] * (0.5e-3 * (7.0 * d)).powi(2),
+                    outer_tilt_stiffness_nm_per_rad: x[6] * (0.5e-3 * (7.0 * d)).powi(2),
+                    outer_tilt_damping_nms_per_rad: x[7] * (0.5e-3 * (7.0 * d)).powi(2),
                 },
                 operation: Operation {
                     speed_rpm,
@@ -379,11 +405,12 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     load_on: [LoadOn::OuterRing, LoadOn::InnerRing][words.1],
                     load_ramp_s: x[10],
                     gravity_m_per_s2: [-0.0, -1e-13 * x[11]],
+                    load_offset_mm: 0.0,
                 },
                 defects,
                 sensor: sensor(words.0, &x),
                 simulation: Simulation {
-                    model: [ModelKind::Full, ModelKind::Lumped][words.2],
+                    model: [ModelKind::Full, ModelKind::Lumped, ModelKind::Tilting][words.2],
                     duration_s: 1.0 + x[12] / 1e9,
                     sample_rate_hz: 1.0 + x[13],
                     start: [Start::Rolling, Start::Rest, Start::Equilibrium][words.3],

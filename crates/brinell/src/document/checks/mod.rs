@@ -8,6 +8,7 @@ mod operation;
 mod rates;
 mod sensor;
 mod shapes;
+mod slices;
 
 use std::collections::HashMap;
 
@@ -124,6 +125,7 @@ pub(crate) fn check<'a>(
     checker.bearing();
     checker.cage();
     checker.contact();
+    checker.slices();
     checker.operation();
     checker.speed_factor();
     checker.overload();

@@ -4,7 +4,7 @@ use super::{Checker, short};
 use crate::bearing::kinematics::{Geometry, Kinematics};
 use crate::bearing::rating::static_rating;
 use crate::operation::Load;
-use crate::scenario::{LoadOn, ModelKind, Speed};
+use crate::scenario::{LoadOn, Speed};
 use std::f64::consts::PI;
 
 /// Samples beyond which a run is a slip of the unit.
@@ -171,7 +171,7 @@ impl Checker<'_> {
             ),
         };
         // The lumped model holds neither ring by the outer support: section 10.
-        let full = s.simulation.model == ModelKind::Full;
+        let full = s.simulation.model.moves_every_part();
         let reference_inner = s.operation.load_on == LoadOn::InnerRing;
         let gap = 1e-6 * (s.bearing.radial_clearance_um + s.bearing.outer_gap_um);
         if (full || reference_inner) && carried > 0.0 && gap > 0.0 && stiffness * gap >= carried {

@@ -1,6 +1,6 @@
 //! The walk over the list of keys, as it reads a file.
 
-use super::super::keys::{Fallback, Keys, Spec, Variant};
+use super::super::keys::{Fallback, Keys, Spec, Variant, key};
 use super::super::leaf::Leaf;
 use super::super::nearest::nearest;
 use super::super::problem::{Problem, Severity};
@@ -65,6 +65,39 @@ impl Keys for Reader<'_> {
         } else {
             self.only_where(spec, false, case, value);
         }
+    }
+
+    fn key_acting_where<T: Leaf>(
+        &mut self,
+        spec: Spec,
+        (wanted, case): (bool, &'static str),
+        fallback: Fallback<T>,
+        value: &mut T,
+    ) {
+        if wanted {
+            return self.key(spec, fallback, value);
+        }
+        let (path, entry) = self.name(&spec);
+        *value = fallback.value().unwrap_or_else(T::blank);
+        if let Some(entry) = entry {
+            match T::read(&entry.node, &spec) {
+                Ok(_) => {
+                    let message = format!("has no effect: it acts only where {case}");
+                    let problem = Problem::new(Severity::Warning, path, message);
+                    let problem = problem.value(entry.node.brief());
+                    self.problems.add(problem, entry.node.span.clone());
+                }
+                Err(misfit) => self.misfit(path, &spec, &entry.node, misfit),
+            }
+        }
+    }
+
+    fn foretold<T: Leaf>(&mut self, section: &str, name: &'static str) -> Option<T> {
+        let section = self.frames.first()?.table?.get(section)?;
+        let Value::Table(table) = &section.node.value else {
+            return None;
+        };
+        T::read(&table.get(name)?.node, &key(name, "")).ok()
     }
 
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {

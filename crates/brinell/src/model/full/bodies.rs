@@ -2,8 +2,9 @@
 
 use super::{Sums, Turn};
 use crate::cage::GuideForce;
-use crate::defect::{Angles, SIDES, Side, edge_gradient};
-use crate::model::{Model, Power, Workspace};
+use crate::defect::{Angles, SIDES, Side, edge_gradient, edge_gradient_of_slices};
+use crate::model::{Model, Power, Tilt, Workspace};
+use crate::slices::Approach;
 
 /// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
 /// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
@@ -22,6 +23,7 @@ pub(super) fn edge_reaction(
     ws.edge_force.fill(0.0);
     for side in SIDES {
         let contacts = &ws.contacts[side as usize];
+        let cover = &mut ws.cover;
         for &slot in &model.broad_phase[side as usize].slots {
             if !contacts.on_damage[slot] || contacts.elastic[slot] <= 0.0 {
                 continue;
@@ -34,7 +36,20 @@ pub(super) fn edge_reaction(
             let arm = model.geometry.pitch_radius + q[l.r() + slot];
             let delta = contacts.deformation[slot];
             let defects = model.defects_of(slot, side);
-            let e = edge_gradient(defects, model.contact(side), &angles, side, delta);
+            let law = model.contact(side);
+            let e = match &model.slices {
+                None => edge_gradient(defects, law, &angles, side, delta),
+                Some(slices) => {
+                    let at = Approach {
+                        deformation: delta,
+                        tilt: contacts.tilt.get(slot).copied().unwrap_or_default(),
+                        ..Approach::default()
+                    };
+                    edge_gradient_of_slices(defects, &angles, side, cover, |cover| {
+                        slices.carry(law, &at, cover).energy
+                    })
+                }
+            };
             ws.edge_force[slot] -= e.orbit / arm;
             a[l.theta() + slot] -= e.orbit / (model.inertia.roller * arm * arm);
             a[l.phi() + slot] -= e.spin / model.inertia.roller_spin;
@@ -48,14 +63,15 @@ pub(super) fn edge_reaction(
 #[inline(always)]
 pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut Workspace) {
     let l = &model.layout;
-    let (ring, ring_speed) = match model.land_on() {
-        Side::Inner => (l.inner(), w),
-        Side::Outer => (l.outer(), 0.0),
+    let ring_speed = match model.land_on() {
+        Side::Inner => w,
+        Side::Outer => 0.0,
     };
     for (row, f) in ws.guidance.iter_mut().enumerate() {
         let at = l.cage(row);
-        let offset = [q[at] - q[ring], q[at + 1] - q[ring + 1]];
-        let velocity = [v[at] - v[ring], v[at + 1] - v[ring + 1]];
+        let (x, dx) = (model.land_at(row, q), model.land_at(row, v));
+        let offset = [q[at] - x[0], q[at + 1] - x[1]];
+        let velocity = [v[at] - dx[0], v[at + 1] - dx[1]];
         *f = model.guide.force(offset, velocity, v[at + 2], ring_speed);
     }
 }
@@ -71,16 +87,22 @@ pub(super) fn cages(
 ) {
     let l = &model.layout;
     let m = &model.inertia;
-    let (ring, reaction) = match model.land_on() {
-        Side::Inner => (l.inner(), &mut sums.on_inner),
-        Side::Outer => (l.outer(), &mut sums.on_outer),
+    let side = model.land_on();
+    let reaction = match side {
+        Side::Inner => &mut sums.on_inner,
+        Side::Outer => &mut sums.on_outer,
     };
     for (row, f) in guidance.iter().enumerate() {
         let at = l.cage(row);
+        let ring = model.land_at(row, v);
         for k in 0..2 {
-            a[at + k] += f.film[k] + f.land[k];
-            reaction[k] -= f.film[k] + f.land[k];
-            sums.power.film += f.film[k] * (v[at + k] - v[ring + k]);
+            let guided = f.film[k] + f.land[k];
+            a[at + k] += guided;
+            reaction[k] -= guided;
+            if let Some(tilt) = &model.tilt {
+                sums.moments[side as usize][k] -= tilt.rows[row] * guided;
+            }
+            sums.power.film += f.film[k] * (v[at + k] - ring[k]);
         }
         a[at + 2] += f.moment;
         sums.power.film += f.moment * v[at + 2];
@@ -93,7 +115,13 @@ pub(super) fn cages(
 
 /// Rings: Eqs. (28) and (35).
 #[inline(always)]
-pub(super) fn rings(model: &Model, t: f64, q: &[f64], v: &[f64], a: &mut [f64], sums: &mut Sums) {
+pub(super) fn rings(
+    model: &Model,
+    t: f64,
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+    sums: &mut Sums,
+) {
     let l = &model.layout;
     let m = &model.inertia;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
@@ -120,6 +148,37 @@ pub(super) fn rings(model: &Model, t: f64, q: &[f64], v: &[f64], a: &mut [f64], 
             a[at + k] = (held + reaction[k] + load[k]) / mass + model.gravity[k];
             sums.power.load += load[k] * speed;
             sums.power.support += support.damping * speed * speed;
+        }
+    }
+}
+
+/// Tilting of the rings, section 16: the gyroscopic terms of the ring that turns do no work.
+#[inline(always)]
+pub(super) fn tilting_rings(
+    model: &Model,
+    tilt: &Tilt,
+    (t, speed): (f64, f64),
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+    sums: &mut Sums,
+) {
+    let l = &model.layout;
+    let (load_in, load_out) = model.load.on_rings(model.load.share(t));
+    let rings = [
+        (l.inner_tilt(), &tilt.inner, load_in),
+        (l.outer_tilt(), &tilt.outer, load_out),
+    ];
+    for ((at, ring, load), moment) in rings.into_iter().zip(sums.moments) {
+        let spin = ring.polar_inertia * speed;
+        // J ddtau_x = N_x - H dtau_y, J ddtau_y = N_y + H dtau_x.
+        let gyroscopic = [-spin * v[at + 1], spin * v[at]];
+        for k in 0..2 {
+            let rate = v[at + k];
+            let held = -ring.support.stiffness * q[at + k] - ring.support.damping * rate;
+            let loaded = tilt.load_offset * load[k];
+            a[at + k] = (held + moment[k] + loaded + gyroscopic[k]) / ring.inertia;
+            sums.power.load += loaded * rate;
+            sums.power.support += ring.support.damping * rate * rate;
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Contacts of rollers with raceways: how each moves, what may be on damage, elementary functions, damage, and what those that are closed
 //! carry.
 
-use super::rollers::{column, columns, pair, polar};
-use crate::defect::{Angles, SIDES, Side, damaged_contact_given};
+use super::rollers::{Plane, column, columns, pair, polar};
+use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
+use crate::slices::{Approach, Pressed, Slices};
 
 /// Finds what may be on damage.
 #[inline(always)]
@@ -27,7 +28,12 @@ pub(super) fn candidates<L: Lanes>(model: &Model, ws: &mut Workspace) {
 
 /// How each contact moves: deformation, its rate and slip.
 #[inline(always)]
-pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: &mut Workspace) {
+pub(super) fn motion<L: Lanes, const TILT: bool>(
+    model: &Model,
+    (q, v): (&[f64], &[f64]),
+    w: f64,
+    ws: &mut Workspace,
+) {
     let l = &model.layout;
     let g = &model.geometry;
     let count = l.slots / L::COUNT;
@@ -48,17 +54,45 @@ pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: 
     } = ws;
     let sin = column::<L>(sin, 0, count);
     let cos = column::<L>(cos, 0, count);
-    let [delta_in, rate_in, slip_in] = motion_of::<L>(inner, count);
-    let [delta_out, rate_out, slip_out] = motion_of::<L>(outer, count);
+    let tilting = if TILT {
+        Some(Tilting::<L>::new(model, (q, v), count))
+    } else {
+        None
+    };
+    let [delta_in, rate_in, slip_in, tilt_in, turn_in] = motion_of::<L>(inner, count);
+    let [delta_out, rate_out, slip_out, tilt_out, turn_out] = motion_of::<L>(outer, count);
     for group in 0..count {
         let r = L::new(q_r[group]);
         let dr = L::new(v_r[group]);
         let (dtheta, dphi) = (L::new(v_theta[group]), L::new(v_phi[group]));
         let axes = (L::new(sin[group]), L::new(cos[group]));
-        let (xi_r, xi_t) = polar(axes, &xi);
-        let (vi_r, vi_t) = polar(axes, &vi);
-        let (xo_r, xo_t) = polar(axes, &xo);
-        let (vo_r, vo_t) = polar(axes, &vo);
+        let (mut xi_r, mut xi_t) = polar(axes, &xi);
+        let (mut vi_r, mut vi_t) = polar(axes, &vi);
+        let (mut xo_r, mut xo_t) = polar(axes, &xo);
+        let (mut vo_r, mut vo_t) = polar(axes, &vo);
+        if let Some(tilting) = &tilting {
+            // Rings' centres and velocities at the row's middle, and how both change along the roller.
+            let lever = L::new(tilting.levers[group]);
+            let (beta, dbeta) = (L::new(tilting.beta[group]), L::new(tilting.dbeta[group]));
+            let (tau_r, tau_t) = polar(axes, &tilting.inner);
+            let (dtau_r, dtau_t) = polar(axes, &tilting.inner_rate);
+            (xi_r, xi_t) = (lever.times_plus(tau_r, xi_r), lever.times_plus(tau_t, xi_t));
+            (vi_r, vi_t) = (
+                lever.times_plus(dtau_r, vi_r),
+                lever.times_plus(dtau_t, vi_t),
+            );
+            tilt_in[group] = (tau_r - beta).array();
+            turn_in[group] = (dtheta.times_plus(tau_t, dtau_r) - dbeta).array();
+            let (tau_r, tau_t) = polar(axes, &tilting.outer);
+            let (dtau_r, dtau_t) = polar(axes, &tilting.outer_rate);
+            (xo_r, xo_t) = (lever.times_plus(tau_r, xo_r), lever.times_plus(tau_t, xo_t));
+            (vo_r, vo_t) = (
+                lever.times_plus(dtau_r, vo_r),
+                lever.times_plus(dtau_t, vo_t),
+            );
+            tilt_out[group] = (beta - tau_r).array();
+            turn_out[group] = dtheta.minus_times(tau_t, dbeta - dtau_r).array();
+        }
         delta_in[group] = (xi_r - r - L::new(gap_in[group])).array();
         delta_out[group] = (r - xo_r - L::new(gap_out[group])).array();
         rate_in[group] = (dtheta.times_plus(xi_t, vi_r) - dr).array();
@@ -70,14 +104,44 @@ pub(super) fn motion<L: Lanes>(model: &Model, q: &[f64], v: &[f64], w: f64, ws: 
     }
 }
 
-/// Elastic deformation, its rate and slip, to write to.
+/// Elastic deformation, its rate and slip, and, where rollers tilt, how the former two change along the roller, to write to.
 #[inline(always)]
-fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 3] {
+fn motion_of<L: Lanes>(contacts: &mut Contacts, count: usize) -> [&mut [L::Group]; 5] {
     [
         &mut L::groups_mut(&mut contacts.deformation)[..count],
         &mut L::groups_mut(&mut contacts.approach_rate)[..count],
         &mut L::groups_mut(&mut contacts.slip)[..count],
+        L::groups_mut(&mut contacts.tilt),
+        L::groups_mut(&mut contacts.tilt_rate),
     ]
+}
+
+/// Tilts of rollers and rings.
+struct Tilting<'a, L: Lanes> {
+    levers: &'a [L::Group],
+    beta: &'a [L::Group],
+    dbeta: &'a [L::Group],
+    inner: Plane<L>,
+    inner_rate: Plane<L>,
+    outer: Plane<L>,
+    outer_rate: Plane<L>,
+}
+
+impl<'a, L: Lanes> Tilting<'a, L> {
+    #[inline(always)]
+    fn new(model: &'a Model, (q, v): (&'a [f64], &'a [f64]), count: usize) -> Self {
+        let l = &model.layout;
+        let levers = model.tilt.as_ref().map_or(&[][..], |tilt| &tilt.levers);
+        Self {
+            levers: column::<L>(levers, 0, count),
+            beta: column::<L>(q, 3, count),
+            dbeta: column::<L>(v, 3, count),
+            inner: pair(&q[l.inner_tilt()..]),
+            inner_rate: pair(&v[l.inner_tilt()..]),
+            outer: pair(&q[l.outer_tilt()..]),
+            outer_rate: pair(&v[l.outer_tilt()..]),
+        }
+    }
 }
 
 /// What each contact asks of elementary functions: the elastic force of a healthy raceway (section 2), and tanh of the slip in place of the
@@ -111,6 +175,72 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
         for group in 0..count {
             if maybe_closed[group] {
                 tanh[group] = (L::new(slip[group]) * per_slip).tanh().array();
+            }
+        }
+    }
+}
+
+/// Forces of contacts slice by slice, healthy and on damage, and tanh of the slip in place of the friction: sections 15 and 16. Where nothing
+/// tilts the elastic forces alone, since the damper is the whole contact's there.
+#[inline(always)]
+pub(super) fn slices<L: Lanes, const TILT: bool>(
+    model: &Model,
+    slices: &Slices,
+    (q, ring_angle): (&[f64], f64),
+    ws: &mut Workspace,
+) {
+    let l = &model.layout;
+    let per_slip = L::splat(1.0 / model.friction.slip_velocity);
+    let length = model.geometry.roller_length;
+    for side in SIDES {
+        let k = side as usize;
+        let law = model.contact(side);
+        let contacts = &mut ws.contacts[k];
+        contacts.on_damage.fill(false);
+        for group in 0..l.slots / L::COUNT {
+            let mut closed = false;
+            for lane in 0..L::COUNT {
+                let slot = group * L::COUNT + lane;
+                let mut at = Approach {
+                    deformation: contacts.deformation[slot],
+                    ..Approach::default()
+                };
+                if TILT {
+                    at.rate = contacts.approach_rate[slot];
+                    at.tilt = contacts.tilt[slot];
+                    at.tilt_rate = contacts.tilt_rate[slot];
+                }
+                let mut covered = false;
+                if (ws.candidates[k][group] >> lane) & 1 == 1 {
+                    let angles = Angles {
+                        orbit: q[l.theta() + slot],
+                        spin: q[l.phi() + slot],
+                        ring: ring_angle,
+                    };
+                    covered =
+                        cover_slices(model.defects_of(slot, side), &angles, side, &mut ws.cover);
+                }
+                contacts.on_damage[slot] = covered;
+                let pressed = if covered {
+                    slices.press::<L>(law, &at, Some(&ws.cover))
+                } else if slices.are_clear(at.deformation, at.tilt) {
+                    Pressed::default()
+                } else {
+                    slices.press::<L>(law, &at, None)
+                };
+                contacts.elastic[slot] = pressed.elastic;
+                contacts.damaged_length[slot] = length * (1.0 - pressed.touching);
+                if TILT {
+                    contacts.force[slot] = pressed.force;
+                    contacts.moment[slot] = pressed.moment;
+                    contacts.loss[slot] = pressed.loss;
+                }
+                closed |= pressed.elastic > 0.0;
+            }
+            ws.maybe_closed[k][group] = closed;
+            if closed {
+                let slip = L::new(column::<L>(&contacts.slip, group, 1)[0]);
+                L::groups_mut(&mut contacts.friction)[group] = (slip * per_slip).tanh().array();
             }
         }
     }
@@ -180,7 +310,11 @@ pub(super) struct Closed<L> {
 
 /// Normal forces (section 2) and friction (section 4) of one side.
 #[inline(always)]
-pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) -> Closed<L> {
+pub(super) fn closed<L: Lanes, const TILT: bool>(
+    model: &Model,
+    side: Side,
+    ws: &mut Workspace,
+) -> Closed<L> {
     let count = model.layout.slots / L::COUNT;
     let contacts = &mut ws.contacts[side as usize];
     let maybe_closed = &ws.maybe_closed[side as usize][..count];
@@ -202,10 +336,15 @@ pub(super) fn closed<L: Lanes>(model: &Model, side: Side, ws: &mut Workspace) ->
         if maybe_closed[group] {
             let elastic = L::new(elastic[group]);
             let rate = L::new(rate[group]);
-            normal = law.with_damping(elastic, rate);
             // A contact that parts faster than its damper lets it push carries no force, but still loses its elastic energy.
+            if TILT {
+                normal = L::new(force[group]);
+                sums.contact += L::new(L::groups(&contacts.loss)[group]);
+            } else {
+                normal = law.with_damping(elastic, rate);
+                sums.contact = (normal - elastic).times_plus(rate, sums.contact);
+            }
             tangential = mu * normal * L::new(friction[group]);
-            sums.contact = (normal - elastic).times_plus(rate, sums.contact);
             sums.friction = tangential.times_plus(L::new(slip[group]), sums.friction);
             sums.max_elastic = sums.max_elastic.at_least(elastic);
         }

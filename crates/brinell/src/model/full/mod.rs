@@ -53,6 +53,8 @@ struct Turn {
 struct Sums {
     on_inner: [f64; 2],
     on_outer: [f64; 2],
+    /// Moments on the inner and on the outer ring that tilt them, N m.
+    moments: [[f64; 2]; 2],
     power: Power,
 }
 
@@ -70,11 +72,18 @@ pub(super) fn equations<L: Lanes>(
     let (speed, angle) = model.rotation.at(t);
     let turn = Turn { speed, angle };
     bodies::guidance(model, (q, v), speed, ws);
-    let mut sums = rollers::rollers::<L>(model, (q, v), a, turn, ws);
+    let mut sums = if model.tilt.is_some() {
+        rollers::rollers::<L, true>(model, (q, v), a, turn, ws)
+    } else {
+        rollers::rollers::<L, false>(model, (q, v), a, turn, ws)
+    };
     if model.rules.is_conservative() && !model.defects.is_empty() {
         bodies::edge_reaction(model, q, a, turn, ws, &mut sums.power);
     }
     bodies::cages(model, v, a, &ws.guidance, &mut sums);
-    bodies::rings(model, t, q, v, a, &mut sums);
+    bodies::rings(model, t, (q, v), a, &mut sums);
+    if let Some(tilt) = &model.tilt {
+        bodies::tilting_rings(model, tilt, (t, speed), (q, v), a, &mut sums);
+    }
     ws.power = sums.power;
 }

@@ -7,7 +7,7 @@ use crate::model::{Model, Workspace};
 
 /// The rollers' accelerations, into `a`, and what they do to everything else.
 #[inline(always)]
-pub(super) fn rollers<L: Lanes>(
+pub(super) fn rollers<L: Lanes, const TILT: bool>(
     model: &Model,
     (q, v): (&[f64], &[f64]),
     a: &mut [f64],
@@ -20,11 +20,15 @@ pub(super) fn rollers<L: Lanes>(
     // A pass for each function that is a long chain of operations which wait for one another: with little in between, the processor
     // works on several groups at once.
     directions::<L::Pair>(model, q, ws);
-    contacts::motion::<L>(model, q, v, turn.speed, ws);
+    contacts::motion::<L, TILT>(model, (q, v), turn.speed, ws);
     contacts::candidates::<L::Pair>(model, ws);
-    contacts::functions::<L::Pair>(model, ws);
-    contacts::damage::<L::Pair>(model, q, turn.angle, ws);
-    forces::forces::<L>(model, q, v, a, turn.speed, ws)
+    if let Some(slices) = &model.slices {
+        contacts::slices::<L::Pair, TILT>(model, slices, (q, turn.angle), ws);
+    } else {
+        contacts::functions::<L::Pair>(model, ws);
+        contacts::damage::<L::Pair>(model, q, turn.angle, ws);
+    }
+    forces::forces::<L, TILT>(model, (q, v), a, turn.speed, ws)
 }
 
 /// Column `k` of a structure of arrays, as `count` groups.
@@ -43,12 +47,16 @@ pub(super) fn columns<L: Lanes>(from: &[f64], count: usize) -> [&[L::Group]; 3] 
     ]
 }
 
-/// Three columns to write to.
+/// Three columns to write to, and what follows them.
 #[inline(always)]
-pub(super) fn columns_mut<L: Lanes>(from: &mut [f64], count: usize) -> [&mut [L::Group]; 3] {
+pub(super) fn columns_mut<L: Lanes>(
+    from: &mut [f64],
+    count: usize,
+) -> ([&mut [L::Group]; 3], &mut [L::Group]) {
     let (first, rest) = L::groups_mut(from).split_at_mut(count);
-    let (second, third) = rest.split_at_mut(count);
-    [first, second, &mut third[..count]]
+    let (second, rest) = rest.split_at_mut(count);
+    let (third, rest) = rest.split_at_mut(count);
+    ([first, second, third], rest)
 }
 
 /// A vector in the plane, the same in every lane.

@@ -1,0 +1,249 @@
+//! Slices across a roller: where they stand, the profile's drop there, and what they carry together (sections 3, 15, 16).
+//!
+//! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z from the roller's
+//! middle along +Z.
+
+use crate::contact::Hertz;
+use crate::lanes::{Column, Lanes};
+use crate::scenario::RollerProfile;
+
+/// First and last z of slice k (from 0) of n_s across a roller of length L, m.
+pub(crate) fn borders(k: usize, slices: usize, length: f64) -> [f64; 2] {
+    // From the middle, so that slices on both sides are mirror images to the bit.
+    let border = |k: usize| (2 * k as i64 - slices as i64) as f64 / (2.0 * slices as f64) * length;
+    [border(k), border(k + 1)]
+}
+
+/// Drop p(z) of a profile, m: section 15, ISO/TS 16281. z, the roller's length and its diameter in m; infinite at the logarithm's ends.
+pub fn drop(profile: &RollerProfile, z: f64, length: f64, diameter: f64) -> f64 {
+    match profile {
+        RollerProfile::Straight => 0.0,
+        RollerProfile::Crowned { crowned_radius_mm } => z * z / (2e-3 * crowned_radius_mm),
+        RollerProfile::Logarithmic => {
+            let curved = (2.5 * diameter).min(length);
+            let scale = if length <= 2.5 * diameter {
+                0.35e-3
+            } else {
+                0.5e-3
+            };
+            let from_straight = (2.0 * z.abs() - (length - curved)).max(0.0);
+            -scale * diameter * (1.0 - (from_straight / curved).powi(2)).ln()
+        }
+        RollerProfile::Table { z_mm, drop_um } => {
+            let z = 1e3 * z;
+            let above = z_mm.partition_point(|at| *at <= z);
+            1e-6 * match (above.checked_sub(1), z_mm.get(above)) {
+                (None, _) => drop_um[0],
+                (Some(k), None) => drop_um[k],
+                (Some(k), Some(next)) => {
+                    drop_um[k] + (drop_um[above] - drop_um[k]) * (z - z_mm[k]) / (next - z_mm[k])
+                }
+            }
+        }
+    }
+}
+
+/// The slices of every roller of a bearing, padded to whole groups with slices that weigh nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slices {
+    /// n_s.
+    pub count: usize,
+    /// z_k, m.
+    pub z: Column,
+    /// p(z_k), m.
+    pub drop: Column,
+    /// 1/n_s; 0 for padding.
+    pub weight: Column,
+    /// Half the roller's length, m.
+    half: f64,
+}
+
+/// What damage covers of each slice under one contact, padded like [`Slices`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Cover {
+    /// phi_k.
+    pub fraction: Column,
+    /// h_k, m.
+    pub depth: Column,
+}
+
+impl Cover {
+    /// Nothing covered.
+    pub fn new(count: usize) -> Self {
+        let padded = count.next_multiple_of(crate::lanes::WIDTH);
+        Self {
+            fraction: Column::new(padded, 0.0),
+            depth: Column::new(padded, 0.0),
+        }
+    }
+}
+
+/// How roller and raceway approach at the roller's middle, and how that changes along it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Approach {
+    /// delta at z = 0 before profile and damage, m.
+    pub deformation: f64,
+    /// d(delta)/dz.
+    pub tilt: f64,
+    /// Rate of the former, m/s.
+    pub rate: f64,
+    /// Rate of the latter, 1/s.
+    pub tilt_rate: f64,
+}
+
+/// What the slices of a moving contact carry together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Pressed {
+    /// Elastic sum, N.
+    pub elastic: f64,
+    /// Q with each slice's own damping, N.
+    pub force: f64,
+    /// T = sum of z_k q_k, N m.
+    pub moment: f64,
+    /// What the damping takes, W.
+    pub loss: f64,
+    /// Share of the roller's length that touches.
+    pub touching: f64,
+}
+
+/// What the slices of a resting contact carry together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Carried {
+    /// Q, N.
+    pub force: f64,
+    /// T, N m.
+    pub moment: f64,
+    /// Sums of each slice's stiffness times 1, z and z^2: N/m, N, N m.
+    pub stiffness: [f64; 3],
+    /// Elastic energy, J.
+    pub energy: f64,
+}
+
+impl Slices {
+    /// n_s of them across a roller of `length` and `diameter` (m).
+    pub fn new(count: usize, length: f64, diameter: f64, profile: &RollerProfile) -> Self {
+        let padded = count.next_multiple_of(crate::lanes::WIDTH);
+        let middle = |k: usize| {
+            let [low, high] = borders(k, count, length);
+            0.5 * (low + high)
+        };
+        let column = |of: &dyn Fn(usize) -> f64| {
+            let mut column = Column::new(padded, 0.0);
+            (0..count).for_each(|k| column[k] = of(k));
+            column
+        };
+        Self {
+            count,
+            z: column(&middle),
+            drop: column(&|k| drop(profile, middle(k), length, diameter)),
+            weight: column(&|_| 1.0 / count as f64),
+            half: 0.5 * length,
+        }
+    }
+
+    /// Whether no healthy slice touches: a bound, which costs less than the sums.
+    #[inline(always)]
+    pub fn are_clear(&self, deformation: f64, tilt: f64) -> bool {
+        deformation + tilt.abs() * self.half <= 0.0
+    }
+
+    /// Forces of a moving contact. Each slice that touches is damped (section 16).
+    #[inline(always)]
+    pub fn press<L: Lanes>(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Pressed {
+        let (deformation, tilt) = (L::splat(at.deformation), L::splat(at.tilt));
+        let (rate, tilt_rate) = (L::splat(at.rate), L::splat(at.tilt_rate));
+        let one = L::splat(1.0);
+        let mut sums = Sums::<L>::new();
+        for k in 0..self.z.len() / L::COUNT {
+            let z = L::new(L::groups(&self.z)[k]);
+            let weight = L::new(L::groups(&self.weight)[k]);
+            let delta = tilt.times_plus(z, deformation - L::new(L::groups(&self.drop)[k]));
+            let d = tilt_rate.times_plus(z, rate);
+            if let Some(cover) = cover {
+                let fraction = L::new(L::groups(&cover.fraction)[k]);
+                let depth = L::new(L::groups(&cover.depth)[k]);
+                sums.add(law, (z, d), delta, (one - fraction) * weight);
+                if fraction.any_positive() {
+                    sums.add(law, (z, d), delta - depth, fraction * weight);
+                }
+            } else {
+                sums.add(law, (z, d), delta, weight);
+            }
+        }
+        Pressed {
+            elastic: sums.elastic.sum(),
+            force: sums.force.sum(),
+            moment: sums.moment.sum(),
+            loss: sums.loss.sum(),
+            touching: sums.touching.sum(),
+        }
+    }
+
+    /// A resting contact.
+    pub fn carry(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Carried {
+        let mut sum = Carried::default();
+        for k in 0..self.count {
+            let z = self.z[k];
+            let delta = at.deformation + at.tilt * z - self.drop[k];
+            let mut add = |delta: f64, share: f64| {
+                if delta > 0.0 && share > 0.0 {
+                    let weight = share * self.weight[k];
+                    let force = weight * law.healthy(delta);
+                    let stiffness = weight * law.tangent(delta, None);
+                    sum.force += force;
+                    sum.moment += force * z;
+                    for (sum, lever) in sum.stiffness.iter_mut().zip([1.0, z, z * z]) {
+                        *sum += stiffness * lever;
+                    }
+                    sum.energy += weight * law.energy(delta);
+                }
+            };
+            let fraction = cover.map_or(0.0, |cover| cover.fraction[k]);
+            add(delta, 1.0 - fraction);
+            if let Some(cover) = cover.filter(|_| fraction > 0.0) {
+                add(delta - cover.depth[k], fraction);
+            }
+        }
+        sum
+    }
+}
+
+/// [`Pressed`] in lanes.
+struct Sums<L> {
+    elastic: L,
+    force: L,
+    moment: L,
+    loss: L,
+    touching: L,
+}
+
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self {
+            elastic: L::zero(),
+            force: L::zero(),
+            moment: L::zero(),
+            loss: L::zero(),
+            touching: L::zero(),
+        }
+    }
+
+    /// Adds `share` of a group of slices at z whose deformation is `delta` and grows at `d`. A function, since a closure would not be compiled for
+    /// the kernel's instructions.
+    #[inline(always)]
+    fn add(&mut self, law: &Hertz, (z, d): (L, L), delta: L, share: L) {
+        if !delta.any_positive() {
+            return;
+        }
+        let zero = L::zero();
+        let spring = share * law.healthy(delta);
+        let pressed = (share * L::splat(law.damping)).times_plus(d, spring);
+        let pressed = delta.if_above(zero, pressed.positive_part(), zero);
+        self.elastic += spring;
+        self.force += pressed;
+        self.moment = z.times_plus(pressed, self.moment);
+        self.loss = (pressed - spring).times_plus(d, self.loss);
+        self.touching += delta.if_above(zero, share, zero);
+    }
+}

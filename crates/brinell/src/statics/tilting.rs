@@ -1,0 +1,287 @@
+//! Static balance where rollers and rings tilt (section 16): each roller's (r, beta) is eliminated, the rings' eight coordinates are searched.
+
+use super::newton::{State, eliminate, minimise};
+use super::{
+    Balance, NoBalance, Problem, Tilted, angles, centrifugal, external, force_scale, softest,
+};
+use crate::defect::{SIDES, Side, cover_slices};
+use crate::model::{Model, Tilt};
+use crate::slices::{Approach, Carried, Cover, Slices};
+
+/// (x_i, y_i, tau_ix, tau_iy, x_o, y_o, tau_ox, tau_oy); tilts times the pitch radius, m.
+type Rings = [f64; 8];
+
+/// A roller between its raceways.
+#[derive(Debug, Clone, Copy, Default)]
+struct Roller {
+    r: f64,
+    beta: f64,
+    contacts: [Carried; 2],
+    /// d(Q, T)/d(approach and slope of the rings) through the roller.
+    tangent: [[f64; 2]; 2],
+    /// J.
+    energy: f64,
+}
+
+/// What each slot's contacts meet.
+struct Contacts {
+    covers: Vec<[Option<Cover>; 2]>,
+}
+
+impl Contacts {
+    fn new(model: &Model, slices: &Slices, problem: &Problem) -> Self {
+        let cover = |slot: usize, side: Side| {
+            let mut cover = Cover::new(slices.count);
+            let defects = model.defects_of(slot, side);
+            cover_slices(defects, &angles(problem, slot), side, &mut cover).then_some(cover)
+        };
+        Self {
+            covers: (0..model.layout.rollers())
+                .map(|slot| SIDES.map(|side| cover(slot, side)))
+                .collect(),
+        }
+    }
+}
+
+pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Balance, NoBalance> {
+    let slices = model.slices.as_ref().expect("a tilting model has slices");
+    let contacts = Contacts::new(model, slices, problem);
+    let arm = model.geometry.pitch_radius;
+    let planar = external(model, problem);
+    let (load_in, load_out) = model.load.on_rings(problem.load_share);
+    let moment = |f: f64| tilt.load_offset * f / arm;
+    let forces: Rings = [
+        planar[0],
+        planar[1],
+        moment(load_in[0]),
+        moment(load_in[1]),
+        planar[2],
+        planar[3],
+        moment(load_out[0]),
+        moment(load_out[1]),
+    ];
+    let (inner, outer) = (!problem.fix_inner, !problem.fix_outer);
+    let free = [inner, inner, inner, inner, outer, outer, outer, outer];
+    let [gi, go] = problem.guess;
+    let guess = [gi[0], gi[1], 0.0, 0.0, go[0], go[1], 0.0, 0.0];
+    let springs = supports(model, tilt);
+    let mut rollers = vec![Roller::default(); model.layout.rollers()];
+    let scale = force_scale(model, problem, &forces);
+    let mut evaluate = |x: &Rings| {
+        let mut state = State {
+            potential: (0..8)
+                .map(|i| 0.5 * springs[i] * x[i] * x[i] - forces[i] * x[i])
+                .sum(),
+            gradient: std::array::from_fn(|i| springs[i] * x[i] - forces[i]),
+            hessian: [[0.0; 8]; 8],
+        };
+        (0..8).for_each(|i| state.hessian[i][i] = springs[i]);
+        for (slot, roller) in rollers.iter_mut().enumerate() {
+            let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
+            let met = meet(&along, x);
+            *roller = between_raceways(model, slices, problem, slot, &met, &contacts.covers[slot]);
+            state.potential += roller.energy;
+            add(&mut state, roller, &along);
+        }
+        state
+    };
+    let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
+    evaluate(&found.x);
+    let slots = model.layout.slots;
+    let gather = |of: &dyn Fn(&Roller) -> f64| {
+        let mut values = vec![0.0; slots];
+        values
+            .iter_mut()
+            .zip(&rollers)
+            .for_each(|(v, r)| *v = of(r));
+        values
+    };
+    let stiffness = stiffness(tilt, problem, &rollers);
+    let x = &found.x;
+    Ok(Balance {
+        inner: [x[0], x[1]],
+        outer: [x[4], x[5]],
+        r: gather(&|r| r.r),
+        inner_force: gather(&|r| r.contacts[0].force),
+        outer_force: gather(&|r| r.contacts[1].force),
+        stiffness: [0, 1].map(|i| [stiffness[i][0], stiffness[i][1]]),
+        tilting: Some(Tilted {
+            rings: [[x[2] / arm, x[3] / arm], [x[6] / arm, x[7] / arm]],
+            rollers: gather(&|r| r.beta),
+            moments: [
+                gather(&|r| r.contacts[0].moment),
+                gather(&|r| r.contacts[1].moment),
+            ],
+            stiffness,
+        }),
+        residual: found.residual,
+        iterations: found.iterations,
+    })
+}
+
+fn supports(model: &Model, tilt: &Tilt) -> Rings {
+    let arm = model.geometry.pitch_radius;
+    let (ki, ko) = (
+        model.inner_support.stiffness,
+        model.acting_outer_support().stiffness,
+    );
+    let [ti, to] = [&tilt.inner, &tilt.outer].map(|ring| ring.support.stiffness / (arm * arm));
+    [ki, ki, ti, ti, ko, ko, to, to]
+}
+
+/// How far a ring's coordinates (x, y, and tau times `arm`) bring its raceway along e_r at the roller's middle, and how that changes with z.
+fn directions(lever: f64, orbit: f64, arm: f64) -> [[f64; 4]; 2] {
+    let (sin, cos) = orbit.sin_cos();
+    [
+        [cos, sin, lever * cos / arm, lever * sin / arm],
+        [0.0, 0.0, cos / arm, sin / arm],
+    ]
+}
+
+/// Raceways' (offset, slope) along e_r: inner and outer.
+fn meet(along: &[[f64; 4]; 2], x: &Rings) -> [[f64; 2]; 2] {
+    let at =
+        |ring: usize| [0, 1].map(|k| (0..4).map(|i| along[k][i] * x[4 * ring + i]).sum::<f64>());
+    [at(0), at(1)]
+}
+
+/// Adds a roller's forces and tangent to the gradient and the Hessian of the potential.
+fn add(state: &mut State<8>, roller: &Roller, along: &[[f64; 4]; 2]) {
+    let [inner, outer] = &roller.contacts;
+    for i in 0..8 {
+        let (ring, own) = (i / 4, i % 4);
+        let (carried, sign) = if ring == 0 {
+            (inner, 1.0)
+        } else {
+            (outer, -1.0)
+        };
+        state.gradient[i] +=
+            sign * (along[0][own] * carried.force + along[1][own] * carried.moment);
+        for j in 0..8 {
+            let same = if ring == j / 4 { 1.0 } else { -1.0 };
+            for k in 0..2 {
+                for m in 0..2 {
+                    state.hessian[i][j] +=
+                        same * along[k][own] * roller.tangent[k][m] * along[m][j % 4];
+                }
+            }
+        }
+    }
+}
+
+/// Stiffness of all rollers between the rings, over (x, y, tau_x, tau_y).
+fn stiffness(tilt: &Tilt, problem: &Problem, rollers: &[Roller]) -> [[f64; 4]; 4] {
+    let mut all = [[0.0; 4]; 4];
+    for (slot, roller) in rollers.iter().enumerate() {
+        let along = directions(tilt.levers[slot], problem.orbit[slot], 1.0);
+        for i in 0..4 {
+            for j in 0..4 {
+                for k in 0..2 {
+                    for m in 0..2 {
+                        all[i][j] += along[k][i] * roller.tangent[k][m] * along[m][j];
+                    }
+                }
+            }
+        }
+    }
+    all
+}
+
+/// The roller's equilibrium between raceways at (offset, slope): Q_in - Q_out + its own radial force = 0, T_in = T_out.
+///
+/// The potential over (r, beta) is convex: a damped Newton method finds its least.
+fn between_raceways(
+    model: &Model,
+    slices: &Slices,
+    problem: &Problem,
+    slot: usize,
+    met: &[[f64; 2]; 2],
+    covers: &[Option<Cover>; 2],
+) -> Roller {
+    let (sin, cos) = problem.orbit[slot].sin_cos();
+    let g = &model.geometry;
+    let own = model.inertia.roller
+        * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let [[inner, inner_slope], [outer, outer_slope]] = *met;
+    let (inner, outer) = (inner - g.clearance, outer + g.outer_gap);
+    let contacts = |r: f64, beta: f64| {
+        let at = |deformation, tilt| Approach {
+            deformation,
+            tilt,
+            ..Approach::default()
+        };
+        let [cover_in, cover_out] = covers;
+        [
+            slices.carry(
+                &model.inner_contact,
+                &at(inner - r, inner_slope - beta),
+                cover_in.as_ref(),
+            ),
+            slices.carry(
+                &model.outer_contact,
+                &at(r - outer, beta - outer_slope),
+                cover_out.as_ref(),
+            ),
+        ]
+    };
+    // Lengths: beta times half the roller's length.
+    let half = 0.5 * g.roller_length;
+    let evaluate = |x: &[f64; 2]| {
+        let [i, o] = contacts(x[0], x[1] / half);
+        let sum = [0, 1, 2].map(|k| i.stiffness[k] + o.stiffness[k]);
+        State {
+            potential: i.energy + o.energy - own * x[0],
+            gradient: [o.force - i.force - own, (o.moment - i.moment) / half],
+            hessian: [
+                [sum[0], sum[1] / half],
+                [sum[1] / half, sum[2] / (half * half)],
+            ],
+        }
+    };
+    // Pressed against the raceway that the roller's own force leads to, as far as that force alone would, lying along it.
+    let deep = model.outer_contact.deflection(own.abs());
+    let guess = match own >= 0.0 {
+        true => [outer + deep, half * outer_slope],
+        false => [inner - deep, half * inner_slope],
+    };
+    let guess = if inner > outer {
+        [
+            0.5 * (inner + outer),
+            0.5 * half * (inner_slope + outer_slope),
+        ]
+    } else {
+        guess
+    };
+    let scale = own
+        .abs()
+        .max(model.series_contact.healthy((inner - outer).max(0.0)))
+        .max(1e-9);
+    let found = minimise(guess, &[true, true], (scale, softest(model)), evaluate);
+    let x = found.map_or(guess, |found| found.x);
+    let (r, beta) = (x[0], x[1] / half);
+    let [i, o] = contacts(r, beta);
+    Roller {
+        r,
+        beta,
+        tangent: in_series(&i.stiffness, &o.stiffness),
+        energy: i.energy + o.energy - own * r,
+        contacts: [i, o],
+    }
+}
+
+/// K_in (K_in + K_out)^-1 K_out of two contacts in series, over (approach, slope); 0 where the roller is free of one.
+fn in_series(inner: &[f64; 3], outer: &[f64; 3]) -> [[f64; 2]; 2] {
+    let matrix = |k: &[f64; 3]| [[k[0], k[1]], [k[1], k[2]]];
+    let sum = matrix(&[0, 1, 2].map(|k| inner[k] + outer[k]));
+    let (inner, outer) = (matrix(inner), matrix(outer));
+    let mut series = [[0.0; 2]; 2];
+    for j in 0..2 {
+        let Some(column) = eliminate(sum, [outer[0][j], outer[1][j]]) else {
+            return [[0.0; 2]; 2];
+        };
+        for i in 0..2 {
+            series[i][j] = inner[i][0] * column[0] + inner[i][1] * column[1];
+        }
+    }
+    series
+}

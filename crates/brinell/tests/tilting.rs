@@ -1,0 +1,266 @@
+//! Rollers and rings that tilt, and profiles: sections 15 and 16.
+
+mod common;
+
+use brinell::model::{Model, Workspace};
+use brinell::scenario::{
+    Defect, EdgeReaction, LoadOn, ModelKind, RollerPath, RollerProfile, Scenario, Shape, Start,
+};
+use brinell::slices::drop;
+use brinell::statics::{Problem, solve};
+use common::cases::{case, random_state, tilting_offset};
+
+fn edge() -> Scenario {
+    case("reference/tilting-edge")
+}
+
+/// Accelerations at a state.
+fn accelerations(s: &Scenario, t: f64, y: &[f64]) -> Vec<f64> {
+    let model = Model::new(s).unwrap();
+    let mut ws = Workspace::new(&model);
+    let mut a = vec![0.0; model.layout.dof()];
+    model.accelerations(t, y, &mut a, &mut ws);
+    a
+}
+
+#[test]
+fn lit_logarithmic_drop_of_iso_16281() {
+    // ISO/TS 16281 with L <= 2.5 d, at 90 % of the half length: 0.00035 d ln(1/(1 - 0.81)) = 0.58126e-3 d.
+    let at = drop(&RollerProfile::Logarithmic, 2.7e-3, 6e-3, 6e-3);
+    assert!((at / 6e-3 - 0.00035 * (1.0_f64 / 0.19).ln()).abs() < 1e-15);
+    // L > 2.5 d: straight in the middle.
+    assert_eq!(drop(&RollerProfile::Logarithmic, 2.4e-3, 20e-3, 6e-3), 0.0);
+    let at = drop(&RollerProfile::Logarithmic, 9e-3, 20e-3, 6e-3);
+    let x: f64 = (18.0 - 5.0) / 15.0;
+    assert!((at / (0.0005 * 6e-3 * (1.0 / (1.0 - x * x)).ln()) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn analytic_nothing_tilted_is_the_planar_model() {
+    // Without damping at the contacts, where every slice is damped by itself; at states without tilt the other coordinates move as in the plane.
+    let mut tilting = edge();
+    tilting.contact.damping_ns_per_m = 0.0;
+    let mut planar = tilting.clone();
+    planar.simulation.model = ModelKind::Full;
+    let (flat, full) = (Model::new(&planar).unwrap(), Model::new(&tilting).unwrap());
+    for seed in 0..20 {
+        let y = random_state(&flat, seed);
+        let (l, m) = (&flat.layout, &full.layout);
+        let mut tilted = vec![0.0; 2 * m.dof()];
+        let places: Vec<(usize, usize)> = (0..3 * l.slots)
+            .map(|k| (k, k))
+            .chain((l.cage(0)..l.outer() + 2).map(|k| (k, k + m.cage(0) - l.cage(0))))
+            .collect();
+        for &(from, to) in &places {
+            tilted[to] = y[from];
+            tilted[m.dof() + to] = y[l.dof() + from];
+        }
+        let a = accelerations(&planar, 0.01, &y);
+        let b = accelerations(&tilting, 0.01, &tilted);
+        let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for &(from, to) in &places {
+            assert!(
+                (a[from] - b[to]).abs() < 1e-11 * largest,
+                "{}: {} in the plane, {} with tilt",
+                l.name(from),
+                a[from],
+                b[to]
+            );
+        }
+    }
+}
+
+/// Damage, load and rows mirrored in Z.
+fn mirrored(s: &Scenario) -> Scenario {
+    let mut s = s.clone();
+    s.operation.load_offset_mm *= -1.0;
+    for defect in &mut s.defects {
+        defect.row = s.bearing.rows + 1 - defect.row;
+        defect.axial_offset_mm *= -1.0;
+        if let Shape::Outline { polygons_mm } = &mut defect.shape {
+            polygons_mm.iter_mut().flatten().for_each(|p| p[1] *= -1.0);
+        }
+    }
+    s
+}
+
+#[test]
+fn prop_mirrored_damage_mirrors_the_tilts() {
+    for mut s in [edge(), tilting_offset()] {
+        s.bearing.row_stagger_deg = 0.0;
+        let (there, here) = (mirrored(&s), s);
+        let model = Model::new(&here).unwrap();
+        let l = &model.layout;
+        // Rows change places, and tilts their sign.
+        let place = |k: usize| -> (usize, f64) {
+            if k < l.cage(0) {
+                let (column, slot) = (k / l.slots, k % l.slots);
+                if slot >= l.rollers() {
+                    return (k, 1.0);
+                }
+                let other = l.slot(l.rows - 1 - l.row(slot), l.roller(slot));
+                let sign = if column == 3 { -1.0 } else { 1.0 };
+                (column * l.slots + other, sign)
+            } else if k < l.inner() {
+                let row = (k - l.cage(0)) / 3;
+                (l.cage(l.rows - 1 - row) + (k - l.cage(0)) % 3, 1.0)
+            } else {
+                (
+                    k,
+                    if (l.inner_tilt()..l.outer_tilt() + 2).contains(&k) {
+                        -1.0
+                    } else {
+                        1.0
+                    },
+                )
+            }
+        };
+        for seed in 0..20 {
+            let y = random_state(&model, seed);
+            let mut image = y.clone();
+            for k in 0..l.dof() {
+                let (to, sign) = place(k);
+                image[to] = sign * y[k];
+                image[l.dof() + to] = sign * y[l.dof() + k];
+            }
+            let a = accelerations(&here, 0.01, &y);
+            let b = accelerations(&there, 0.01, &image);
+            let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for k in 0..l.dof() {
+                let (to, sign) = place(k);
+                let difference = (sign * a[k] - b[to]).abs();
+                assert!(
+                    difference < 1e-11 * largest,
+                    "{}: {difference:e}",
+                    l.name(k)
+                );
+            }
+        }
+    }
+}
+
+/// One row, exponent 1, straight, no clearance, no speed, the load at Z_F on the inner ring.
+fn one_row(slices: usize, offset_mm: f64) -> Scenario {
+    let mut s = edge();
+    s.defects.clear();
+    s.bearing.rows = 1;
+    s.bearing.row_stagger_deg = 0.0;
+    s.bearing.row_spacing_mm = 0.0;
+    s.bearing.profile = RollerProfile::Straight;
+    s.bearing.radial_clearance_um = 0.0;
+    s.contact.exponent = 1.0;
+    s.contact.slices = slices;
+    s.operation.load_n = [300.0, 0.0];
+    s.operation.load_on = LoadOn::InnerRing;
+    s.operation.load_offset_mm = offset_mm;
+    // What the supports hold does not pass through the rollers.
+    s.support.inner_stiffness_n_per_m = 0.0;
+    s.support.inner_tilt_stiffness_nm_per_rad = 0.0;
+    s
+}
+
+#[test]
+fn analytic_a_load_off_the_middle_tilts_one_row() {
+    // tau_i - tau_o = 12 (x_i - x_o) Z_F / (L^2 (1 - 1/n_s^2)), Z_F < L/6, where no roller has a force of its own.
+    for (slices, offset) in [(2, 0.3), (8, 0.5), (20, -0.4)] {
+        let s = one_row(slices, offset);
+        let model = Model::new(&s).unwrap();
+        let mut problem = Problem::at_start(&model);
+        problem.speed = 0.0;
+        let balance = solve(&model, &problem).unwrap();
+        let tilted = balance.tilting.unwrap();
+        let tilt = tilted.rings[0][0] - tilted.rings[1][0];
+        let shift = balance.inner[0] - balance.outer[0];
+        let n = slices as f64;
+        let expected = 12.0 * shift * 1e-3 * offset / (36e-6 * (1.0 - 1.0 / (n * n)));
+        assert!(
+            (tilt / expected - 1.0).abs() < 1e-6,
+            "{slices} slices: {tilt:e} rad, {expected:e} expected"
+        );
+    }
+}
+
+#[test]
+fn analytic_an_equilibrium_is_one() {
+    let mut s = tilting_offset();
+    s.contact.edge_reaction = EdgeReaction::None;
+    s.simulation.start = Start::Equilibrium;
+    // Neither friction nor film nor damping, which the orbit makes felt: what is left is the balance's error, and the centrifugal force on the arm
+    // R_m + r in place of R_m, 0.2 N times 20 um over 25 mm.
+    s.friction.raceway_coefficient = 0.0;
+    s.contact.damping_ns_per_m = 0.0;
+    s.lubricant.viscosity_pa_s = 0.0;
+    let model = Model::new(&s).unwrap();
+    let y = brinell::start::state(&model).unwrap();
+    let a = accelerations(&s, 1.0, &y);
+    let l = &model.layout;
+    let mass = model.mass();
+    for slot in 0..l.rollers() {
+        for k in [l.r() + slot, l.beta() + slot] {
+            let force = mass[k] * a[k].abs();
+            assert!(force < 2e-4, "{}: {force:e} N left over", l.name(k));
+        }
+    }
+    for k in l.inner()..l.outer_tilt() + 2 {
+        let force = mass[k] * a[k].abs();
+        assert!(force < 1e-3, "{}: {force:e} N left over", l.name(k));
+    }
+    assert!(y[l.inner_tilt()].abs() > 1e-6, "the load is off the middle");
+}
+
+#[test]
+fn analytic_a_profile_of_no_drop_is_straight() {
+    let mut s = edge();
+    s.simulation.model = ModelKind::Full;
+    s.bearing.profile = RollerProfile::Straight;
+    let mut table = s.clone();
+    table.bearing.profile = RollerProfile::Table {
+        z_mm: vec![-1.0, 1.0],
+        drop_um: vec![0.0, 0.0],
+    };
+    for path in [RollerPath::Point, RollerPath::Envelope] {
+        s.contact.roller_path = path;
+        table.contact.roller_path = path;
+        let model = Model::new(&s).unwrap();
+        for seed in 0..20 {
+            let y = random_state(&model, seed);
+            let (a, b) = (accelerations(&s, 0.01, &y), accelerations(&table, 0.01, &y));
+            let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for k in 0..a.len() {
+                assert!(
+                    (a[k] - b[k]).abs() < 1e-9 * largest,
+                    "{} and {}",
+                    a[k],
+                    b[k]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn prop_damage_in_the_middle_of_one_row_tilts_nothing() {
+    let mut s = one_row(20, 0.0);
+    s.defects = vec![Defect {
+        shape: Shape::Rectangle {
+            length_mm: 3.0,
+            width_mm: 4.0,
+        },
+        row: 1,
+        axial_offset_mm: 0.0,
+        ..edge().defects[0].clone()
+    }];
+    let model = Model::new(&s).unwrap();
+    let l = &model.layout;
+    for seed in 0..10 {
+        let mut y = random_state(&model, seed);
+        for k in (l.beta()..l.cage(0)).chain(l.inner_tilt()..l.outer_tilt() + 2) {
+            y[k] = 0.0;
+            y[l.dof() + k] = 0.0;
+        }
+        let a = accelerations(&s, 0.01, &y);
+        for k in (l.beta()..l.beta() + l.rollers()).chain(l.inner_tilt()..l.outer_tilt() + 2) {
+            assert!(a[k].abs() < 1e-3, "{}: {} rad/s^2", l.name(k), a[k]);
+        }
+    }
+}
