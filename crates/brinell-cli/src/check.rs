@@ -26,6 +26,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
+    let element = b.element.word();
     let size = match b.element {
         Element::Roller => format!("{} x {} mm", b.roller_diameter_mm, b.roller_length_mm),
         Element::Ball => format!("of {} mm", b.roller_diameter_mm),
@@ -37,7 +38,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             .map_or(String::new(), |p| format!("{p}: ")),
         b.rows,
         b.rollers_per_row,
-        b.element.word(),
+        element,
         b.pitch_diameter_mm,
     );
     say!("Clearance {}", clearance(b));
@@ -122,7 +123,8 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     say!("");
     say!("Time scales");
     say!(
-        "  roller between raceways {} Hz, damping ratio {}",
+        "  {:<23} {} Hz, damping ratio {}",
+        format!("{element} between raceways"),
         short(d.roller_frequency, 3),
         short(d.roller_damping_ratio, 2)
     );
@@ -132,7 +134,8 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         short(d.support_frequencies[1], 3)
     );
     say!(
-        "  roller after roller     {} ms",
+        "  {:<23} {} ms",
+        format!("{element} after {element}"),
         short(1e3 * d.roller_period, 4)
     );
     for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
@@ -149,7 +152,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         short(1e6 * d.longest_step, 3)
     );
     say!(
-        "  centrifugal force       {} N a roller",
+        "  centrifugal force       {} N a {element}",
         short(d.centrifugal_force, 3)
     );
     let (channels, idle) = channel::select(&model, &s.sensor, &s.simulation.record);

@@ -333,6 +333,8 @@ fn coarse_slices(scenario: &Scenario, model: &Model) -> Option<Problem> {
         && c.roller_path == RollerPath::Envelope
         && c.slices < ENVELOPE_SLICES
         && model.kind.moves_every_part()
+        // Under balls they divide the damage, however narrow.
+        && !scenario.bearing.has_balls()
         && scenario.defects.iter().any(|d| slanted(&d.shape));
     counts.then(|| {
         warning(
