@@ -19,5 +19,6 @@ mod shapes;
 mod signal_on_runs;
 mod statics;
 mod symmetry;
+mod tilting;
 mod trajectories;
 mod work;
