@@ -156,6 +156,7 @@ impl Lanes for Counting {
     }
     others! {
         abs();
+        sqrt();
         with_sign(sign: Self);
         if_above(other: Self, x: Self, y: Self);
         and_bits(bits: u64);

@@ -11,8 +11,8 @@ use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
-use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
-use brinell::scenario::{Bearing, Scenario, Speed};
+use brinell::pressure::{pressure_beside, pressures, static_limit};
+use brinell::scenario::{Bearing, Element, Scenario, Speed};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
@@ -26,15 +26,18 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
+    let size = match b.element {
+        Element::Roller => format!("{} x {} mm", b.roller_diameter_mm, b.roller_length_mm),
+        Element::Ball => format!("of {} mm", b.roller_diameter_mm),
+    };
     say!(
-        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle",
+        "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
         b.preset
             .as_ref()
             .map_or(String::new(), |p| format!("{p}: ")),
         b.rows,
         b.rollers_per_row,
-        b.roller_diameter_mm,
-        b.roller_length_mm,
+        b.element.word(),
         b.pitch_diameter_mm,
     );
     say!("Clearance {}", clearance(b));
@@ -58,10 +61,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             let size = zone.shift[0].hypot(zone.shift[1]);
             say!("Static balance under the full load (mean over a pitch of the cage)");
             say!("  heaviest contact        {} N", short(zone.largest, 4));
-            let [inner, outer] = pressures(b, zone.largest).map(|p| short(1e-6 * p, 4));
+            let [inner, outer] = pressures(s, zone.largest).map(|p| short(1e-6 * p, 4));
             say!(
                 "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
-                1e-6 * STATIC_LIMIT
+                1e-6 * static_limit(b)
             );
             for (k, defect) in model.defects.iter().enumerate() {
                 if let Some((left, pressure)) = pressure_beside(&model, b, k, zone.largest) {
@@ -193,7 +196,7 @@ fn clearance(b: &Bearing) -> String {
     let Some(bore) = bore_diameter_mm(b) else {
         return both;
     };
-    let classes: Vec<&str> = classes_of(bore, diametral)
+    let classes: Vec<&str> = classes_of(b.element, bore, diametral)
         .iter()
         .map(|c| c.name())
         .collect();

@@ -95,7 +95,7 @@ fn waveform(page: &mut String, report: &Report) {
         "The whole run: smallest to largest value. The shaded stretch is shown below.",
     );
     let events = match report.waveform.events.len() {
-        0 => "No roller passes a defect while this signal was kept.".to_owned(),
+        0 => "No rolling element passes a defect while this signal was kept.".to_owned(),
         _ => "Lines mark rollers (row·number) that enter and leave the defect.".to_owned(),
     };
     let name = if series.label.is_empty() {
@@ -295,7 +295,10 @@ fn sentence(note: &str) -> String {
 
 fn passes(page: &mut String, report: &Report) {
     if report.passes.is_empty() {
-        return none(page, "No roller passed a defect while it was recorded.");
+        return none(
+            page,
+            "No rolling element passed a defect while it was recorded.",
+        );
     }
     for (index, pass) in report.passes.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&pass.title));

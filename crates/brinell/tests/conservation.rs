@@ -115,7 +115,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn prop_every_force_has_its_reaction(seed in any::<u64>(), case in 0_usize..14, t in 0.0..0.03_f64) {
+    fn prop_every_force_has_its_reaction(seed in any::<u64>(), case in 0_usize..15, t in 0.0..0.03_f64) {
         let (name, s) = every_term().swap_remove(case);
         let model = Model::new(&s).unwrap();
         let y = random_state(&model, seed);

@@ -45,6 +45,7 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
     assert_eq!(
         stems,
         [
+            "ball-6205",
             "circle",
             "healthy",
             "inner-race",

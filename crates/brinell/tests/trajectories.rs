@@ -120,6 +120,11 @@ fn xval_given_film_dynamic() {
 }
 
 #[test]
+fn xval_given_ball_6205_outer() {
+    given_later("ball-6205-outer", 0.015);
+}
+
+#[test]
 fn xval_given_slices_oblique() {
     given_later("slices-oblique", 0.015);
 }

@@ -43,7 +43,7 @@ fn regress_an_empty_report_says_so() {
     for words in [
         "No waveform was recorded",
         "No spectrum was made",
-        "No roller passed a defect",
+        "No rolling element passed a defect",
         "No audit was made",
     ] {
         assert!(page.contains(words), "{words}");
