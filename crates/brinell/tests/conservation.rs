@@ -1,7 +1,7 @@
 //! Momentum and energy: what the bodies gain is what flowed in.
 
-mod common;
-
+use crate::common::cases::{every_term, random_state, rectangle};
+use crate::common::simulate;
 use brinell::accuracy::{settings, tolerance};
 use brinell::defect::{Angles, SIDES, cover_slices, energy};
 use brinell::model::{Energy, Model, Motion, Power, imbalance};
@@ -9,8 +9,6 @@ use brinell::scenario::{Accuracy, Guidance, LoadOn, ModelKind, Scenario, Start};
 use brinell::slices::{Approach, Cover};
 use brinell::solver::Stepper;
 use brinell::start;
-use common::cases::{every_term, random_state, rectangle};
-use common::simulate;
 use proptest::prelude::*;
 
 /// Sum of m a of all bodies less loads, weights, supports and drag, in X and Y, and the sum of their sizes; N. Written from section 8

@@ -1,4 +1,4 @@
-//! A run over damage allocates nothing between its steps, whatever the damage.
+//! A run over damage allocates nothing between its steps, whatever the damage. A program of its own for its allocator, which counts.
 
 mod common;
 

@@ -2,8 +2,6 @@
 //!
 //! Two of them name a file of damage, which the core does not open: `crates/brinell-damage/tests/resolve.rs` runs those.
 
-mod common;
-
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use std::path::Path;
@@ -78,7 +76,7 @@ fn prop_examples_run() {
             continue;
         }
         loaded.scenario.simulation.duration_s = SHORT;
-        let (rows, outcome) = common::simulate(&loaded.scenario);
+        let (rows, outcome) = crate::common::simulate(&loaded.scenario);
         assert_eq!(outcome.rows, rows.data[0].len() as u64, "{stem}");
         for (name, column) in rows.names.iter().zip(&rows.data) {
             assert!(column.iter().all(|x| x.is_finite()), "{stem}: {name}");

@@ -1,7 +1,5 @@
 //! The kernels for different instructions compute the same equations, to round-off.
 
-mod common;
-
 use brinell::document::read;
 use brinell::model::{Kernel, Model, Workspace};
 use brinell::scenario::{Accuracy, Guidance, Scenario};

@@ -1,7 +1,6 @@
 //! Warnings about scenarios that run and mean little, and about the energy of runs.
 
-mod common;
-
+use crate::common::simulate;
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use brinell::plausibility::{after, before};
@@ -9,7 +8,6 @@ use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
 use brinell::scenario::Scenario;
 use brinell::simulate::EnergyAudit;
 use brinell::statics::static_load_zone;
-use common::simulate;
 
 /// The rectangle of `examples/`, half a second long.
 const BASE: &str = "\

@@ -4,10 +4,8 @@
 //! text alone, with the difference between two equally tight runs of that program beside them: impacts amplify
 //! round-off, so no comparison can be closer than that.
 
-mod common;
-
+use crate::common::{Rows, columns, simulate_rows};
 use brinell::{document, scenario};
-use common::{Rows, columns, simulate_rows};
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! The page: what must be in it, and that nothing odd breaks it.
 
-use crate::checks::{check, check_pictures};
-use crate::sample::{filled, ordinary};
+use super::checks::{check, check_pictures};
+use super::sample::{filled, ordinary};
 use brinell_report::{
     Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
 };

@@ -5,7 +5,7 @@ use brinell::scenario::*;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-use crate::{INNER, OUTER, report};
+use super::{INNER, OUTER, report};
 
 /// Reads, shows and, where possible, writes: nothing may panic, and spans must lie in the text.
 fn exercise(text: &str, overrides: &[(String, String)]) {
