@@ -51,6 +51,16 @@ const WALL: f64 = 0.35;
 impl AxialSection {
     /// Frames that every list holds.
     pub(crate) fn frames(&self) -> usize {
+        let sizes = [
+            self.width_mm,
+            self.roller_length_mm,
+            self.roller_diameter_mm,
+        ];
+        let sound = |mm: f64| mm.is_finite() && mm > 0.0 && mm < 1e6;
+        let middles = self.rows.iter().all(|row| row.middle_mm.abs() < 1e6);
+        if self.strips == 0 || !middles || !sizes.into_iter().all(sound) {
+            return 0;
+        }
         let of = |row: &AxialRow| {
             let strips = self.strips.max(1);
             [row.away.len(), row.tilt.len(), row.inner.len() / strips]

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod architecture;
+mod balls;
 mod common;
 mod conservation;
 mod convergence;

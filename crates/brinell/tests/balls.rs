@@ -1,7 +1,6 @@
 //! Ball bearings: Hertz's ellipse, the static balance, damage on strips across the groove (section 17 of the model).
 
-mod common;
-
+use crate::common::cases::case;
 use brinell::contact::Hertz;
 use brinell::contact::ball::Strips;
 use brinell::defect::{
@@ -12,7 +11,6 @@ use brinell::elementary::Exponent;
 use brinell::model::Model;
 use brinell::scenario::{self, DepthGrid, RollerPath, Scenario, Surface};
 use brinell::statics::{Problem, solve};
-use common::cases::case;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
