@@ -131,6 +131,7 @@ mod error;
 mod friction;
 #[doc(hidden)]
 pub mod kernel;
+pub mod lamina;
 #[doc(hidden)]
 pub mod lanes;
 #[doc(hidden)]

@@ -252,9 +252,11 @@ fn between_raceways(
     } else {
         guess
     };
+    // A tilted roller may touch at one end alone.
+    let nearest = inner - outer + half * (inner_slope - outer_slope).abs();
     let scale = own
         .abs()
-        .max(model.series_contact.healthy((inner - outer).max(0.0)))
+        .max(model.series_contact.healthy(nearest.max(0.0)))
         .max(1e-9);
     let found = minimise(guess, &[true, true], (scale, softest(model)), evaluate);
     let x = found.map_or(guess, |found| found.x);
