@@ -12,6 +12,7 @@ mod examples;
 mod film;
 mod kernels;
 mod kinematics;
+mod lamina;
 mod literature;
 mod observe;
 mod plausibility;
