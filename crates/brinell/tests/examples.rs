@@ -50,6 +50,7 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
             "healthy",
             "inner-race",
             "irregular",
+            "one-sided",
             "photo",
             "rectangle",
             "roller",
