@@ -168,7 +168,7 @@ impl Energy {
             e.kinetic +=
                 0.5 * m.cage * square(&v[at..]) + 0.5 * m.cage_spin * v[at + 2] * v[at + 2];
             e.gravity -= m.cage * along(&q[at..]);
-            let ring = model.land_at(row, q);
+            let ring = model.land().centre(row, q);
             let offset = [q[at] - ring[0], q[at + 1] - ring[1]];
             e.cage +=
                 0.5 * model.guide.land_stiffness * model.guide.land_penetration(offset).powi(2);

@@ -98,6 +98,26 @@ pub struct Inertia {
     pub cage_spin: f64,
 }
 
+/// The ring with the cages' land among the coordinates.
+#[derive(Debug, Clone, Copy)]
+pub struct Land<'a> {
+    at: usize,
+    /// Its slope among the coordinates, and Z_i of the rows.
+    tilt: Option<(usize, &'a [f64])>,
+}
+
+impl Land<'_> {
+    /// x and y of the ring's centre at the middle of `row`, of positions or of their rates.
+    #[inline(always)]
+    pub fn centre(&self, row: usize, of: &[f64]) -> [f64; 2] {
+        let x = [of[self.at], of[self.at + 1]];
+        match self.tilt {
+            None => x,
+            Some((slope, levers)) => [0, 1].map(|k| x[k] + levers[row] * of[slope + k]),
+        }
+    }
+}
+
 /// One bearing under one operation: everything that does not change while it runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
@@ -408,20 +428,17 @@ impl Model {
         }
     }
 
-    /// x and y of that ring's centre at the middle of `row`, of positions or of their rates.
+    /// Where that ring's centre is at the middle of each row.
     #[inline(always)]
-    pub fn land_at(&self, row: usize, of: &[f64]) -> [f64; 2] {
-        let at = self.land_ring();
-        let mut x = [of[at], of[at + 1]];
-        if let Some(tilt) = &self.tilt {
-            let slope = match self.land_on() {
-                Side::Inner => self.layout.inner_tilt(),
-                Side::Outer => self.layout.outer_tilt(),
-            };
-            x[0] += tilt.rows[row] * of[slope];
-            x[1] += tilt.rows[row] * of[slope + 1];
+    pub fn land(&self) -> Land<'_> {
+        let slope = match self.land_on() {
+            Side::Inner => self.layout.inner_tilt(),
+            Side::Outer => self.layout.outer_tilt(),
+        };
+        Land {
+            at: self.land_ring(),
+            tilt: self.tilt.as_ref().map(|tilt| (slope, &tilt.rows[..])),
         }
-        x
     }
 
     /// Whether the outer ring of the lumped model is rigidly mounted (section 10).

@@ -122,6 +122,7 @@ fn moments(
 }
 
 /// Force of the raceways and the pocket on a roller along e_r and e_t, from its motion, N.
+#[inline(always)]
 fn internal_force(
     model: &Model,
     slot: usize,

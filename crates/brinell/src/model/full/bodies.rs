@@ -67,9 +67,10 @@ pub(super) fn guidance(model: &Model, (q, v): (&[f64], &[f64]), w: f64, ws: &mut
         Side::Inner => w,
         Side::Outer => 0.0,
     };
+    let land = model.land();
     for (row, f) in ws.guidance.iter_mut().enumerate() {
         let at = l.cage(row);
-        let (x, dx) = (model.land_at(row, q), model.land_at(row, v));
+        let (x, dx) = (land.centre(row, q), land.centre(row, v));
         let offset = [q[at] - x[0], q[at + 1] - x[1]];
         let velocity = [v[at] - dx[0], v[at + 1] - dx[1]];
         *f = model.guide.force(offset, velocity, v[at + 2], ring_speed);
@@ -92,9 +93,10 @@ pub(super) fn cages(
         Side::Inner => &mut sums.on_inner,
         Side::Outer => &mut sums.on_outer,
     };
+    let land = model.land();
     for (row, f) in guidance.iter().enumerate() {
         let at = l.cage(row);
-        let ring = model.land_at(row, v);
+        let ring = land.centre(row, v);
         for k in 0..2 {
             let guided = f.film[k] + f.land[k];
             a[at + k] += guided;

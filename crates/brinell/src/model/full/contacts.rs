@@ -151,7 +151,7 @@ pub(super) fn functions<L: Lanes>(model: &Model, ws: &mut Workspace) {
     let count = model.layout.slots / L::COUNT;
     let per_slip = L::splat(1.0 / model.friction.slip_velocity);
     for side in SIDES {
-        let law = model.contact(side);
+        let law = *model.contact(side);
         let stiffness = L::splat(law.stiffness);
         let contacts = &mut ws.contacts[side as usize];
         let deformation = column::<L>(&contacts.deformation, 0, count);
@@ -324,7 +324,8 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(
     // tanh of the slip, and then the friction.
     let friction = &mut L::groups_mut(&mut contacts.friction)[..count];
     let force = &mut L::groups_mut(&mut contacts.force)[..count];
-    let law = model.contact(side);
+    // A copy: what is written to does not lie in it, so its numbers stay in registers.
+    let law = *model.contact(side);
     let mu = L::splat(model.friction.coefficient);
     let mut sums = Closed {
         contact: L::zero(),

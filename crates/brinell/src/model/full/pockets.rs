@@ -76,6 +76,7 @@ pub(super) fn pockets<L: Lanes>(
     let pitch = L::splat(g.pitch_radius);
     let radius = L::splat(g.roller_radius);
     let one = L::splat(1.0);
+    let pocket = model.pocket;
     let mut sums = Pockets {
         pocket: L::zero(),
         friction: L::zero(),
@@ -105,7 +106,7 @@ pub(super) fn pockets<L: Lanes>(
                 let ds = dtheta.minus_times(xc_r, pitch.times_plus(cage.dtheta - dtheta, vc_t));
                 // Both sides at once: what closes on the side of s, with its sign.
                 let closing = ds * one.with_sign(s);
-                let (size, elastic) = model.pocket.press(depth, closing);
+                let (size, elastic) = pocket.press(depth, closing);
                 push = size.with_sign(s);
                 // sigma = -sign(F_c), 0 where the pocket is open.
                 let sigma = size.if_above(L::zero(), one.with_sign(-push), L::zero());
