@@ -1,5 +1,7 @@
 //! `brinell check`.
 
+mod lamina;
+
 use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
@@ -92,6 +94,9 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         Err(error) => say!("Static balance: {error}"),
     }
     say!("");
+    if d.statics.is_ok() {
+        lamina::print(s, d.top_speed)?;
+    }
     say!("Stiffnesses");
     say!(
         "  healthy contacts        inner {}, outer {} N/m^n with n = {}",
