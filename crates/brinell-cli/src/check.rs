@@ -13,8 +13,8 @@ use brinell::derived::Derived;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
-use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
-use brinell::scenario::{Bearing, Scenario, Speed};
+use brinell::pressure::{pressure_beside, pressures, static_limit};
+use brinell::scenario::{Bearing, Element, Scenario, Speed};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
@@ -28,15 +28,19 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
+    let element = b.element.word();
+    let size = match b.element {
+        Element::Roller => format!("{} x {} mm", b.roller_diameter_mm, b.roller_length_mm),
+        Element::Ball => format!("of {} mm", b.roller_diameter_mm),
+    };
     say!(
-        "Bearing   {}{} row(s) of {} rollers {} x {} mm on a {} mm pitch circle",
+        "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
         b.preset
             .as_ref()
             .map_or(String::new(), |p| format!("{p}: ")),
         b.rows,
         b.rollers_per_row,
-        b.roller_diameter_mm,
-        b.roller_length_mm,
+        element,
         b.pitch_diameter_mm,
     );
     say!("Clearance {}", clearance(b));
@@ -60,10 +64,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             let size = zone.shift[0].hypot(zone.shift[1]);
             say!("Static balance under the full load (mean over a pitch of the cage)");
             say!("  heaviest contact        {} N", short(zone.largest, 4));
-            let [inner, outer] = pressures(b, zone.largest).map(|p| short(1e-6 * p, 4));
+            let [inner, outer] = pressures(s, zone.largest).map(|p| short(1e-6 * p, 4));
             say!(
                 "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
-                1e-6 * STATIC_LIMIT
+                1e-6 * static_limit(b)
             );
             for (k, defect) in model.defects.iter().enumerate() {
                 if let Some((left, pressure)) = pressure_beside(&model, b, k, zone.largest) {
@@ -124,7 +128,8 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     say!("");
     say!("Time scales");
     say!(
-        "  roller between raceways {} Hz, damping ratio {}",
+        "  {:<23} {} Hz, damping ratio {}",
+        format!("{element} between raceways"),
         short(d.roller_frequency, 3),
         short(d.roller_damping_ratio, 2)
     );
@@ -134,7 +139,8 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         short(d.support_frequencies[1], 3)
     );
     say!(
-        "  roller after roller     {} ms",
+        "  {:<23} {} ms",
+        format!("{element} after {element}"),
         short(1e3 * d.roller_period, 4)
     );
     for (defect, time) in model.defects.iter().zip(&d.defect_passes) {
@@ -151,7 +157,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         short(1e6 * d.longest_step, 3)
     );
     say!(
-        "  centrifugal force       {} N a roller",
+        "  centrifugal force       {} N a {element}",
         short(d.centrifugal_force, 3)
     );
     let (channels, idle) = channel::select(&model, &s.sensor, &s.simulation.record);
@@ -198,7 +204,7 @@ fn clearance(b: &Bearing) -> String {
     let Some(bore) = bore_diameter_mm(b) else {
         return both;
     };
-    let classes: Vec<&str> = classes_of(bore, diametral)
+    let classes: Vec<&str> = classes_of(b.element, bore, diametral)
         .iter()
         .map(|c| c.name())
         .collect();

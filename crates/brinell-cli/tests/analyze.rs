@@ -1,9 +1,7 @@
 //! `brinell analyze`: what it says of signals whose damage is known, and of files that are no signal.
 
-mod common;
-
+use crate::common::{GIVEN, brinell, json};
 use ::brinell::random::Random;
-use common::{GIVEN, brinell, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;

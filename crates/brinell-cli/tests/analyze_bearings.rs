@@ -1,9 +1,7 @@
 //! `brinell analyze` of several bearings of one machine.
 
-mod common;
-
+use crate::common::{brinell, json};
 use ::brinell::random::Random;
-use common::{brinell, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;

@@ -1,9 +1,7 @@
 //! `brinell analyze` of several files, or of a folder of them.
 
-mod common;
-
+use crate::common::{GIVEN, brinell, files, json};
 use ::brinell::random::Random;
-use common::{GIVEN, brinell, files, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;

@@ -1,8 +1,6 @@
 //! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is wrong is said.
 
-mod common;
-
-use common::{brinell, files, interrupted, json, lines, same, with_blocks};
+use crate::common::{brinell, files, interrupted, json, lines, same, with_blocks};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,6 @@
 //! What `brinell check` says of a scenario, and that `brinell run` repeats its warnings.
 
-mod common;
-
-use common::{Call, SHORT, brinell};
+use crate::common::{Call, SHORT, brinell};
 use std::fs;
 use tempfile::tempdir;
 

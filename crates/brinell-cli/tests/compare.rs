@@ -1,9 +1,7 @@
 //! Scenarios side by side: what comes out, that a run beside itself is itself, and what is refused.
 
-mod common;
-
+use crate::common::{brinell, files, json, same, with_blocks};
 use brinell_io::{Cells, Table};
-use common::{brinell, files, json, same, with_blocks};
 use std::fs;
 use tempfile::TempDir;
 

@@ -1,8 +1,6 @@
 //! Exit codes and what is said with them: 0 done, 1 the run failed, 2 bad input, 130 interrupted.
 
-mod common;
-
-use common::{Call, SHORT, brinell, brinell_reading, csv, files, json};
+use crate::common::{Call, SHORT, brinell, brinell_reading, csv, files, json};
 use std::fs;
 use tempfile::tempdir;
 
@@ -379,7 +377,7 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
 #[cfg(unix)]
 mod interrupted {
     use super::*;
-    use common::command;
+    use crate::common::command;
     use std::process::Stdio;
     use std::time::{Duration, Instant};
 

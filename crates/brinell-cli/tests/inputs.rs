@@ -1,8 +1,6 @@
 //! No command writes over a file that it reads, and none mixes its results with another command's.
 
-mod common;
-
-use common::{Call, GIVEN, SHORT, brinell, files, json};
+use crate::common::{Call, GIVEN, SHORT, brinell, files, json};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -35,12 +33,12 @@ fn run(here: &Path, more: &[&str]) -> Call {
 /// That the call is refused because of its input, and changes nothing.
 #[track_caller]
 fn refused(here: &Path, args: &[&str]) {
-    let before = common::results(here);
+    let before = crate::common::results(here);
     brinell(here, args)
         .exits(2)
         .complains(&["would be written, and is an input of this command"]);
     assert!(
-        common::results(here) == before,
+        crate::common::results(here) == before,
         "{args:?} changed something"
     );
 }
@@ -62,15 +60,15 @@ fn prop_a_run_never_writes_over_what_it_reads() {
     // By standard input as well.
     #[cfg(unix)]
     {
-        let before = common::results(here);
+        let before = crate::common::results(here);
         let input = fs::File::open(here.join("scenario.toml")).unwrap();
-        let call = common::command(here, &["run", "-", "-o", ".", "-q"])
+        let call = crate::common::command(here, &["run", "-", "-o", ".", "-q"])
             .stdin(input)
             .output();
         Call::from(call.unwrap())
             .exits(2)
             .complains(&["scenario.toml would be written", "(standard input)"]);
-        assert!(common::results(here) == before);
+        assert!(crate::common::results(here) == before);
     }
     // A run's own results, from its own folder.
     run(here, &["b.toml", "-o", "o"]).exits(0);
@@ -135,9 +133,9 @@ fn prop_a_measured_signal_and_the_folder_of_a_run_stay() {
         &["analyze", "RUN", "--json", "RUN/summary.json"],
         &["analyze", "RUN/signals.csv", "-o", "RUN", "--overwrite"],
     ] {
-        let before = common::results(here);
+        let before = crate::common::results(here);
         let call = brinell(here, args).exits(2);
-        assert!(common::results(here) == before, "{args:?} {call:?}");
+        assert!(crate::common::results(here) == before, "{args:?} {call:?}");
     }
 }
 
@@ -162,7 +160,7 @@ fn prop_campaigns_spare_their_inputs() {
     );
     // A file of the same name that is no input is not written over either.
     fs::write(here.join("base.toml"), SHORT).unwrap();
-    let before = common::results(here);
+    let before = crate::common::results(here);
     brinell(here, &calibrate("base.toml"))
         .exits(2)
         .complains(&["best.toml, which `brinell calibrate` would write over"]);
@@ -177,7 +175,7 @@ fn prop_campaigns_spare_their_inputs() {
     ];
     brinell(here, &args).exits(2).complains(&["sweep.json"]);
     fs::remove_file(here.join("sweep.json")).unwrap();
-    assert!(common::results(here) == before);
+    assert!(crate::common::results(here) == before);
 }
 
 #[cfg(unix)]
@@ -187,7 +185,9 @@ fn prop_a_printed_entry_is_not_appended_to_its_own_scenario() {
     let here = folder.path();
     let out = fs::File::options().append(true).open(here.join("s.toml"));
     let args = ["defect", "convert", "s.toml", "--to", "profile"];
-    let call = common::command(here, &args).stdout(out.unwrap()).output();
+    let call = crate::common::command(here, &args)
+        .stdout(out.unwrap())
+        .output();
     Call::from(call.unwrap())
         .exits(2)
         .complains(&["standard output would be written"]);
@@ -202,7 +202,7 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     signal(here, "y.csv");
     run(here, &["s.toml", "-o", "o", "--plots", "svg"]).exits(0);
     fs::write(here.join("o/notes.txt"), "mine").unwrap();
-    let before = common::results(&here.join("o"));
+    let before = crate::common::results(&here.join("o"));
     let words = ["o holds results of `brinell run`", "-o", "--overwrite"];
     analyze(here, "x.csv", &["-o", "o"])
         .exits(2)
@@ -223,7 +223,7 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     ] {
         brinell(here, args).exits(2).complains(&words[..1]);
     }
-    assert!(common::results(&here.join("o")) == before);
+    assert!(crate::common::results(&here.join("o")) == before);
     // With the flag, nothing of the run stays.
     analyze(here, "x.csv", &["-o", "o", "--overwrite"]).exits(0);
     let there = files(&here.join("o"));
@@ -256,16 +256,16 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     );
     // Finished runs are never removed.
     brinell(here, &[&sweep[..], &["points"]].concat()).exits(0);
-    let before = common::results(&here.join("points"));
+    let before = crate::common::results(&here.join("points"));
     run(here, &["s.toml", "-o", "points", "--overwrite"])
         .exits(2)
         .complains(&["`brinell sweep`, with finished runs"]);
-    assert!(common::results(&here.join("points")) == before);
+    assert!(crate::common::results(&here.join("points")) == before);
 }
 
 #[test]
 fn regress_a_comparison_of_other_scenarios_leaves_none_of_the_first() {
-    let folder = common::with_blocks("a.toml");
+    let folder = crate::common::with_blocks("a.toml");
     let here = folder.path();
     let compare = |variants: &[&str], more: &[&str]| -> Call {
         let mut args = vec!["compare", "a.toml", "-o", "c", "-q"];

@@ -1,8 +1,6 @@
 //! The commands that look things up: `frequencies`, `bearing`, `schema`, `init`, and every `--help`.
 
-mod common;
-
-use common::{SHORT, brinell, brinell_reading};
+use crate::common::{SHORT, brinell, brinell_reading};
 use serde_json::Value;
 use std::fs;
 use tempfile::tempdir;
@@ -15,7 +13,7 @@ const SECTION_13: [(&str, f64); 4] = [
     ("bsf", 120.663),
 ];
 
-fn call(args: &[&str]) -> common::Call {
+fn call(args: &[&str]) -> crate::common::Call {
     brinell(tempdir().unwrap().path(), args)
 }
 

@@ -1,8 +1,6 @@
 //! Several scenarios in one call: where results go, what happens when one fails, and that company changes no bit.
 
-mod common;
-
-use common::{SHORT, brinell, files};
+use crate::common::{SHORT, brinell, files};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;

@@ -1,8 +1,6 @@
 //! What `brinell run` leaves in its folder and says on the terminal.
 
-mod common;
-
-use common::{SHORT, brinell, brinell_reading, command, csv, files, json};
+use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, json};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;

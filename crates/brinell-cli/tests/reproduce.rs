@@ -1,8 +1,6 @@
 //! The reproduction: what it writes, that neither threads nor a cut journal change a byte, and what it refuses.
 
-mod common;
-
-use common::{brinell, files, json};
+use crate::common::{brinell, files, json};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;

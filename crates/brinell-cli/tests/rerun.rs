@@ -1,8 +1,6 @@
 //! A run into a folder that holds results already; what a run keeps of its scenario's assumptions; the kernel.
 
-mod common;
-
-use common::{SHORT, brinell, command, files, json};
+use crate::common::{SHORT, brinell, command, files, json};
 use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
@@ -91,7 +89,7 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
         &run("a.toml", &["--signals", "csv", "--plots", "svg"]),
     )
     .exits(0);
-    let before = common::results(&here.join("o"));
+    let before = crate::common::results(&here.join("o"));
     brinell(here, &run("b.toml", &[])).exits(2).complains(&[
         "o holds results of another scenario",
         "signals.csv",
@@ -101,7 +99,7 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
     // An override makes another scenario as well.
     brinell(here, &run("a.toml", &["--set", "operation.speed_rpm=900"])).exits(2);
     assert!(
-        common::results(&here.join("o")) == before,
+        crate::common::results(&here.join("o")) == before,
         "a refused run changes nothing"
     );
     brinell(here, &run("b.toml", &["--overwrite"]))
@@ -300,7 +298,7 @@ fn regress_written_scenarios_keep_what_was_assumed() {
 fn prop_the_kernel_is_recorded_and_an_unknown_one_refused() {
     let folder = folder();
     let here = folder.path();
-    let call = |kernel: &str, args: &[&str]| -> common::Call {
+    let call = |kernel: &str, args: &[&str]| -> crate::common::Call {
         let mut command = command(here, args);
         command.env("BRINELL_KERNEL", kernel);
         command.output().unwrap().into()

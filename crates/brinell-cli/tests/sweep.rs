@@ -1,9 +1,7 @@
 //! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to bad points.
 
-mod common;
-
+use crate::common::{brinell, files, interrupted, json, lines, results, same, with_blocks};
 use brinell_io::{Cells, Table};
-use common::{brinell, files, interrupted, json, lines, results, same, with_blocks};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

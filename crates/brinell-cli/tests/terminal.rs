@@ -1,8 +1,6 @@
 //! What reaches the terminal: all of it or an exit of 1, and nothing that steers it.
 
-mod common;
-
-use common::{Call, SHORT, brinell, command};
+use crate::common::{Call, SHORT, brinell, command};
 use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
@@ -129,7 +127,7 @@ fn prop_a_file_beyond_the_limit_on_files_is_an_error_and_leaves_nothing() {
         .output()
         .unwrap();
     Call::from(call).exits(1).complains(&["signals.csv"]);
-    let there = common::files(&folder.path().join("o"));
+    let there = crate::common::files(&folder.path().join("o"));
     let left = |name: &String| name.contains(".partial") || name.starts_with("signals");
     assert!(!there.iter().any(left), "{there:?}");
 }
@@ -165,7 +163,7 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
     let folder = folder_with(SHORT);
     let first = ["run", "s.toml", "-o", "o", "-q", "--signals", "csv"];
     brinell(folder.path(), &first).exits(0);
-    let before = common::results(&folder.path().join("o"));
+    let before = crate::common::results(&folder.path().join("o"));
     // Signals too long; then signals that fit, and a report that does not.
     for (blocks, signals, lacks) in [(32, "csv", "signals.csv"), (100, "none", "report.html")] {
         let limited =
@@ -176,13 +174,13 @@ fn regress_a_run_that_cannot_be_written_keeps_the_results_before_it() {
             .output()
             .unwrap();
         Call::from(call).exits(1).complains(&[lacks]);
-        assert!(common::results(&folder.path().join("o")) == before);
+        assert!(crate::common::results(&folder.path().join("o")) == before);
     }
     // With room for them the new results come, and what they have not goes.
     let again = ["run", "s.toml", "-o", "o", "-q", "--signals", "none"];
     brinell(folder.path(), &again).exits(0);
     assert_eq!(
-        common::files(&folder.path().join("o")),
+        crate::common::files(&folder.path().join("o")),
         ["report.html", "scenario.toml", "summary.json"]
     );
 }
@@ -215,7 +213,7 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
             _ => [&args[..], &["--plots", "svg,png"]].concat(),
         };
         brinell(here, &first).exits(0);
-        let before = common::results(&output);
+        let before = crate::common::results(&output);
         let limited = format!("ulimit -f 60; exec \"$0\" {}", args.join(" "));
         let call = std::process::Command::new("sh")
             .args(["-c", &limited, env!("CARGO_BIN_EXE_brinell")])
@@ -223,9 +221,9 @@ fn regress_results_that_cannot_be_written_leave_those_before_them() {
             .output()
             .unwrap();
         Call::from(call).exits(1).complains(&[lacks]);
-        assert!(common::results(&output) == before, "{args:?}");
+        assert!(crate::common::results(&output) == before, "{args:?}");
         brinell(here, &args).exits(0);
-        let after = common::files(&output);
+        let after = crate::common::files(&output);
         assert!(after.len() < before.len(), "{after:?}");
         assert!(!after.iter().any(|name| name.ends_with(".partial")));
     }

@@ -1,14 +1,12 @@
 //! Depth maps against closed forms.
 
-mod common;
-
 use std::f64::consts::PI;
 
+use crate::common::{Noise, npy, npy_f8, peak_mb};
 use brinell_damage::{
     DamageError, DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
     read_depth_map,
 };
-use common::{Noise, npy, npy_f8, peak_mb};
 
 fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
     read_depth_map(bytes, None, options).unwrap()
@@ -444,7 +442,7 @@ fn xval_every_way_of_writing_a_map_gives_the_same_grid() {
     #[cfg(feature = "image")]
     {
         let wide = items(2, true, false, &|v| (30_000 - 10 * v) as u64);
-        let png = common::png(
+        let png = crate::common::png(
             columns,
             rows,
             png::ColorType::Grayscale,

@@ -1,12 +1,10 @@
 //! SVG drawings against closed forms.
 #![cfg(feature = "svg")]
 
-mod common;
-
 use std::f64::consts::PI;
 
+use crate::common::{Noise, holds, width_at};
 use brinell_damage::{DamageError, Polygons, SvgOptions, read_svg};
-use common::{Noise, holds, width_at};
 
 fn page(inside: &str) -> String {
     format!(

@@ -1,4 +1,4 @@
-//! Mutated files against all readers: no bytes and no options may make one panic or hang.
+//! Mutated files against all readers: no bytes and no options may make one panic or hang. A program of its own: an abort ends no other test.
 //!
 //! A few seconds in the suite; `BRINELL_FUZZ_SECONDS=600` for longer, `BRINELL_FUZZ_SEED` for other mutations. A file
 //! that makes a reader panic is kept in `tests/corpus/` and replayed from then on. `BRINELL_FUZZ_WRITE=1` writes the

@@ -1,13 +1,11 @@
 //! Photos and masks against closed forms.
 #![cfg(feature = "image")]
 
-mod common;
-
 use std::f64::consts::PI;
 use std::time::Instant;
 
+use crate::common::{Noise, cover, grey_bytes, grey_png, holds, peak_mb, png, width_at};
 use brinell_damage::{DamageError, Direction, FileKind, ImageOptions, Smooth, read_image};
-use common::{Noise, cover, grey_bytes, grey_png, holds, peak_mb, png, width_at};
 use png::{BitDepth, ColorType};
 use proptest::prelude::*;
 

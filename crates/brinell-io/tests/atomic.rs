@@ -1,9 +1,7 @@
 //! A file appears whole or not at all.
 
-mod common;
-
+use crate::common::{any_table, columns, names_in, numbered, sampled, write};
 use brinell_io::{CsvWriter, Format, IoError, Outcome, SignalWriter, atomic_write};
-use common::{any_table, columns, names_in, numbered, sampled, write};
 use proptest::prelude::*;
 
 fn formats() -> Vec<Format> {

@@ -1,9 +1,7 @@
 //! CSV: exact numbers, a plain header, clear words for bad files.
 
-mod common;
-
+use crate::common::{any_table, columns, names_in, numbered, write};
 use brinell_io::{Column, CsvWriter, IoError, Outcome, SignalWriter, read_csv, read_csv_from};
-use common::{any_table, columns, names_in, numbered, write};
 use proptest::prelude::*;
 
 proptest! {

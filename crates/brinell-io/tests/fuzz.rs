@@ -1,4 +1,4 @@
-//! Mutated files against all readers: no bytes may make one panic, hang or take much memory.
+//! Mutated files against all readers: no bytes may make one panic, hang or take much memory. A program of its own: its panic hook and peak memory are the process's.
 //!
 //! A few seconds in the suite, the same mutations each time; `BRINELL_FUZZ_SECONDS=600` goes on for so long, `BRINELL_FUZZ_SEED` takes others.
 //! The seeds are the files in `tests/data/` and `tests/corpus/`; a file that breaks a reader is kept in the latter and replayed from then on.

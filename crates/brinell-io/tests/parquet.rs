@@ -1,12 +1,10 @@
 //! Parquet, written by brinell and read by the `parquet` crate: an independent reader, so these are `xval_` too.
 #![cfg(feature = "parquet")]
 
-mod common;
-
 use std::path::{Path, PathBuf};
 
+use crate::common::{any_table, columns, names_in, numbered, write};
 use brinell_io::{IoError, Metadata, Outcome, ParquetWriter, SignalWriter, keys, read_parquet};
-use common::{any_table, columns, names_in, numbered, write};
 use parquet::basic::Compression;
 use parquet::data_type::{DoubleType, FloatType, Int64Type};
 use parquet::file::properties::WriterProperties;

@@ -1,13 +1,11 @@
 //! Files that brinell writes, read back by its own readers. Other people's read them in validation/readers/check_written.py.
 
-mod common;
-
 use std::path::Path;
 
+use crate::common::{any_table, columns, names_in, numbered, sampled, write};
 use brinell_io::{
     Column, Format, IoError, MatWriter, Metadata, Outcome, RateSource, SignalWriter, keys, open,
 };
-use common::{any_table, columns, names_in, numbered, sampled, write};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 

@@ -52,7 +52,7 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let d = py.detach(|| Derived::new(&model, accuracy));
     let (carried, load) = d.support_share;
     let s = &scenario.loaded.scenario;
-    let pressures = brinell::pressure::pressures(&s.bearing, d.contact_force);
+    let pressures = brinell::pressure::pressures(s, d.contact_force);
     let warnings = py.detach(|| brinell::plausibility::before(s, &model, &d.statics));
     let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     let value = json!({

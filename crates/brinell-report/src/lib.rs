@@ -16,6 +16,7 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod analysis;
+mod axial;
 mod calibrate;
 mod chart;
 mod damage;
@@ -51,6 +52,8 @@ pub use analysis::{
     level_lines, ratio, scaled, shaft_lines,
 };
 #[doc(hidden)]
+pub use axial::{AxialRow, AxialSection, axial_section};
+#[doc(hidden)]
 pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
 pub use damage::{DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
@@ -65,7 +68,6 @@ pub use defects::{Damage, Measures, damage_of};
 pub use kurtogram::{Kurtogram, KurtogramLevel};
 #[doc(hidden)]
 pub use load::{bin_centres, load_distribution};
-#[doc(hidden)]
 pub use motion::bearing_motion;
 pub use motion::{DamagedSurface, Motion, MotionDamage, MotionRow};
 #[doc(hidden)]

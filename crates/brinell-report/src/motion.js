@@ -18,6 +18,41 @@
     row.cage = all.slice(4 * n * count).map((v) => v * TURN);
   }
   const { inner, outer, pitch, roller, thick } = motion;
+  const side = motion.section, sections = [...document.querySelectorAll("svg[data-section]")];
+  if (side) {
+    const signed = (v) => (v > 32767 ? v - 65536 : v) / 32767 * side.steepest;
+    side.rings = unpack(side.rings).map(signed);
+    for (const row of side.rows) {
+      const all = unpack(row.values), loads = count * side.strips;
+      row.tilt = all.slice(0, count).map(signed);
+      row.outer = all.slice(count, count + loads).map((v) => v / 65535 * side.heaviest);
+      row.inner = all.slice(count + loads, count + 2 * loads).map((v) => v / 65535 * side.heaviest);
+    }
+  }
+  // The section along the axis: rings, and of each row the roller nearest to it with the load along it.
+  function tilt(frame) {
+    for (const svg of sections) {
+      const [x, y, scale, factor, load] = svg.dataset.section.split(" ").map(Number);
+      const slope = (s) => Math.min(Math.max(factor * s, -0.5), 0.5);
+      const at = (z, out, s, shift = 0, up = 0) => `${(x + scale * (z + shift)).toFixed(1)} ${(y - scale * (out + slope(s) * z) - up).toFixed(1)}`;
+      const closed = (points) => "M" + points.join("L") + "Z";
+      const [si, so] = [side.rings[2 * frame], side.rings[2 * frame + 1]], wall = side.raceway * (1 + 2 * side.wall);
+      for (const [name, s, sign] of [["t-outer", so, 1], ["t-inner", si, -1]]) {
+        svg.querySelector(`.${name} path`)?.setAttribute("d", closed([at(-side.half, sign * side.raceway, s), at(side.half, sign * side.raceway, s), at(side.half, sign * wall, s), at(-side.half, sign * wall, s)]));
+      }
+      svg.querySelectorAll(".t-row").forEach((group, k) => {
+        const row = side.rows[k], half = side.length / 2, step = side.length / side.strips, parts = group.querySelectorAll("path");
+        const corner = (z, out) => at(z, out, row.tilt[frame], row.middle);
+        const loads = (list, s, sign) => {
+          const along = Array.from({ length: side.strips }, (_, i) => at(row.middle - half + (i + 0.5) * step, sign * side.raceway, s, 0, sign * load * list[frame * side.strips + i]));
+          return closed([at(row.middle - half, sign * side.raceway, s), ...along, at(row.middle + half, sign * side.raceway, s)]);
+        };
+        parts[0]?.setAttribute("d", closed([corner(-half, side.raceway), corner(half, side.raceway), corner(half, -side.raceway), corner(-half, -side.raceway)]));
+        parts[1]?.setAttribute("d", loads(row.outer, so, 1));
+        parts[2]?.setAttribute("d", loads(row.inner, si, -1));
+      });
+    }
+  }
   const stages = drawings.map((svg) => {
     const [scale, perNewton, ...centres] = svg.dataset.motion.split(" ").map(Number);
     const rows = [...svg.querySelectorAll(".m-row")].map((group, k) => {
@@ -31,6 +66,7 @@
   });
 
   function show(frame) {
+    if (side) tilt(frame);
     for (const { svg, scale, perNewton, rows } of stages) {
       if (svg.getBoundingClientRect().width === 0) continue;
       rows.forEach((part, k) => {

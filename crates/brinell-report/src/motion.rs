@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
+use crate::axial::{self, AxialSection, axial_section};
 use crate::data::Report;
 use crate::embedded::base64;
 use crate::font;
@@ -32,6 +33,8 @@ pub struct Motion {
     pub rows: Vec<MotionRow>,
     /// Where the damage is.
     pub damage: Vec<MotionDamage>,
+    /// The same instants from the side, where anything tilts.
+    pub section: Option<AxialSection>,
 }
 
 /// One row; all but `pockets` frame after frame, a value for each roller.
@@ -118,7 +121,7 @@ impl Motion {
     }
 }
 
-fn finite(value: f32) -> f64 {
+pub(crate) fn finite(value: f32) -> f64 {
     if value.is_finite() {
         f64::from(value)
     } else {
@@ -331,12 +334,12 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
 }
 
 /// Angles as 65536ths of a turn.
-fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
+pub(crate) fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
     let turn = |a: &f32| ((finite(*a) / TAU).rem_euclid(1.0) * 65536.0).round() as u32 as u16;
     angles.iter().map(turn)
 }
 
-fn packed(numbers: impl Iterator<Item = u16>) -> String {
+pub(crate) fn packed(numbers: impl Iterator<Item = u16>) -> String {
     base64(&numbers.flat_map(u16::to_le_bytes).collect::<Vec<u8>>())
 }
 
@@ -404,7 +407,11 @@ fn data(page: &mut String, motion: &Motion, frames: usize) {
             packed(numbers)
         );
     }
-    page.push_str("]}</script>\n");
+    page.push(']');
+    if let Some(section) = motion.section.as_ref().filter(|s| s.frames() >= frames) {
+        axial::data(page, section, frames);
+    }
+    page.push_str("}</script>\n");
 }
 
 /// The page's section.
@@ -428,5 +435,13 @@ pub(crate) fn section(page: &mut String, report: &Report) {
         |layout| bearing_motion(motion, frames - 1, layout),
         &escape(&caption),
     );
+    if let Some(section) = motion.section.as_ref().filter(|s| s.frames() >= frames) {
+        figure(
+            page,
+            "tilt",
+            |layout| axial_section(section, frames - 1, layout),
+            &escape(&section.caption()),
+        );
+    }
     data(page, motion, frames);
 }

@@ -95,8 +95,8 @@ fn waveform(page: &mut String, report: &Report) {
         "The whole run: smallest to largest value. The shaded stretch is shown below.",
     );
     let events = match report.waveform.events.len() {
-        0 => "No roller passes a defect while this signal was kept.".to_owned(),
-        _ => "Lines mark rollers (row·number) that enter and leave the defect.".to_owned(),
+        0 => "No rolling element passes a defect while this signal was kept.".to_owned(),
+        _ => "Lines mark rolling elements (row·number) that enter and leave the defect.".to_owned(),
     };
     let name = if series.label.is_empty() {
         String::new()
@@ -242,7 +242,7 @@ fn damage(page: &mut String, report: &Report) {
         let caption = if view.half_turn_mm.is_some() {
             "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s surface, once around."
         } else {
-            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s track, as wide as the roller is long."
+            "The damaged surface unrolled, both axes to one scale. The grey band is the track, as wide as a roller is long or a ball thick."
         };
         figure(
             page,
@@ -295,7 +295,10 @@ fn sentence(note: &str) -> String {
 
 fn passes(page: &mut String, report: &Report) {
     if report.passes.is_empty() {
-        return none(page, "No roller passed a defect while it was recorded.");
+        return none(
+            page,
+            "No rolling element passed a defect while it was recorded.",
+        );
     }
     for (index, pass) in report.passes.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&pass.title));
@@ -303,7 +306,7 @@ fn passes(page: &mut String, report: &Report) {
         figure(page, &id, |layout| plots::pass(pass, index, layout), "");
     }
     page.push_str(
-        "<p class=\"none\">Effective contact length, contact stiffness and contact force of one roller over its angle from the \
+        "<p class=\"none\">Effective contact length, contact stiffness and contact force of one rolling element over its angle from the \
          defect’s centre.</p>\n",
     );
     if report.passes.len() > PASSES {
@@ -325,7 +328,7 @@ fn load(page: &mut String, report: &Report) {
         page,
         "load",
         |layout| load_distribution(&report.load_distribution, layout),
-        "Contact force of the rollers over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
+        "Contact force of the rolling elements over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
     );
 }
 

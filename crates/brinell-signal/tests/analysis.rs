@@ -1,8 +1,6 @@
 //! What the analysis says of signals whose damage is known: made-up rig signals with shaft, mains, jitter and noise.
 
-mod cases;
-
-use cases::{CASES, first};
+use crate::cases::{CASES, first};
 use std::f64::consts::TAU;
 
 use brinell_signal::analysis::{
@@ -485,7 +483,7 @@ fn analytic_a_signal_over_itself_differs_nowhere() {
     );
 }
 
-/// `cargo test --release -p brinell-signal --test analysis -- --ignored --nocapture`
+/// `cargo test --release -p brinell-signal --test all analysis:: -- --ignored --nocapture`
 #[test]
 #[ignore = "a time, which means something in a release build on a quiet machine"]
 fn prop_ten_seconds_take_less_than_one() {

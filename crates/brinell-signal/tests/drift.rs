@@ -1,12 +1,10 @@
 //! A shaft whose speed drifts during the record: noticed by its own lines or a defect's, followed where that tells more, and nothing made up where it
 //! is steady.
 
-mod cases;
-
+use crate::cases::{CASES, first};
 use brinell_signal::Rotation;
 use brinell_signal::analysis::{Analysis, NamedBearing, Options, analyze};
 use brinell_signal::random::Random;
-use cases::{CASES, first};
 use std::f64::consts::TAU;
 
 const FS: f64 = 12_000.0;

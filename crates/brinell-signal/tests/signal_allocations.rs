@@ -1,4 +1,4 @@
-//! Following a signal costs no memory: after construction, pushing samples allocates nothing.
+//! Following a signal costs no memory: after construction, pushing samples allocates nothing. A program of its own for its allocator, which counts.
 
 #[path = "common/counting.rs"]
 #[allow(

@@ -1,6 +1,6 @@
 //! A full analysis of ten seconds at 51.2 kHz takes less than a second on one core.
 //!
-//! `cargo test --release -p brinell-signal --test signal_speed -- --ignored --nocapture` prints what each part takes.
+//! `cargo test --release -p brinell-signal --test all signal_speed:: -- --ignored --nocapture` prints what each part takes.
 
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};

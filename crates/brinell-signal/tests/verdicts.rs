@@ -2,15 +2,13 @@
 //!
 //! The whole campaign, with its table:
 //!
-//!     cargo test --release -p brinell-signal --test verdicts -- --ignored --nocapture
+//!     cargo test --release -p brinell-signal --test all verdicts:: -- --ignored --nocapture
 //!
 //! Signals of even numbers were looked at while the method was made, those of odd numbers were held out. `BRINELL_HALF=even`
 //! chooses the former, `BRINELL_COUNT=200` how many of each kind, `BRINELL_LIST=1` prints what went wrong.
 
-mod rig;
-
+use crate::rig::{self, BACKGROUNDS, Damage, Signal, plan, signal};
 use brinell_signal::analysis::{Component, NamedBearing, Options, analyze};
-use rig::{BACKGROUNDS, Damage, Signal, plan, signal};
 
 struct Outcome {
     truth: Damage,

@@ -161,15 +161,36 @@ fn contact(f: &Frame, quantity: ContactQuantity, side: Side, slot: usize) -> f64
     let c = &f.ws.contacts[side as usize];
     match quantity {
         ContactQuantity::Force => c.force[slot],
+        ContactQuantity::Length => contact_length(f.model, f.ws, side, slot),
         ContactQuantity::Moment => c.moment[slot],
-        ContactQuantity::Length => f.model.geometry.roller_length - c.damaged_length[slot],
         ContactQuantity::Stiffness => contact_stiffness(f.model, f.ws, side, slot),
         ContactQuantity::Slip => c.slip[slot],
     }
 }
 
+/// Effective contact length, m: of a roller what damage leaves of it, L - L_s; of a ball what carries of its ellipse's axis across the groove.
+#[doc(hidden)]
+pub fn contact_length(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
+    let c = &ws.contacts[side as usize];
+    let law = model.contact(side);
+    let whole = match &law.strips {
+        None => model.geometry.roller_length,
+        Some(strips) => {
+            let delta = match model.kind {
+                ModelKind::Full | ModelKind::Tilting => c.deformation[slot],
+                // One contact in series for both sides.
+                ModelKind::Lumped => law.deflection(c.elastic[slot]),
+            };
+            strips
+                .pressed(delta)
+                .length([f64::NEG_INFINITY, f64::INFINITY])
+        }
+    };
+    whole - c.damaged_length[slot]
+}
+
 /// Time-varying contact stiffness Q_elastic / delta^n of a closed contact, N/m^n; of an open one, the stiffness with which it would
-/// close (Eqs. 22, 23).
+/// close (Eqs. 22, 23), for a ball over damage 0.
 #[doc(hidden)]
 pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize) -> f64 {
     let c = &ws.contacts[side as usize];
@@ -191,7 +212,11 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     if !c.on_damage[slot] {
         return law.stiffness;
     }
-    if c.deformation[slot] <= 0.0 || (model.kind == ModelKind::Lumped && share > 0.0) {
+    if law.strips.is_some() && c.deformation[slot] <= 0.0 {
+        return 0.0;
+    }
+    let by_share = model.kind == ModelKind::Lumped && law.strips.is_none();
+    if c.deformation[slot] <= 0.0 || (by_share && share > 0.0) {
         return law.stiffness * share;
     }
     let healthy = match model.kind {
@@ -206,6 +231,7 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
 pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
     let l = &model.layout;
     let dof = l.dof();
+    let element = model.element.word();
     let mut channels = Vec::new();
     let mut add = |name: String, unit: &'static str, description: String, quantity: Quantity| {
         channels.push(Channel {
@@ -279,7 +305,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
         for roller in 0..l.rollers_per_row {
             let slot = l.slot(row, roller);
             let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
             use RollerQuantity as R;
             for (suffix, unit, what, quantity) in [
                 ("r", "m", "radial offset", R::R),
@@ -320,7 +346,7 @@ pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
         for roller in 0..l.rollers_per_row {
             let slot = l.slot(row, roller);
             let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of roller {} in row {}", roller + 1, row + 1);
+            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
             for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
                 for (suffix, unit, what, quantity) in [
                     ("force", "N", "normal force", ContactQuantity::Force),

@@ -2,8 +2,11 @@
 //!
 //! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of the bodies beyond first touch.
 
+pub mod ball;
+
 use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};
+use ball::Strips;
 
 /// Palmgren's line contact, K = 8.06e4 L^(8/9) N/mm^(10/9) with L in mm (Eq. 21 with its exponent mended): from
 /// the effective contact length in m to N/m^(10/9).
@@ -43,6 +46,8 @@ pub struct Hertz {
     pub exponent: Exponent,
     /// c, N s/m.
     pub damping: f64,
+    /// What carries the load across a ball's ellipse; `None` of rollers.
+    pub strips: Option<Strips>,
 }
 
 impl Hertz {
@@ -120,6 +125,7 @@ mod tests {
         stiffness: 1.898e8,
         exponent: Exponent::TenNinths,
         damping: 200.0,
+        strips: None,
     };
 
     #[test]

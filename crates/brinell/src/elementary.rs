@@ -7,6 +7,8 @@ use crate::lanes::Lanes;
 pub enum Exponent {
     /// n = 10/9: Palmgren's line contact.
     TenNinths,
+    /// n = 3/2: Hertz's point contact.
+    ThreeHalves,
     /// n = 1.
     One,
     /// Any other n > 0.
@@ -14,10 +16,12 @@ pub enum Exponent {
 }
 
 impl Exponent {
-    /// Recognises 10/9 (to round-off of its decimal form) and 1.
+    /// Recognises 10/9 (to round-off of its decimal form), 3/2 and 1.
     pub fn new(n: f64) -> Self {
         if (n - 10.0 / 9.0).abs() < 1e-12 {
             Self::TenNinths
+        } else if n == 1.5 {
+            Self::ThreeHalves
         } else if n == 1.0 {
             Self::One
         } else {
@@ -29,6 +33,7 @@ impl Exponent {
     pub fn value(self) -> f64 {
         match self {
             Self::TenNinths => 10.0 / 9.0,
+            Self::ThreeHalves => 1.5,
             Self::One => 1.0,
             Self::Other(n) => n,
         }
@@ -39,6 +44,10 @@ impl Exponent {
     pub fn of<L: Lanes>(self, x: L) -> L {
         match self {
             Self::TenNinths => x.ten_ninths(),
+            Self::ThreeHalves => {
+                let x = x.positive_part();
+                x * x.sqrt()
+            }
             Self::One => x.positive_part(),
             Self::Other(n) => x.each(|x| if x > 0.0 { x.powf(n) } else { 0.0 }),
         }

@@ -135,12 +135,13 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// Of a scenario; `None` where it has no slices (`law = "ecl"`, the lumped model).
+    /// Of a scenario; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
     ///
     /// # Errors
     /// As for [`Distribution::of`].
     pub fn of(s: &Scenario) -> Result<Option<Self>, Error> {
-        if s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
+        let rollers = s.bearing.element == Element::Roller;
+        if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
             return Ok(None);
         }
         let mut s = s.clone();

@@ -9,7 +9,7 @@ use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::model::Model;
 use crate::operation::Rotation;
-use crate::pressure::{STATIC_LIMIT, pressures};
+use crate::pressure::{pressures, static_limit};
 use crate::scenario::{Accuracy, Law, ModelKind, RollerPath, Scenario, Shape, Speed, Surface};
 use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
@@ -174,22 +174,24 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
             format!("a load of up to {}", short(rating.load)),
         ));
     }
-    let pressures = pressures(&scenario.bearing, zone.largest);
+    let pressures = pressures(scenario, zone.largest);
     let (ring, highest) = if pressures[0] >= pressures[1] {
         ("inner", pressures[0])
     } else {
         ("outer", pressures[1])
     };
-    if highest > STATIC_LIMIT {
+    let limit = static_limit(&scenario.bearing);
+    let element = scenario.bearing.element.word();
+    if highest > limit {
         warnings.push(warning(
             LOAD,
             list(o.load_n),
             format!(
-                "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest roller's {} kN, beyond the static limit of {:.0} MPa \
-                 (ISO 76): raceways and rollers would keep dents, and the model is elastic",
+                "the contact pressure reaches {:.0} MPa at the {ring} raceway under the heaviest {element}'s {} kN, beyond the static limit of {:.0} MPa \
+                 (ISO 76): raceways and {element}s would keep dents, and the model is elastic",
                 1e-6 * highest,
                 short(1e-3 * zone.largest),
-                1e-6 * STATIC_LIMIT
+                1e-6 * limit
             ),
             "",
         ));
@@ -331,6 +333,8 @@ fn coarse_slices(scenario: &Scenario, model: &Model) -> Option<Problem> {
         && c.roller_path == RollerPath::Envelope
         && c.slices < ENVELOPE_SLICES
         && model.kind.moves_every_part()
+        // Under balls they divide the damage, however narrow.
+        && !scenario.bearing.has_balls()
         && scenario.defects.iter().any(|d| slanted(&d.shape));
     counts.then(|| {
         warning(

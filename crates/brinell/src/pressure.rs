@@ -1,11 +1,11 @@
-//! Hertz's pressure of a roller's line contact.
+//! Hertz's pressure of a roller's line contact and of a ball's ellipse.
 //!
 //! It is for reading, not for motion: the contact law of [`crate::contact`] knows forces and deformations alone. SI.
 
-use crate::contact::remaining_share;
+use crate::contact::{ball, remaining_share};
 use crate::defect::{Side, relative_radius};
 use crate::model::Model;
-use crate::scenario::Bearing;
+use crate::scenario::{Bearing, Element, Scenario};
 use std::f64::consts::PI;
 
 /// Young's modulus of rolling bearing steel, Pa.
@@ -15,6 +15,16 @@ pub(crate) const POISSONS_RATIO: f64 = 0.3;
 /// Largest contact pressure under the static load rating of roller bearings, Pa (ISO 76): there the roller and the raceway together keep a
 /// permanent deformation of about 1/10000 of the roller's diameter.
 pub const STATIC_LIMIT: f64 = 4.0e9;
+/// The same of radial ball bearings.
+const STATIC_LIMIT_OF_BALLS: f64 = 4.2e9;
+
+/// Largest contact pressure under the static load rating, Pa (ISO 76).
+pub fn static_limit(bearing: &Bearing) -> f64 {
+    match bearing.element {
+        Element::Roller => STATIC_LIMIT,
+        Element::Ball => STATIC_LIMIT_OF_BALLS,
+    }
+}
 
 /// Largest pressure of a line contact of two steel bodies, Pa: Hertz's p = sqrt(E* w / (pi R)) with the line load w = Q/L and
 /// E* = E / (2 (1 - nu^2)). `force` is Q (N), `length` is L (m), `radius` is R with 1/R = 1/r +- 1/R_raceway (m).
@@ -28,7 +38,11 @@ pub(crate) fn line_pressure(force: f64, length: f64, radius: f64) -> f64 {
 }
 
 /// Largest pressure under `force` (N) at the inner and at the outer raceway of the undamaged bearing, Pa.
-pub fn pressures(bearing: &Bearing, force: f64) -> [f64; 2] {
+pub fn pressures(scenario: &Scenario, force: f64) -> [f64; 2] {
+    let bearing = &scenario.bearing;
+    if let Some(ellipses) = ball::ellipses(bearing, &scenario.contact) {
+        return ellipses.map(|e| e.pressure(force));
+    }
     [Side::Inner, Side::Outer].map(|side| {
         let length = 1e-3 * bearing.roller_length_mm;
         line_pressure(force, length, relative_radius(bearing, side))
@@ -44,6 +58,10 @@ pub fn pressure_beside(
     defect: usize,
     force: f64,
 ) -> Option<(f64, f64)> {
+    // Under a ball there is no length beside the damage that an even pressure would stand for.
+    if bearing.has_balls() {
+        return None;
+    }
     let defect = &model.defects[defect];
     let (first, last) = defect.shape.arc();
     // The widest place on a grid finer than any outline is drawn.
@@ -79,11 +97,11 @@ mod tests {
     use crate::bearing::rating::static_rating;
     use crate::document::read;
 
-    fn preset(name: &str) -> Bearing {
+    fn preset(name: &str) -> Scenario {
         let text = format!(
             "[bearing]\npreset = \"{name}\"\n[operation]\nspeed_rpm = 1500\nload_n = [1000, 0]\n"
         );
-        read(&text, &[]).unwrap().scenario.bearing
+        read(&text, &[]).unwrap().scenario
     }
 
     #[test]
@@ -104,12 +122,13 @@ mod tests {
     fn lit_iso_76_load_gives_iso_76_pressure() {
         // ISO 76: C0 is the load whose heaviest roller, 5 C0/(i Z) with a small clearance, is pressed with 4000 MPa at the inner raceway.
         for name in ["NU204", "NU205", "NU2205", "NU206"] {
-            let b = preset(name);
-            let rating = static_rating(&b);
+            let s = preset(name);
+            let b = &s.bearing;
+            let rating = static_rating(b);
             let source = rating.source.expect("the catalogue has it");
             assert!(source.contains("SKF"), "{source}");
             let heaviest = 5.0 * rating.load / (b.rows * b.rollers_per_row) as f64;
-            let inner = pressures(&b, heaviest)[0];
+            let inner = pressures(&s, heaviest)[0];
             assert!((inner / STATIC_LIMIT - 1.0).abs() < 0.02, "{name}: {inner}");
         }
     }

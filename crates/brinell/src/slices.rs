@@ -179,6 +179,19 @@ impl Slices {
         }
     }
 
+    /// Line load q at each slice of a moving contact, N/m: its force over its width; `out` holds n_s numbers.
+    pub fn line_load(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>, out: &mut [f64]) {
+        let per_width = 0.5 / self.half;
+        for (k, out) in out.iter_mut().enumerate().take(self.count) {
+            let z = self.z[k];
+            let delta = at.deformation + at.tilt * z - self.drop[k];
+            let rate = at.rate + at.tilt_rate * z;
+            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
+            let force = |delta: f64| law.with_damping(law.healthy(delta), rate);
+            *out = per_width * ((1.0 - fraction) * force(delta) + fraction * force(delta - depth));
+        }
+    }
+
     /// A resting contact.
     pub fn carry(&self, law: &Hertz, at: &Approach, cover: Option<&Cover>) -> Carried {
         let mut sum = Carried::default();

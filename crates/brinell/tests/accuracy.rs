@@ -1,14 +1,12 @@
 //! What the integrator's two accuracies are worth, and the order of its pair.
 
-mod common;
-
+use crate::common::cases::{case, healthy, rectangle};
 use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Scenario, Start};
 use brinell::solver::{Settings, Stepper};
 use brinell::start;
 use brinell::statics::{self, Problem};
-use common::cases::{case, healthy, rectangle};
 
 /// Longer, and impacts amplify any difference (section 14).
 const WINDOW_S: f64 = 2.5e-3;
@@ -200,7 +198,7 @@ fn median(mut x: Vec<f64>) -> f64 {
 }
 
 #[test]
-#[ignore = "prints the table that STANDARD is chosen by: cargo test --test accuracy -- --ignored --nocapture"]
+#[ignore = "prints the table that STANDARD is chosen by: cargo test --test all accuracy:: -- --ignored --nocapture"]
 fn regress_table_of_tolerances() {
     for (name, s) in [
         ("rectangle", rectangle()),

@@ -1,4 +1,4 @@
-//! A run costs memory once: nothing is allocated per step, and what it holds does not grow with its duration.
+//! A run costs memory once: nothing is allocated per step, and what it holds does not grow with its duration. A program of its own for its allocator.
 
 mod common;
 

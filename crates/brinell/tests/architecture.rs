@@ -1,5 +1,5 @@
 //! ARCHITECTURE.md against the code: which module of the engine uses which, and which crate depends on which. The book's list of a
-//! run's numbers against the engine's.
+//! run's numbers against the engine's. Files of tests against the programs that run them.
 
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
@@ -154,6 +154,31 @@ fn prop_architecture_says_which_crate_depends_on_which() {
         assert_eq!(stale, None, "{name} does not depend on it");
     }
     assert_eq!(cycle(&uses), None, "crates that depend on each other");
+}
+
+/// Cargo finds no test by itself where a crate names its test programs: a file that none of them holds would never run.
+#[test]
+fn prop_every_file_of_tests_is_run() {
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let path = entry.unwrap().path();
+        let manifest = fs::read_to_string(path.join("Cargo.toml")).unwrap();
+        if !manifest.contains("autotests = false") {
+            continue;
+        }
+        let all = fs::read_to_string(path.join("tests/all.rs")).unwrap();
+        for entry in fs::read_dir(path.join("tests")).unwrap() {
+            let file = entry.unwrap().path();
+            let name = file.file_stem().unwrap().to_str().unwrap();
+            let is_test = file.extension().is_some_and(|e| e == "rs");
+            assert!(
+                !(is_test || file.join("mod.rs").exists())
+                    || all.contains(&format!("mod {name};\n"))
+                    || manifest.contains(&format!("path = \"tests/{name}.rs\"")),
+                "{} is in no test program: add `mod {name};` to all.rs",
+                file.display()
+            );
+        }
+    }
 }
 
 /// Rows of the book's table.

@@ -1,14 +1,12 @@
 //! Whole runs over damage: laws and paths against each other, the energy audit, and what a run costs.
 
-mod common;
-
+use crate::common::{Rows, simulate};
 use brinell::defect::{Side, spall};
 use brinell::model::{Model, Motion};
 use brinell::scenario::{
     self, Accuracy, Defect, EdgeReaction, Law, RollerPath, Scenario, Shape, Surface,
 };
 use brinell::solver::Stepper;
-use common::{Rows, simulate};
 
 fn run_of(shape: Shape, law: Law, path: RollerPath, duration_s: f64) -> Scenario {
     let mut s = Scenario::example();

@@ -1,4 +1,4 @@
-//! A run over damage allocates nothing between its steps, whatever the damage.
+//! A run over damage allocates nothing between its steps, whatever the damage. A program of its own for its allocator, which counts.
 
 mod common;
 
@@ -54,10 +54,26 @@ fn prop_steps_over_damage_allocate_nothing() {
         // A second one across the first, so that slices choose between them.
         s.defects.push(s.defects[0].clone());
         s.defects[1].shape = Shape::Circle { diameter_mm: 3.0 };
-        let simulation = Simulation::new(&s).unwrap();
-        let mut watch = Watch::default();
-        assert_eq!(simulation.run(&mut watch).end, End::Complete);
-        assert!(watch.steps > 1000 && watch.damaged > 100);
-        assert_eq!(watch.last - watch.first, 0, "{law:?} {path:?}");
+        allocates_nothing(&s);
     }
+    // Balls, over slices of their own.
+    let mut s = common::cases::case("reference/ball-6205-outer");
+    s.contact.edge_reaction = EdgeReaction::Conservative;
+    s.defects[0].shape = Shape::Circle { diameter_mm: 2.0 };
+    s.defects.push(s.defects[0].clone());
+    s.defects[1].shape = Shape::Rectangle {
+        length_mm: 0.5,
+        width_mm: 1.5,
+    };
+    allocates_nothing(&s);
+    s.defects.truncate(1);
+    allocates_nothing(&s);
+}
+
+fn allocates_nothing(s: &Scenario) {
+    let simulation = Simulation::new(s).unwrap();
+    let mut watch = Watch::default();
+    assert_eq!(simulation.run(&mut watch).end, End::Complete);
+    assert!(watch.steps > 1000 && watch.damaged > 100);
+    assert_eq!(watch.last - watch.first, 0, "{:?}", s.contact);
 }

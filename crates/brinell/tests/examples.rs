@@ -2,8 +2,6 @@
 //!
 //! Two of them name a file of damage, which the core does not open: `crates/brinell-damage/tests/resolve.rs` runs those.
 
-mod common;
-
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use std::path::Path;
@@ -47,10 +45,12 @@ fn regress_examples_read_without_warnings_under_their_own_names() {
     assert_eq!(
         stems,
         [
+            "ball-6205",
             "circle",
             "healthy",
             "inner-race",
             "irregular",
+            "one-sided",
             "photo",
             "rectangle",
             "roller",
@@ -77,7 +77,7 @@ fn prop_examples_run() {
             continue;
         }
         loaded.scenario.simulation.duration_s = SHORT;
-        let (rows, outcome) = common::simulate(&loaded.scenario);
+        let (rows, outcome) = crate::common::simulate(&loaded.scenario);
         assert_eq!(outcome.rows, rows.data[0].len() as u64, "{stem}");
         for (name, column) in rows.names.iter().zip(&rows.data) {
             assert!(column.iter().all(|x| x.is_finite()), "{stem}: {name}");

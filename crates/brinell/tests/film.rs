@@ -1,7 +1,6 @@
 //! The cage's guidance film: published coefficients, its integral, what it dissipates, and how cages whirl in it.
 
-mod common;
-
+use crate::common::cases::Random;
 use brinell::accuracy::settings;
 use brinell::cage::{Guide, HalfFilm, MAX_ECCENTRICITY};
 use brinell::document;
@@ -9,7 +8,6 @@ use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Guidance, GuidanceFilm, Scenario};
 use brinell::solver::Stepper;
 use brinell::start;
-use common::cases::Random;
 use std::f64::consts::{PI, TAU};
 
 /// The bearing of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010), Example 5.5.1, whose oil is 0.1 Pa s.

@@ -1,7 +1,5 @@
 //! The kernels for different instructions compute the same equations, to round-off.
 
-mod common;
-
 use brinell::document::read;
 use brinell::model::{Kernel, Model, Workspace};
 use brinell::scenario::{Accuracy, Guidance, Scenario};
@@ -44,6 +42,7 @@ fn xval_kernels_agree_to_round_off() {
     for name in [
         "reference/outer-rectangle",
         "reference/inner-defect-gravity",
+        "reference/ball-6205-outer",
         "xval/three-rows-drag-gap",
         "xval/single-row-inner-guided",
         "xval/linear-circle",

@@ -1,13 +1,11 @@
 //! How rollers and cages run: rolling under load, slipping out of it (section 13).
 
-mod common;
-
+use crate::common::cases::healthy;
 use brinell::channel::Frame;
 use brinell::defect::Side;
 use brinell::model::Model;
 use brinell::scenario::{Scenario, Start};
 use brinell::simulate::{End, Observer, Simulation};
-use common::cases::healthy;
 
 const DURATION_S: f64 = 0.5;
 

@@ -3,8 +3,6 @@
 //! The paper: simulated 249.60 (rectangle 3 x 4 mm), 250.39 (circle 4.5 mm) and 249.40 Hz (irregular, 7 x 4 mm); it states neither the duration
 //! nor the resolution, nor which cage slip holds. Pure rolling gives 250.10 Hz.
 
-mod common;
-
 use brinell::channel::Frame;
 use brinell::observe::Watch;
 use brinell::scenario::{GuidanceFilm, Scenario, Shape};

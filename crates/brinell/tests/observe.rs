@@ -1,7 +1,6 @@
 //! What is kept of a run, fed with motions that are known: the bearing in motion, cage orbits, slip over time and place.
 
-mod common;
-
+use crate::common::cases::healthy;
 use brinell::channel::Frame;
 use brinell::defect::{Side, wrap};
 use brinell::model::{Model, Workspace};
@@ -10,7 +9,6 @@ use brinell::observe::motion::{FRAMES, Motion};
 use brinell::observe::orbit::{CageOrbit, TURNS};
 use brinell::observe::slip_course::{STRETCHES, SlipCourse};
 use brinell::scenario::{Guidance, ModelKind, Scenario, Speed};
-use common::cases::healthy;
 use std::f64::consts::{PI, TAU};
 
 const RATE: f64 = 25_600.0;

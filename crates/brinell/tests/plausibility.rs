@@ -1,7 +1,6 @@
 //! Warnings about scenarios that run and mean little, and about the energy of runs.
 
-mod common;
-
+use crate::common::simulate;
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use brinell::plausibility::{after, before};
@@ -9,7 +8,6 @@ use brinell::pressure::{STATIC_LIMIT, pressure_beside, pressures};
 use brinell::scenario::Scenario;
 use brinell::simulate::EnergyAudit;
 use brinell::statics::static_load_zone;
-use common::simulate;
 
 /// The rectangle of `examples/`, half a second long.
 const BASE: &str = "\
@@ -123,7 +121,7 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
         );
         let s = read(&text, &[]).unwrap().scenario;
         let zone = static_load_zone(&Model::new(&s).unwrap()).unwrap();
-        (pressures(&s.bearing, zone.largest), warnings(&s))
+        (pressures(&s, zone.largest), warnings(&s))
     };
     let (quarter, none) = nu206("-9000");
     assert!(none.is_empty() && quarter[0] < STATIC_LIMIT, "{none:?}");
@@ -142,7 +140,7 @@ fn prop_pressure_and_rating_are_held_against_the_load() {
     );
     // Hertz: the pressure grows with the root of the force.
     let s = base(&[]).scenario;
-    let [one, four] = [100.0, 400.0].map(|force| pressures(&s.bearing, force)[0]);
+    let [one, four] = [100.0, 400.0].map(|force| pressures(&s, force)[0]);
     assert!((four / one - 2.0).abs() < 1e-12);
 }
 
@@ -189,7 +187,7 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
     let (left, pressure) = pressure_beside(&model, &s.bearing, 0, 50.0).unwrap();
     assert!((left - 2e-3).abs() < 1e-12);
     // A third of the length carries all: the root of three times the pressure.
-    let whole = pressures(&s.bearing, 50.0)[1];
+    let whole = pressures(&s, 50.0)[1];
     assert!((pressure / whole - 3f64.sqrt()).abs() < 1e-9);
     for shape in [
         // Nothing is left.

@@ -1,16 +1,14 @@
 //! The measurement chain on runs: what it changes, what it leaves alone, and that it repeats.
 
-mod common;
-
+use crate::common::{Rows, simulate};
 use brinell::document::{Problem, Severity, read};
 use brinell::many::each;
 use brinell::scenario::{NoiseColour, PathMode, Scenario, Sensor};
 use brinell::simulate::Simulation;
-use common::{Rows, simulate};
 use std::num::NonZeroUsize;
 
 fn short() -> Scenario {
-    let mut s = common::cases::rectangle();
+    let mut s = crate::common::cases::rectangle();
     s.simulation.duration_s = 0.06;
     s.simulation.record = ["outer_a*", "sensor_*"].map(String::from).to_vec();
     s

@@ -1,7 +1,6 @@
 //! The static balance: load distribution, shift and stiffness against closed forms, and the start that is made of it.
 
-mod common;
-
+use crate::common::cases::{Random, case, healthy, rectangle};
 use brinell::Error;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{LoadOn, Scenario, Shape, Start};
@@ -9,7 +8,6 @@ use brinell::simulate::Simulation;
 use brinell::solver::System;
 use brinell::start;
 use brinell::statics::{Balance, Problem, solve};
-use common::cases::{Random, case, healthy, rectangle};
 
 /// NN3007, inner ring fixed, no outer support, 300 N in +X on the outer ring, printed K: section 13's static facts.
 fn bench(clearance_um: f64, load: f64) -> Model {

@@ -1,14 +1,12 @@
 //! What must not matter: which way is up, where zero is, how often one looks, how many look at once.
 
-mod common;
-
+use crate::common::cases::{Random, case, healthy, rectangle};
+use crate::common::{Rows, simulate_rows};
 use brinell::accuracy::settings;
 use brinell::model::{Model, Motion};
 use brinell::scenario::{Accuracy, Defect, Scenario, Shape, Speed, Start, Surface};
 use brinell::solver::Stepper;
 use brinell::start;
-use common::cases::{Random, case, healthy, rectangle};
-use common::{Rows, simulate_rows};
 use std::f64::consts::TAU;
 
 const SPAN_S: f64 = 5e-3;

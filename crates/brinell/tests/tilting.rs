@@ -1,14 +1,12 @@
 //! Rollers and rings that tilt, and profiles: sections 15 and 16.
 
-mod common;
-
+use crate::common::cases::{case, random_state, tilting_offset};
 use brinell::model::{Model, Workspace};
 use brinell::scenario::{
     Defect, EdgeReaction, LoadOn, ModelKind, RollerPath, RollerProfile, Scenario, Shape, Start,
 };
 use brinell::slices::drop;
 use brinell::statics::{Problem, solve};
-use common::cases::{case, random_state, tilting_offset};
 
 fn edge() -> Scenario {
     case("reference/tilting-edge")

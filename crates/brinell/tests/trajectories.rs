@@ -4,10 +4,8 @@
 //! text alone, with the difference between two equally tight runs of that program beside them: impacts amplify
 //! round-off, so no comparison can be closer than that.
 
-mod common;
-
+use crate::common::{Rows, columns, simulate_rows};
 use brinell::{document, scenario};
-use common::{Rows, columns, simulate_rows};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -119,6 +117,11 @@ fn given_later(name: &str, to: f64) {
 #[test]
 fn xval_given_film_dynamic() {
     given_later("film-dynamic", 0.008);
+}
+
+#[test]
+fn xval_given_ball_6205_outer() {
+    given_later("ball-6205-outer", 0.015);
 }
 
 #[test]

@@ -7,17 +7,15 @@
 //!
 //! A change that moves the counts on purpose records them anew, and says why where it is committed:
 //!
-//!     BRINELL_RECORD=1 cargo test --release --test work
+//!     BRINELL_RECORD=1 cargo test --release --test all work::
 
-mod common;
-
+use crate::common::cases::{case, healthy};
 use brinell::accuracy::settings;
 use brinell::many;
 use brinell::model::{Kernel, Model, Motion, Workspace};
 use brinell::scenario::{Accuracy, Scenario};
 use brinell::simulate::{End, Simulation};
 use brinell::solver::Stepper;
-use common::cases::{case, healthy};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 

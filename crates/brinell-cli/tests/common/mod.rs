@@ -1,5 +1,4 @@
 //! What the tests of the command share: calling it, and scenarios that run in a moment.
-#![allow(dead_code)]
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

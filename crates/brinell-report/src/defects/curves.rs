@@ -12,6 +12,20 @@ const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
 
+/// Angles of a roller whose contact on a side is at the angle u from the defect's centre.
+fn at(d: &Defect, side: Side, u: f64) -> Angles {
+    // A roller's defect meets the inner raceway half a turn after the outer one.
+    let half_turn = match (d.surface, side) {
+        (Surface::Roller(_), Side::Inner) => 0.5 * TAU,
+        _ => 0.0,
+    };
+    Angles {
+        orbit: d.center + u - half_turn,
+        spin: 0.0,
+        ring: 0.0,
+    }
+}
+
 /// What a roller meets, over its angle from the defect's centre.
 pub(super) fn passage(
     s: &Scenario,
@@ -44,18 +58,8 @@ pub(super) fn passage(
     };
     let stiffness = |d: &Defect, side: Side, delta: f64| -> Vec<f64> {
         let law = model.contact(side);
-        // A roller's defect meets the inner raceway half a turn after the outer one.
-        let half_turn = match (d.surface, side) {
-            (Surface::Roller(_), Side::Inner) => 0.5 * TAU,
-            _ => 0.0,
-        };
         let k = |u: &f64| {
-            let angles = Angles {
-                orbit: d.center + u - half_turn,
-                spin: 0.0,
-                ring: 0.0,
-            };
-            damaged_contact(std::iter::once(d), law, &angles, side, delta)
+            damaged_contact(std::iter::once(d), law, &at(d, side, *u), side, delta)
                 .map_or(law.stiffness, |a| {
                     law.stiffness * a.elastic / law.healthy(delta)
                 })
@@ -70,10 +74,32 @@ pub(super) fn passage(
         .iter()
         .map(|u| 1e3 * defect.damaged_length(u * defect.radius))
         .collect();
-    let left = damaged
-        .iter()
-        .map(|x| 1e3 * defect.roller_length - x)
-        .collect();
+    // Under a ball the contact is its ellipse's axis across the groove.
+    let of_ball = |side: Side, delta: f64| -> Option<Vec<f64>> {
+        let law = model.contact(side);
+        let axis = law.strips?.pressed(delta).length([f64::MIN, f64::MAX]);
+        let lost = |u: &f64| {
+            damaged_contact(
+                std::iter::once(defect),
+                law,
+                &at(defect, side, *u),
+                side,
+                delta,
+            )
+            .map_or(0.0, |d| d.floor.damaged_length)
+        };
+        Some(angles.iter().map(|u| 1e3 * (axis - lost(u))).collect())
+    };
+    let left = match sides
+        .first()
+        .and_then(|&(side, delta)| of_ball(side, delta))
+    {
+        Some(left) => left,
+        None => damaged
+            .iter()
+            .map(|x| 1e3 * defect.roller_length - x)
+            .collect(),
+    };
     let several = sides.len() > 1;
     let contact = |side: Side| match side {
         Side::Outer => "outer contact",
@@ -133,6 +159,9 @@ pub(super) fn passage(
             (Law::Sliced, RollerPath::Point, "sliced, point"),
             (Law::Sliced, RollerPath::Envelope, "sliced, envelope"),
         ] {
+            if law == Law::Ecl && s.bearing.has_balls() {
+                continue;
+            }
             k.extend(under(law, path).map(|d| curve(name, stiffness(&d, side, delta))));
         }
         let label = if several {

@@ -7,6 +7,7 @@ mod pass;
 mod spectrum;
 mod waveform;
 
+use crate::axial::axial_section;
 use crate::damage::{damage_passage, damage_plan, damage_section};
 use crate::data::Report;
 use crate::load::load_distribution;
@@ -59,6 +60,13 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
     }
     if !report.motion.rows.is_empty() {
         pictures.push(bearing_motion(&report.motion, usize::MAX, Layout::Wide));
+        if let Some(section) = &report.motion.section {
+            pictures.push(axial_section(
+                section,
+                section.telling_frame(),
+                Layout::Wide,
+            ));
+        }
     }
     if !report.sensor.gain_db.is_empty() {
         pictures.push(sensor_response(&report.sensor, Layout::Wide));

@@ -4,6 +4,7 @@ use crate::RowLoad;
 use brinell::channel::STIFFNESS_UNIT;
 use brinell::defect::Side;
 use brinell::observe::passes::{Pass, place};
+use brinell::scenario::Element;
 use brinell::statics::StaticLoadZone;
 use brinell::summary::Parts;
 
@@ -20,7 +21,11 @@ pub(super) fn pass(parts: &Parts, pass: &Pass) -> crate::Pass {
     };
     crate::Pass {
         title: format!(
-            "Roller {} of row {} over defect {} ({})",
+            "{} {} of row {} over defect {} ({})",
+            match model.element {
+                Element::Roller => "Roller",
+                Element::Ball => "Ball",
+            },
             l.roller(pass.slot) + 1,
             l.row(pass.slot) + 1,
             pass.defect + 1,

@@ -100,8 +100,11 @@ fn subtitle(scenario: &Scenario) -> String {
     let b = &scenario.bearing;
     let bearing = b.preset.clone().unwrap_or_else(|| {
         format!(
-            "{} rows of {} rollers, {} mm pitch",
-            b.rows, b.rollers_per_row, b.pitch_diameter_mm
+            "{} rows of {} {}s, {} mm pitch",
+            b.rows,
+            b.rollers_per_row,
+            b.element.word(),
+            b.pitch_diameter_mm
         )
     });
     let damage = match scenario.defects.len() {

@@ -2,7 +2,8 @@
 
 use crate::number::short;
 use crate::{
-    CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow, SlipRow, Spectrogram,
+    AxialRow, AxialSection, CageOrbit, CageOrbits, DamagedSurface, Motion, MotionDamage, MotionRow,
+    SlipRow, Spectrogram,
 };
 use brinell::defect::Side;
 use brinell::observe::load_zone::BINS;
@@ -139,5 +140,45 @@ pub(super) fn motion(parts: &Parts) -> Motion {
         ring: (0..frames).map(|frame| kept.ring(frame)).collect(),
         rows: rows.collect(),
         damage: damage.collect(),
+        section: axial_section(parts, frames),
     }
+}
+
+/// The bearing from the side; `None` where nothing tilts.
+fn axial_section(parts: &Parts, frames: usize) -> Option<AxialSection> {
+    let model = parts.simulation.model();
+    let (tilt, g, kept) = (
+        model.tilt.as_ref()?,
+        &model.geometry,
+        &parts.findings.motion,
+    );
+    let strips = kept.section_row(0, 0)?.line_loads[0].len();
+    let rows = tilt.rows.iter().enumerate().map(|(row, middle)| {
+        let mut data = AxialRow {
+            middle_mm: 1e3 * middle,
+            ..AxialRow::default()
+        };
+        for kept in (0..frames).filter_map(|frame| kept.section_row(frame, row)) {
+            data.away.push(kept.away);
+            data.tilt.push(kept.tilt);
+            let [inner, outer] = kept.line_loads;
+            data.inner.extend(inner.iter().map(|q| 1e-3 * q));
+            data.outer.extend(outer.iter().map(|q| 1e-3 * q));
+        }
+        data
+    });
+    Some(AxialSection {
+        through: match model.defects.first() {
+            Some(_) => "the damage".into(),
+            None => "the middle of the load zone".into(),
+        },
+        width_mm: parts.loaded.scenario.bearing.width_mm,
+        roller_length_mm: 1e3 * g.roller_length,
+        roller_diameter_mm: 2e3 * g.roller_radius,
+        rings: (0..frames)
+            .filter_map(|frame| kept.ring_tilts(frame))
+            .collect(),
+        rows: rows.collect(),
+        strips,
+    })
 }

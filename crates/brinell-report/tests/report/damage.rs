@@ -1,6 +1,6 @@
 //! The section of the page about damage.
 
-use crate::sample::{filled, ordinary, square_with_a_hole};
+use super::sample::{filled, ordinary, square_with_a_hole};
 use brinell_report::{
     DamageCurve, DamagePanel, DamageView, Layout, damage_passage, damage_plan, damage_section,
     html, pictures,

@@ -1,7 +1,7 @@
 //! The page: what must be in it, and that nothing odd breaks it.
 
-use crate::checks::{check, check_pictures};
-use crate::sample::{filled, ordinary};
+use super::checks::{check, check_pictures};
+use super::sample::{filled, ordinary};
 use brinell_report::{
     Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
 };
@@ -43,7 +43,7 @@ fn regress_an_empty_report_says_so() {
     for words in [
         "No waveform was recorded",
         "No spectrum was made",
-        "No roller passed a defect",
+        "No rolling element passed a defect",
         "No audit was made",
     ] {
         assert!(page.contains(words), "{words}");

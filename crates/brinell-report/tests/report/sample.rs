@@ -1,10 +1,10 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
 use brinell_report::{
-    Assumption, CageOrbit, CageOrbits, DamageCurve, DamagePanel, DamageView, DamagedSurface,
-    DepthPatch, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
-    Motion, MotionDamage, MotionRow, Pass, Report, RowLoad, SensorView, Series, SlipRow,
-    Spectrogram, Spectrum, Waveform, bin_centres,
+    Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel,
+    DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, IndicatorRow,
+    IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow, Pass, Report, RowLoad,
+    SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -90,7 +90,24 @@ fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
         inner_n: some.clone(),
         outer_n: some.clone(),
     };
+    let axial = AxialRow {
+        middle_mm: values.first().copied().unwrap_or(4.5),
+        away: some.clone(),
+        tilt: some.clone(),
+        inner: some.iter().chain(&some).copied().collect(),
+        outer: some.iter().chain(&some).copied().collect(),
+    };
+    let section = AxialSection {
+        through: text.into(),
+        width_mm: values.last().copied().unwrap_or(20.0),
+        roller_length_mm: 6.0,
+        roller_diameter_mm: 6.0,
+        rings: some.iter().map(|s| [*s, -s]).collect(),
+        rows: vec![axial; 2],
+        strips: 2,
+    };
     Motion {
+        section: Some(section),
         t0_s: 0.0,
         dt_s: dt,
         inner_radius_mm: 21.5,

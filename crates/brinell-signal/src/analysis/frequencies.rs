@@ -118,7 +118,7 @@ pub struct NamedBearing {
 
 const INCH: f64 = 25.4;
 
-/// Bearings of public data sets that the catalogue of cylindrical roller bearings does not hold.
+/// Bearings of public data sets, with what their defect frequencies follow from.
 pub const NAMED: [NamedBearing; 5] = [
     NamedBearing {
         name: "6205-2RS",

@@ -44,6 +44,13 @@ impl Entry {
         self.values.iter().find(named)?.value.number()
     }
 
+    /// Whether balls roll in it.
+    pub fn has_balls(&self) -> bool {
+        let ball = Datum::Text("ball".into());
+        let mut values = self.values.iter();
+        values.any(|v| v.key == "bearing.element" && v.value == ball)
+    }
+
     /// One of `BORE` and `STATIC_RATING`.
     pub fn fact(&self, key: &str) -> Option<f64> {
         self.fact_of(key).map(|(value, _)| value)

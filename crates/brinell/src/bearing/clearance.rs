@@ -1,14 +1,15 @@
-//! Radial internal clearance of cylindrical roller bearings with a cylindrical bore: the classes of ISO 5753-1.
+//! Radial internal clearance of cylindrical roller and of deep-groove ball bearings with a cylindrical bore: the classes of ISO 5753-1.
 //!
 //! All values are diametral, as the standard and every catalogue give them. `bearing.radial_clearance_um` (C_r of the model) is the gap on
 //! one side, half of that. They hold for the bearing before it is mounted: interference fits and a warm inner ring make the clearance
 //! smaller.
 //!
 //! Source: ISO 5753-1:2009, radial internal clearance of cylindrical roller bearings with cylindrical bore, as tabulated at
-//! original-bearing.com, article s103; C2 to C4 compared with ahrinternational.com, bearing clearance.
+//! original-bearing.com, article s103; C2 to C4 compared with ahrinternational.com, bearing clearance. Deep-groove ball bearings as tabulated at
+//! bmzbearings.com, technical data 4, and the bore of 100 mm at en.shjfbearing.com, news 2525, which agree elsewhere but for misprints.
 
 use super::catalogue;
-use crate::scenario::Bearing;
+use crate::scenario::{Bearing, Element};
 
 /// A class of radial internal clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,25 +41,26 @@ impl ClearanceClass {
         }
     }
 
-    /// Smallest and largest diametral clearance (um) for a bore (mm); `None` outside the table, which ends at 1000 mm.
-    pub fn limits(self, bore_mm: f64) -> Option<[f64; 2]> {
-        let row = TABLE
+    /// Smallest and largest diametral clearance (um) for a bore (mm); `None` outside the table, which ends at [`largest_bore_mm`].
+    pub fn limits(self, of: Element, bore_mm: f64) -> Option<[f64; 2]> {
+        let row = table(of)
             .iter()
             .find(|row| bore_mm > 0.0 && bore_mm <= f64::from(row.0))?;
         Some(row.1[self as usize].map(f64::from))
     }
 
     /// The middle of the class on one side (um): a quarter of the sum of its limits.
-    pub fn one_sided_middle(self, bore_mm: f64) -> Option<f64> {
-        self.limits(bore_mm).map(|[low, high]| 0.25 * (low + high))
+    pub fn one_sided_middle(self, of: Element, bore_mm: f64) -> Option<f64> {
+        self.limits(of, bore_mm)
+            .map(|[low, high]| 0.25 * (low + high))
     }
 }
 
 /// The classes that hold a diametral clearance (um) for a bore (mm). They overlap, so there may be two; none beyond the table.
-pub fn classes_of(bore_mm: f64, diametral_um: f64) -> Vec<ClearanceClass> {
+pub fn classes_of(of: Element, bore_mm: f64, diametral_um: f64) -> Vec<ClearanceClass> {
     let holds = |class: &ClearanceClass| {
         class
-            .limits(bore_mm)
+            .limits(of, bore_mm)
             .is_some_and(|[low, high]| (low..=high).contains(&diametral_um))
     };
     ClearanceClass::ALL.into_iter().filter(holds).collect()
@@ -70,9 +72,36 @@ pub fn bore_diameter_mm(bearing: &Bearing) -> Option<f64> {
     bearing.bore_diameter_mm.or_else(of_preset)
 }
 
+/// Largest bore of the tables, mm.
+pub fn largest_bore_mm(of: Element) -> u16 {
+    table(of).last().map_or(0, |row| row.0)
+}
+
 /// Limits of the classes in um, C2 to C5, up to and including a bore in mm.
+type Row = (u16, [[u16; 2]; 5]);
+
+fn table(of: Element) -> &'static [Row] {
+    match of {
+        Element::Roller => &ROLLERS,
+        Element::Ball => &BALLS,
+    }
+}
+
 #[rustfmt::skip]
-const TABLE: [(u16, [[u16; 2]; 5]); 26] = [
+const BALLS: [Row; 9] = [
+    (10, [[0, 7], [2, 13], [8, 23], [14, 29], [20, 37]]),
+    (18, [[0, 9], [3, 18], [11, 25], [18, 33], [25, 45]]),
+    (24, [[0, 10], [5, 20], [13, 28], [20, 36], [28, 48]]),
+    (30, [[1, 11], [5, 20], [13, 28], [23, 41], [30, 53]]),
+    (40, [[1, 11], [6, 20], [15, 33], [28, 46], [40, 64]]),
+    (50, [[1, 11], [6, 23], [18, 36], [30, 51], [45, 73]]),
+    (65, [[1, 15], [8, 28], [23, 43], [38, 61], [55, 90]]),
+    (80, [[1, 15], [10, 30], [25, 51], [46, 71], [65, 105]]),
+    (100, [[1, 18], [12, 36], [30, 58], [53, 84], [75, 120]]),
+];
+
+#[rustfmt::skip]
+const ROLLERS: [Row; 26] = [
     (24, [[0, 25], [20, 45], [35, 60], [50, 75], [65, 90]]),
     (30, [[0, 25], [20, 45], [35, 60], [50, 75], [70, 95]]),
     (40, [[5, 30], [25, 50], [45, 70], [60, 85], [80, 105]]),
@@ -118,17 +147,43 @@ mod tests {
             (ClearanceClass::C3, 100.0, [75.0, 110.0]),
             (ClearanceClass::C5, 1000.0, [1215.0, 1405.0]),
         ] {
-            assert_eq!(class.limits(bore), Some(limits), "{class:?} at {bore} mm");
+            assert_eq!(
+                class.limits(Element::Roller, bore),
+                Some(limits),
+                "{class:?} at {bore} mm"
+            );
         }
         for bore in [0.0, -1.0, 1000.1, f64::NAN] {
-            assert_eq!(ClearanceClass::CN.limits(bore), None);
+            assert_eq!(ClearanceClass::CN.limits(Element::Roller, bore), None);
         }
-        assert_eq!(ClearanceClass::CN.one_sided_middle(30.0), Some(16.25));
+        assert_eq!(
+            ClearanceClass::CN.one_sided_middle(Element::Roller, 30.0),
+            Some(16.25)
+        );
+    }
+
+    #[test]
+    fn lit_clearance_classes_of_ball_bearings() {
+        for (class, bore, limits) in [
+            (ClearanceClass::CN, 17.0, [3.0, 18.0]),
+            (ClearanceClass::CN, 25.0, [5.0, 20.0]),
+            (ClearanceClass::C3, 30.0, [13.0, 28.0]),
+            (ClearanceClass::C3, 31.0, [15.0, 33.0]),
+        ] {
+            let ours = class.limits(Element::Ball, bore);
+            assert_eq!(ours, Some(limits), "{class:?} at {bore} mm");
+        }
+        assert_eq!(largest_bore_mm(Element::Ball), 100);
+        assert_eq!(largest_bore_mm(Element::Roller), 1000);
     }
 
     #[test]
     fn prop_classes_and_bores_rise() {
-        for (k, (bore, classes)) in TABLE.iter().enumerate() {
+        for (rows, k) in [&ROLLERS[..], &BALLS[..]]
+            .into_iter()
+            .flat_map(|rows| (0..rows.len()).map(move |k| (rows, k)))
+        {
+            let (bore, classes) = &rows[k];
             assert!(classes.iter().all(|[low, high]| low < high), "{bore}");
             assert!(
                 classes
@@ -137,7 +192,7 @@ mod tests {
                 "{bore}"
             );
             if k > 0 {
-                let (before, smaller) = TABLE[k - 1];
+                let (before, smaller) = rows[k - 1];
                 assert!(before < *bore);
                 let no_less = |a: &[u16; 2], b: &[u16; 2]| a[0] <= b[0] && a[1] <= b[1];
                 assert!(smaller.iter().zip(classes).all(|(a, b)| no_less(a, b)));
@@ -148,10 +203,10 @@ mod tests {
     #[test]
     fn prop_a_clearance_is_found_in_its_classes() {
         use ClearanceClass::{C2, C3, CN};
-        assert_eq!(classes_of(30.0, 32.5), [CN]);
-        assert_eq!(classes_of(30.0, 22.0), [C2, CN]);
-        assert_eq!(classes_of(30.0, 40.0), [CN, C3]);
-        assert_eq!(classes_of(30.0, 96.0), []);
-        assert_eq!(classes_of(2000.0, 30.0), []);
+        assert_eq!(classes_of(Element::Roller, 30.0, 32.5), [CN]);
+        assert_eq!(classes_of(Element::Roller, 30.0, 22.0), [C2, CN]);
+        assert_eq!(classes_of(Element::Roller, 30.0, 40.0), [CN, C3]);
+        assert_eq!(classes_of(Element::Roller, 30.0, 96.0), []);
+        assert_eq!(classes_of(Element::Roller, 2000.0, 30.0), []);
     }
 }

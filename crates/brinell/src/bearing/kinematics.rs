@@ -112,10 +112,22 @@ pub(super) fn frequency_table(
     [
         ("shaft", shaft, "turns of the inner ring"),
         ("FTF", ftf, "turns of the cage"),
-        ("BPFO", bpfo, "rollers passing a point of the outer raceway"),
-        ("BPFI", bpfi, "rollers passing a point of the inner raceway"),
-        ("BSF", bsf, "turns of a roller relative to the cage"),
-        ("2 BSF", 2.0 * bsf, "impacts of damage on a roller"),
+        (
+            "BPFO",
+            bpfo,
+            "rolling elements passing a point of the outer raceway",
+        ),
+        (
+            "BPFI",
+            bpfi,
+            "rolling elements passing a point of the inner raceway",
+        ),
+        (
+            "BSF",
+            bsf,
+            "turns of a rolling element relative to the cage",
+        ),
+        ("2 BSF", 2.0 * bsf, "impacts of damage on a rolling element"),
     ]
 }
 

@@ -5,7 +5,7 @@ use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use std::f64::consts::TAU;
 
-/// Of a cylindrical roller bearing of the catalogue or a scenario.
+/// Of a bearing of the catalogue or a scenario.
 pub fn orders_of(geometry: &Geometry) -> DefectOrders {
     let k = Kinematics::pure_rolling(geometry, TAU);
     DefectOrders {
@@ -29,7 +29,8 @@ impl KnownBearing {
     /// All of them, the catalogue first.
     pub fn all() -> impl Iterator<Item = Self> {
         let catalogue = catalogue::all().iter().map(Self::Catalogue);
-        catalogue.chain(NAMED.iter().map(Self::DataSet))
+        let named = NAMED.iter().filter(|b| catalogue::find(b.name).is_none());
+        catalogue.chain(named.map(Self::DataSet))
     }
 
     /// The bearing of this name.

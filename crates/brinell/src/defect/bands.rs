@@ -6,7 +6,7 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Border {
     /// First and last z.
-    z: [f64; 2],
+    pub(super) z: [f64; 2],
     form: Form,
 }
 

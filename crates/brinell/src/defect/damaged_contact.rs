@@ -4,15 +4,16 @@
 //! a defect that leaves a point alone has no say there, so that it does not level another's raised edge. Along an envelope the roller follows
 //! the envelope of that joint surface, neighbouring defects included.
 
+use super::ball_contact;
 use super::bands::Band;
-use super::depth_profile::{Cover, DepthProfile};
+use super::depth_profile::{Cover, DepthProfile, Extent, slice_borders};
 use super::joint::{Depths, Strip, rest};
 use super::map_slices::GAUSS;
 use super::track::settled;
 use super::{Angles, Defect, Shape, Side};
 use crate::contact::{ContactReduction, Hertz};
 use crate::scenario::{Law, Surface};
-use crate::slices::{self, borders as slice_borders};
+use crate::slices::{self, borders};
 
 /// What acts in one contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,15 +26,15 @@ pub struct DamagedContact {
 
 /// One defect under one side of a roller.
 #[derive(Clone, Copy)]
-struct Cut<'a> {
+pub(super) struct Cut<'a> {
     defect: &'a Defect,
-    profile: &'a DepthProfile,
-    s: f64,
+    pub(super) profile: &'a DepthProfile,
+    pub(super) s: f64,
 }
 
 impl<'a> Cut<'a> {
     /// The line z = const of the surface before its envelope.
-    fn strip(&self, z: f64) -> Option<Strip<'a>> {
+    pub(super) fn strip(&self, z: f64) -> Option<Strip<'a>> {
         let depths = match &self.defect.shape {
             Shape::DepthMap(grid) => Depths::Map(grid, z),
             _ => Depths::Within {
@@ -47,7 +48,7 @@ impl<'a> Cut<'a> {
     }
 
     /// The depth at z where the defect covers it, before any envelope.
-    fn under(&self, z: f64) -> Option<f64> {
+    pub(super) fn under(&self, z: f64) -> Option<f64> {
         if let Shape::DepthMap(grid) = &self.defect.shape {
             return grid.under(self.s, z);
         }
@@ -119,16 +120,16 @@ fn rolling<'a>(cuts: impl Iterator<Item = Cut<'a>> + Clone) -> Option<(f64, f64)
     Some((surfaces.map(|x| x.extremes.0).fold(0.0, f64::min), radius))
 }
 
-/// phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each point.
-fn joint<'a>(
+/// Borders, phi_k and h_k of the slices under several defects, for `add`: what any of them covers, the deepest at each point.
+pub(super) fn joint<'a>(
     cuts: impl Iterator<Item = Cut<'a>> + Clone,
-    (slices, length): (usize, f64),
+    (slices, extent): (usize, Extent),
     mut add: impl FnMut(usize, f64, f64),
 ) {
     let rolling = rolling(cuts.clone());
     let deepest = |z: f64| cuts.clone().filter_map(|cut| cut.under(z)).reduce(f64::max);
     for k in 0..slices {
-        let [low, high] = slice_borders(k, slices, length);
+        let [low, high] = slice_borders(k, slices, extent);
         let (mut covered, mut section) = (0.0, 0.0);
         let mut z = low;
         while z < high {
@@ -203,11 +204,11 @@ fn mean<'a>(
         }
     };
     if cuts.next().is_some() {
-        let size = (profile.slices, first.defect.roller_length);
+        let size = (profile.slices, profile.extent);
         joint(all, size, |_, phi, h| add(1.0, phi, h));
     } else {
         match &profile.cover {
-            Cover::Unsliced => {}
+            Cover::Unsliced | Cover::Across(_) => {}
             Cover::Even => {
                 let length = first.defect.damaged_length(first.s);
                 let phi = settled(length / first.defect.roller_length);
@@ -268,11 +269,11 @@ fn cover_cuts<'a>(
         (cover.fraction[k], cover.depth[k]) = (phi, h);
     };
     if cuts.next().is_some() {
-        joint(all, (count, length), put);
+        joint(all, (count, profile.extent), put);
         return true;
     }
     match &profile.cover {
-        Cover::Unsliced => return false,
+        Cover::Unsliced | Cover::Across(_) => return false,
         Cover::Even => {
             let h = match &profile.floor {
                 Some(floor) => floor.value(s).max(0.0),
@@ -281,7 +282,7 @@ fn cover_cuts<'a>(
             let per_length = count as f64 / length;
             let mut bands = profile.bands.iter().peekable();
             for k in 0..count {
-                let [low, high] = slice_borders(k, count, length);
+                let [low, high] = borders(k, count, length);
                 let mut covered = 0.0;
                 while let Some(band) = bands.next_if(|band| band.z[0] < high) {
                     if band.z[0] >= low {
@@ -347,6 +348,9 @@ pub fn damaged_contact_given<'a>(
     delta: f64,
     power: f64,
 ) -> Option<DamagedContact> {
+    if let Some(strips) = &law.strips {
+        return ball_contact::damaged(cuts(defects, angles, side), strips, delta);
+    }
     if law_of(defects.clone()) == Law::Sliced {
         let cuts = cuts(defects, angles, side);
         let undamaged = law.stiffness * power;
@@ -434,11 +438,24 @@ pub fn tangent<'a>(
     side: Side,
     delta: f64,
 ) -> f64 {
+    if let Some(strips) = &law.strips {
+        let on_damage = ball_contact::tangent(cuts(defects, angles, side), strips, delta);
+        return on_damage.unwrap_or_else(|| law.tangent(delta, None));
+    }
     if law_of(defects.clone()) == Law::Sliced {
         return over_slices(defects, angles, side, delta, |x| law.tangent(x, None));
     }
     let damaged = damaged_contact(defects, law, angles, side, delta);
     law.tangent(delta, damaged.map(|a| a.floor).as_ref())
+}
+
+/// Depth of the damage under a ball at the groove's bottom by its path, m; `None` where none is met.
+pub fn depth_at_bottom<'a>(
+    defects: impl Iterator<Item = &'a Defect> + Clone,
+    angles: &Angles,
+    side: Side,
+) -> Option<f64> {
+    ball_contact::depth_at_bottom(cuts(defects, angles, side))
 }
 
 /// Elastic energy of a contact that may be on any of `defects`, J: the integral of the elastic sum up to delta.
@@ -449,6 +466,10 @@ pub fn energy<'a>(
     side: Side,
     delta: f64,
 ) -> f64 {
+    if let Some(strips) = &law.strips {
+        let on_damage = ball_contact::energy(cuts(defects, angles, side), strips, delta);
+        return on_damage.unwrap_or_else(|| law.energy(delta));
+    }
     if law_of(defects.clone()) == Law::Sliced {
         return over_slices(defects, angles, side, delta, |x| law.energy(x));
     }
@@ -563,6 +584,11 @@ pub fn edge_gradient<'a>(
         return gradient;
     };
     if cuts.clone().nth(1).is_some() {
+        if let Some(strips) = &law.strips {
+            return central_differences(cuts, |moved| {
+                ball_contact::energy(moved, strips, delta).unwrap_or_default()
+            });
+        }
         let undamaged = law.energy(delta);
         return central_differences(cuts, |moved| {
             mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
@@ -571,6 +597,9 @@ pub fn edge_gradient<'a>(
     let (profile, s) = (first.profile, first.s);
     let slope = match &profile.cover {
         Cover::Unsliced => 0.0,
+        Cover::Across(across) => law.strips.map_or(0.0, |strips| {
+            ball_contact::edge_slope(across, s, &strips, delta)
+        }),
         Cover::Even => {
             let phi = settled(first.defect.damaged_length(s) / first.defect.roller_length);
             let floor = profile.floor.as_ref();

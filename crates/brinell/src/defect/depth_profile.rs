@@ -1,13 +1,15 @@
 //! Damage under a roller, made ready for one surface, law and path: h_s(s), and phi_k(s) and h_k(s) of slices, in constant time.
 
 use super::Shape;
+use super::ball_contact::Across;
 use super::bands::Band;
 use super::envelope::envelope;
+use super::grid::Grid;
 use super::map_slices::{along_the_envelope, at_a_point};
 use super::piecewise::{Line, PiecewisePolynomial};
 use super::track::{Track, fit};
 use crate::scenario::{self, EdgeReaction, Law, RollerPath};
-use crate::slices::borders as slice_borders;
+use crate::slices::borders;
 
 /// How damage acts, the same for every contact of a model (section 3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +41,40 @@ impl Rules {
     }
 }
 
+/// What slices divide along z, m: a roller's length, or the extent of the damage under balls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    pub(super) middle: f64,
+    pub(super) length: f64,
+    /// Whether balls meet it.
+    pub(super) of_balls: bool,
+}
+
+impl Extent {
+    /// A roller of length L, m.
+    pub(super) fn of_roller(length: f64) -> Self {
+        Self {
+            middle: 0.0,
+            length,
+            of_balls: false,
+        }
+    }
+
+    /// Damage between two z, m.
+    pub(super) fn of_damage([low, high]: [f64; 2]) -> Self {
+        Self {
+            middle: 0.5 * (low + high),
+            length: high - low,
+            of_balls: true,
+        }
+    }
+}
+
+/// First and last z of slice k (from 0) of n_s, m.
+pub(super) fn slice_borders(k: usize, slices: usize, extent: Extent) -> [f64; 2] {
+    borders(k, slices, extent.length).map(|z| extent.middle + z)
+}
+
 /// What damage covers of the slices, and how deep.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Cover {
@@ -48,6 +84,8 @@ pub(super) enum Cover {
     Even,
     /// phi_k(s) and h_k(s); slices that the damage never covers are left out.
     Slices(Vec<Track>),
+    /// The same under balls, which need to know where a slice lies.
+    Across(Across),
 }
 
 /// Depths under one side of a roller.
@@ -61,6 +99,8 @@ pub struct DepthProfile {
     pub(super) cover: Cover,
     /// n_s.
     pub(super) slices: usize,
+    /// What they divide.
+    pub(super) extent: Extent,
     /// The damage from above, for several defects at one contact; empty under `ecl` and for depth maps.
     pub(super) bands: Vec<Band>,
     /// What the envelopes were made of, for the joint surface of several defects; `None` where the path is the point.
@@ -79,12 +119,12 @@ pub(super) struct Surface {
 }
 
 impl DepthProfile {
-    /// For a roller of length `length` that meets the damage with the relative radius R_eq (m); `depth` (m) is the defect's, `middle` (m) the z
-    /// of a shape that is a width alone.
+    /// For rollers or balls that meet the damage with the relative radius R_eq (m) and whose slices divide `extent`; `depth` (m) is the defect's,
+    /// `middle` (m) the z of a shape that is a width alone.
     pub(super) fn new(
         shape: &Shape,
         (depth, middle): (f64, f64),
-        length: f64,
+        extent: Extent,
         radius: f64,
         rules: &Rules,
     ) -> Self {
@@ -97,55 +137,93 @@ impl DepthProfile {
             floor,
             cover: Cover::Unsliced,
             slices: rules.slices,
+            extent,
             bands: Vec::new(),
             surface,
         };
         if sliced {
-            let (borders, crossings) = shape.borders(middle);
+            let (edges, crossings) = shape.borders(middle);
             let mut cuts: Vec<f64> = (0..rules.slices)
-                .map(|k| slice_borders(k, rules.slices, length)[0])
+                .map(|k| slice_borders(k, rules.slices, extent)[0])
                 .collect();
-            cuts.push(0.5 * length);
-            profile.bands = Band::all(&borders, &crossings, &cuts);
+            cuts.push(extent.middle + 0.5 * extent.length);
+            profile.bands = Band::all(&edges, &crossings, &cuts);
             profile.cover = match shape {
-                Shape::DepthMap(grid) => Cover::Slices(if along_envelope {
-                    along_the_envelope(grid, rules.slices, length, radius)
-                } else {
-                    at_a_point(grid, rules.slices, length)
-                }),
+                _ if extent.of_balls => {
+                    Cover::Across(profile.across(shape, (depth, middle), radius))
+                }
+                Shape::DepthMap(grid) => Cover::Slices(profile.of_map(grid, radius)),
                 _ if !along_envelope || shape.is_straight() => Cover::Even,
-                _ => Cover::Slices(profile.tracks(shape, (depth, middle), length, radius)),
+                _ => Cover::Slices(profile.tracks(shape, (depth, middle), radius)),
             };
         }
-        if let Cover::Slices(tracks) = &profile.cover {
-            profile.arc = tracks
-                .iter()
-                .map(Track::span)
-                .fold(profile.arc, |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        }
+        let reach = |arc: (f64, f64), span: (f64, f64)| (arc.0.min(span.0), arc.1.max(span.1));
+        profile.arc = match &profile.cover {
+            Cover::Slices(tracks) => tracks.iter().map(Track::span).fold(profile.arc, reach),
+            Cover::Across(across) => across.spans().fold(profile.arc, reach),
+            Cover::Unsliced | Cover::Even => profile.arc,
+        };
         profile
     }
 
-    /// Slices along the envelope of damage that has one depth at each s.
+    /// Slices of a depth map.
+    fn of_map(&self, grid: &Grid, radius: f64) -> Vec<Track> {
+        match self.surface {
+            Some(_) => along_the_envelope(grid, self.slices, self.extent, radius),
+            None => at_a_point(grid, self.slices, self.extent),
+        }
+    }
+
+    /// Slices under balls, with where they lie.
+    fn across(&self, shape: &Shape, (depth, middle): (f64, f64), radius: f64) -> Across {
+        let size = (self.slices, self.extent);
+        let tracks = match shape {
+            Shape::Rectangle { half_length, width } => {
+                let mut stops = vec![-half_length, *half_length];
+                stops.extend(self.floor.iter().flat_map(|floor| floor.breakpoints()));
+                stops.sort_by(f64::total_cmp);
+                stops.dedup_by(|b, a| *b - *a < 1e-13);
+                let floor = |s: f64| {
+                    let floor = self.floor.as_ref();
+                    floor.map_or(depth, |floor| floor.value(s).max(0.0))
+                };
+                let of = |phi: f64| {
+                    let parts = fit(&stops, depth, |s| (phi, floor(s)));
+                    Track::new(0, 1.0, parts, *half_length)
+                };
+                let range = [middle - 0.5 * width, middle + 0.5 * width];
+                return Across::of_rectangle(range, size, of);
+            }
+            Shape::DepthMap(grid) => self.of_map(grid, radius),
+            _ => self.tracks(shape, (depth, middle), radius),
+        };
+        let mirrored = self.is_mirrored(shape, middle);
+        Across::of_slices(tracks, size, mirrored, shape.raised())
+    }
+
+    /// Whether slices on both sides of the middle are alike.
+    fn is_mirrored(&self, shape: &Shape, middle: f64) -> bool {
+        shape.is_width() && middle == 0.0 && self.extent.middle == 0.0
+    }
+
+    /// Slices of damage that has one depth at each s.
     ///
-    /// A roller then rests on that floor, or on the nearer end of the damage along s at its z: h_env(s, z) = min(F(s), d^2 / (2 R_eq)), F being the
+    /// Along the envelope a roller then rests on that floor, or on the nearer end of the damage along s at its z: h_env(s, z) = min(F(s), d^2 / (2 R_eq)), F being the
     /// envelope of a floor without ends.
-    fn tracks(
-        &self,
-        shape: &Shape,
-        (depth, middle): (f64, f64),
-        length: f64,
-        radius: f64,
-    ) -> Vec<Track> {
+    fn tracks(&self, shape: &Shape, (depth, middle): (f64, f64), radius: f64) -> Vec<Track> {
         let own = self.floor.as_ref().filter(|_| shape.has_depths());
         let floor = |s: f64| own.map_or(depth, |floor| floor.value(s).max(0.0));
-        let deepest = self.surface.as_ref().map_or(depth, |x| x.extremes.1);
-        let reach = own.is_none().then(|| (2.0 * radius * depth).sqrt());
+        let along_envelope = self.surface.is_some();
+        let lines = shape.depths(depth);
+        let deepest = match &self.surface {
+            Some(surface) => surface.extremes.1,
+            None => (lines.iter().flat_map(|l| [l.at_from, l.at_to])).fold(0.0, f64::max),
+        };
+        let reach = (along_envelope && own.is_none()).then(|| (2.0 * radius * depth).sqrt());
         let n = self.slices;
-        // Slices on both sides of a width's middle are alike.
-        let alike = shape.is_width() && middle == 0.0;
+        let alike = self.is_mirrored(shape, middle);
         let tracks = (if alike { n / 2 } else { 0 }..n).filter_map(|k| {
-            let [low, high] = slice_borders(k, n, length);
+            let [low, high] = slice_borders(k, n, self.extent);
             let from = self.bands.partition_point(|b| b.z[0] < low);
             let to = self.bands.partition_point(|b| b.z[0] < high);
             let bands = &self.bands[from..to];
@@ -155,6 +233,9 @@ impl DepthProfile {
             });
             let mut stops: Vec<f64> = bands.iter().flat_map(|b| b.kinks(reach)).collect();
             stops.extend(own.iter().flat_map(|floor| floor.breakpoints()));
+            if !along_envelope {
+                stops.extend(lines.iter().flat_map(|l| [l.from, l.to]));
+            }
             stops.extend([first, last]);
             stops.retain(|s| (first..=last).contains(s));
             stops.sort_by(f64::total_cmp);
@@ -163,6 +244,9 @@ impl DepthProfile {
                 let covered: f64 = bands.iter().map(|b| b.covered(s)).sum();
                 if covered <= 0.0 {
                     return (0.0, 0.0);
+                }
+                if !along_envelope {
+                    return (covered / (high - low), shape.own_depth(s).unwrap_or(depth));
                 }
                 let reached: f64 = bands.iter().map(|b| b.reached(s, floor(s), radius)).sum();
                 (covered / (high - low), reached / covered)

@@ -3,11 +3,11 @@
 //! Between four nodes of the grid the surface is damaged unless all four are 0. Depths are straight along z there, so the mean at a point is exact; the
 //! mean of envelopes is a sum over lines z = const, by Gauss's rule between the rows of the grid.
 
+use super::depth_profile::{Extent, slice_borders};
 use super::envelope::envelope;
 use super::grid::Grid;
 use super::piecewise::PiecewisePolynomial;
 use super::track::{Part, Track};
-use crate::slices::borders as slice_borders;
 
 /// Lines z = const in a slice at the most.
 const MOST_LINES: usize = 12;
@@ -29,9 +29,9 @@ pub(super) const GAUSS: [&[[f64; 2]]; 3] = [
 ];
 
 /// Along the arc for every slice, at a point: phi_k the same and h_k straight between two columns.
-pub(super) fn at_a_point(grid: &Grid, slices: usize, length: f64) -> Vec<Track> {
+pub(super) fn at_a_point(grid: &Grid, slices: usize, extent: Extent) -> Vec<Track> {
     let tracks = (0..slices).filter_map(|k| {
-        let [low, high] = slice_borders(k, slices, length);
+        let [low, high] = slice_borders(k, slices, extent);
         let cells = grid.rows_within(low, high);
         let mut parts = Vec::with_capacity(grid.columns());
         for column in 0..grid.columns() - 1 {
@@ -89,14 +89,14 @@ struct Along {
 pub(super) fn along_the_envelope(
     grid: &Grid,
     slices: usize,
-    length: f64,
+    extent: Extent,
     radius: f64,
 ) -> Vec<Track> {
     let most = MOST_PIECES / (2 * grid.columns() * slices);
     let most = most.clamp(1, MOST_LINES);
     let columns: Vec<f64> = (0..grid.columns()).map(|c| grid.s(c)).collect();
     let tracks = (0..slices).filter_map(|k| {
-        let [low, high] = slice_borders(k, slices, length);
+        let [low, high] = slice_borders(k, slices, extent);
         let cells = grid.rows_within(low, high);
         let lines: Vec<Along> = places(&cells, [low, high], most)
             .into_iter()

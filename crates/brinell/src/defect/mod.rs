@@ -3,6 +3,7 @@
 //! A [`Shape`] is damage seen from above; a [`DepthProfile`] is the same made ready for one law, path and surface, so that a step of the
 //! simulation looks depths up in constant time; [`damaged_contact()`] is what a contact feels of it.
 
+mod ball_contact;
 mod bands;
 mod damaged_contact;
 mod depth_profile;
@@ -22,8 +23,9 @@ mod track;
 
 pub use damaged_contact::{
     DamagedContact, EdgeGradient, cover_slices, damaged_contact, damaged_contact_given,
-    edge_gradient, edge_gradient_of_slices, energy, floors, tangent,
+    depth_at_bottom, edge_gradient, edge_gradient_of_slices, energy, floors, tangent,
 };
+use depth_profile::Extent;
 pub use depth_profile::{DepthProfile, Rules, relative_radius};
 pub use envelope::envelope;
 pub use grid::Grid;
@@ -34,7 +36,7 @@ pub use random::spall;
 pub use shape::Shape;
 
 use crate::contact::{ContactReduction, remaining_share};
-use crate::scenario::{self, Surface};
+use crate::scenario::{self, Element, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Side of a roller: the raceway that it meets there.
@@ -76,9 +78,20 @@ pub struct Angles {
     pub ring: f64,
 }
 
+/// Lowest and highest z of a defect on a surface of a length, m.
+fn heights(defect: &scenario::Defect, length: f64) -> Option<[f64; 2]> {
+    let offset = 1e-3 * defect.axial_offset_mm;
+    let shape = Shape::new(&defect.shape, 1e-6 * defect.depth_um)?.placed(offset, length);
+    let middle = if shape.is_width() { offset } else { 0.0 };
+    let end = 0.5 * length;
+    Some(shape.heights(middle).map(|z| z.clamp(-end, end)))
+}
+
 /// One defect on its surface, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Defect {
+    /// What rolls over it.
+    pub element: Element,
     /// Damaged surface; a roller counts from 0 here.
     pub surface: Surface,
     /// Row, from 0.
@@ -93,7 +106,7 @@ pub struct Defect {
     pub middle: f64,
     /// R of the surface, m.
     pub radius: f64,
-    /// L of the roller, m.
+    /// L of the roller, m; of a ball more than its groove is wide.
     pub roller_length: f64,
     /// How damage acts.
     pub rules: Rules,
@@ -104,11 +117,52 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// From the scenario. `None` where its shape makes no sense, or its row or roller counts from 0.
+    /// From the scenario, alone on its bearing. `None` where its shape makes no sense, or its row or roller counts from 0.
     pub fn new(
         defect: &scenario::Defect,
         bearing: &scenario::Bearing,
         contact: &scenario::Contact,
+    ) -> Option<Self> {
+        let alone = Self::all(std::slice::from_ref(defect), bearing, contact);
+        alone.ok()?.pop()
+    }
+
+    /// All defects of a scenario: under balls the slices divide what all of a row take up together.
+    ///
+    /// # Errors
+    /// The first of which [`Self::new`] would make none.
+    pub fn all(
+        defects: &[scenario::Defect],
+        bearing: &scenario::Bearing,
+        contact: &scenario::Contact,
+    ) -> Result<Vec<Self>, usize> {
+        let length = 1e-3 * bearing.axial_reach_mm();
+        let heights: Vec<[f64; 2]> = match bearing.has_balls() {
+            false => Vec::new(),
+            true => defects
+                .iter()
+                .enumerate()
+                .map(|(k, d)| heights(d, length).ok_or(k))
+                .collect::<Result<_, _>>()?,
+        };
+        let extent = |row: usize| {
+            let all = defects.iter().zip(&heights).filter(|(d, _)| d.row == row);
+            let bounds = all
+                .map(|(_, h)| *h)
+                .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            bounds.map_or(Extent::of_roller(length), Extent::of_damage)
+        };
+        let of = |(k, defect): (usize, &scenario::Defect)| {
+            Self::within(defect, bearing, contact, extent(defect.row)).ok_or(k)
+        };
+        defects.iter().enumerate().map(of).collect()
+    }
+
+    fn within(
+        defect: &scenario::Defect,
+        bearing: &scenario::Bearing,
+        contact: &scenario::Contact,
+        extent: Extent,
     ) -> Option<Self> {
         let (surface, diameter) = match defect.on {
             Surface::OuterRaceway => (defect.on, bearing.outer_raceway_diameter_mm),
@@ -119,7 +173,7 @@ impl Defect {
             ),
         };
         let depth = 1e-6 * defect.depth_um;
-        let roller_length = 1e-3 * bearing.roller_length_mm;
+        let roller_length = 1e-3 * bearing.axial_reach_mm();
         let offset = 1e-3 * defect.axial_offset_mm;
         let shape = Shape::new(&defect.shape, depth)?.placed(offset, roller_length);
         let middle = if shape.is_width() { offset } else { 0.0 };
@@ -131,7 +185,7 @@ impl Defect {
                 Surface::Roller(_) => true,
             };
             let radius = relative_radius(bearing, side);
-            met.then(|| DepthProfile::new(&shape, (depth, middle), roller_length, radius, &rules))
+            met.then(|| DepthProfile::new(&shape, (depth, middle), extent, radius, &rules))
         });
         let radius = 0.5e-3 * diameter;
         let arc = shape.arc();
@@ -145,6 +199,7 @@ impl Defect {
         });
         Some(Self {
             windows,
+            element: bearing.element,
             surface,
             row: defect.row.checked_sub(1)?,
             center: defect.center_deg.to_radians(),

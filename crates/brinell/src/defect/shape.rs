@@ -238,6 +238,17 @@ impl Shape {
         (whole.map(|b| b.moved(middle)).collect(), Vec::new())
     }
 
+    /// Lowest and highest z; a width alone is centred on z = `middle` (m).
+    pub(super) fn heights(&self, middle: f64) -> [f64; 2] {
+        if let Self::DepthMap(grid) = self {
+            return grid.heights().into();
+        }
+        let (borders, _) = self.borders(middle);
+        let all = borders.iter().map(|b| b.z);
+        all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+            .unwrap_or([middle; 2])
+    }
+
     /// Whether every line z = const that meets the damage meets it from its first to its last s.
     pub(super) fn is_straight(&self) -> bool {
         matches!(self, Self::Rectangle { .. })

@@ -61,7 +61,7 @@ impl Spec {
 
 /// The unit in a key's name: its longest suffix that is one.
 pub(crate) const fn unit_of(name: &str) -> &'static str {
-    const SUFFIXES: [(&str, &str); 21] = [
+    const SUFFIXES: [(&str, &str); 22] = [
         ("_nms_per_rad", "N m s/rad"),
         ("_nm_per_rad", "N m/rad"),
         ("_mv_per_m_per_s2", "mV/(m/s^2)"),
@@ -71,6 +71,7 @@ pub(crate) const fn unit_of(name: &str) -> &'static str {
         ("_n_per_m", "N/m"),
         ("_m_per_s", "m/s"),
         ("_pa_s", "Pa s"),
+        ("_gpa", "GPa"),
         ("_deg", "deg"),
         ("_rpm", "r/min"),
         ("_mm2", "mm^2"),

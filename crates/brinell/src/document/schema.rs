@@ -126,10 +126,14 @@ impl Keys for Schema {
         value: &mut T,
     ) {
         let required = matches!(fallback, Fallback::Required);
+        let catalogued = matches!(fallback, Fallback::Catalogued);
         self.key(spec, fallback, value);
         let object = self.object();
         if required {
             object.required.pop();
+        }
+        if catalogued {
+            object.catalogued.pop();
         }
         let word = if required { "required where" } else { "where" };
         self.say_more(spec.name, &format!("; {word} {case}, and only there"));

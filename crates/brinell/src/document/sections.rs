@@ -6,17 +6,23 @@ use std::f64::consts::PI;
 use super::blank;
 use super::damage::defect;
 use super::keys::Fallback::{self, Catalogued, Needed, Required};
-use super::keys::{Keys, assumed, derived, key, stated};
+use super::keys::{Keys, Spec, assumed, derived, key, stated};
 use super::sensor::sensor;
 use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
+use crate::contact::ball;
 use crate::scenario::*;
 
 /// Exponent of a line contact (model.md, section 1).
 const LINE_EXPONENT: f64 = 10.0 / 9.0;
+/// Exponent of a point contact (Hertz).
+const POINT_EXPONENT: f64 = 1.5;
 /// Rolling bearing steel, kg/mm^3.
 const STEEL: f64 = 7.85e-6;
 /// Palmgren's line contact, N/mm^(10/9) for L in mm (model.md, section 2).
 const PALMGREN: f64 = 8.06e4;
+/// Where some keys have a meaning.
+const ROLLERS: &str = "bearing.element is \"roller\"";
+const BALLS: &str = "bearing.element is \"ball\"";
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 pub(super) const PAPER: &str = "Li et al. 2023";
@@ -45,7 +51,7 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     );
     k.section(key("lubricant", "oil"), |k| lubricant(k, &mut s.lubricant));
     k.section(key("operation", "speed, load and gravity"), |k| {
-        operation(k, model, &mut s.operation)
+        operation(k, (model, &s.bearing), &mut s.operation)
     });
     k.section(
         key("support", "springs and dampers that hold the rings"),
@@ -76,6 +82,14 @@ fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         &mut b.preset,
     );
     k.key(
+        key(
+            "element",
+            "what rolls; the keys named after rollers are then a ball's",
+        ),
+        stated(Element::Roller, "cylindrical rollers, as in the paper"),
+        &mut b.element,
+    );
+    k.key(
         key("inner_raceway_diameter_mm", "D_i").above(0.0),
         Catalogued,
         &mut b.inner_raceway_diameter_mm,
@@ -96,11 +110,16 @@ fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         Catalogued,
         &mut b.roller_diameter_mm,
     );
-    k.key(
+    k.key_where(
         key("roller_length_mm", "L, effective contact length").above(0.0),
+        (!b.has_balls(), ROLLERS),
         Catalogued,
         &mut b.roller_length_mm,
     );
+    if b.has_balls() {
+        b.roller_length_mm = b.roller_diameter_mm;
+    }
+    grooves(k, b);
     k.key(
         key("rollers_per_row", "Z").from(3.0).to(1000.0),
         Catalogued,
@@ -124,12 +143,24 @@ fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         stated(0.0, "all clearance is at the inner contact"),
         &mut b.outer_gap_um,
     );
-    // Rings of rectangular section: wall 0.6 d, width 1.6 L for each row. Within 8 % of the NN3007's sum.
-    let wall = 0.6 * b.roller_diameter_mm;
-    let ring = |mean_diameter: f64| {
-        STEEL * PI * mean_diameter * wall * 1.6 * b.roller_length_mm * b.rows as f64
+    // Rings of rectangular section. Of rollers: wall 0.6 d, width 1.6 L for each row, within 8 % of the NN3007's sum; of balls: wall 0.45 d, width
+    // 1.75 d, within 12 % of what makers print for 6204 to 6206 less balls and cage.
+    let (wall, width, ring_how) = match b.element {
+        Element::Roller => (
+            0.6,
+            1.6,
+            "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row",
+        ),
+        Element::Ball => (
+            0.45,
+            1.75,
+            "steel ring, wall 0.45 and width 1.75 ball diameters",
+        ),
     };
-    let ring_how = "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row";
+    let wall = wall * b.roller_diameter_mm;
+    let ring = |mean_diameter: f64| {
+        STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64
+    };
     let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
     let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
     k.key(
@@ -142,23 +173,34 @@ fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         derived(outer_ring, ring_how),
         &mut b.outer_ring_mass_kg,
     );
-    let roller = STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm;
+    let roller = match b.element {
+        Element::Roller => derived(
+            STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm,
+            "steel cylinder",
+        ),
+        Element::Ball => derived(
+            STEEL * PI / 6.0 * b.roller_diameter_mm.powi(3),
+            "steel ball",
+        ),
+    };
     k.key(
         key("roller_mass_kg", "m").above(0.0),
-        derived(roller, "steel cylinder"),
+        roller,
         &mut b.roller_mass_kg,
     );
-    k.key(
+    k.key_where(
         key(
             "profile",
             "p(z), how far roller and raceway together stand back",
         ),
+        (!b.has_balls(), ROLLERS),
         stated(RollerProfile::Straight, PAPER),
         &mut b.profile,
     );
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("width_mm", "B, width of the rings").above(0.0),
-        tilts(model),
         derived(
             1.6 * b.roller_length_mm * b.rows as f64,
             "1.6 roller lengths a row",
@@ -170,20 +212,65 @@ fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
     } else {
         derived(1.5 * b.roller_length_mm, "1.5 roller lengths")
     };
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("row_spacing_mm", "b, between the middles of two rows").from(0.0),
-        tilts(model),
         spacing,
         &mut b.row_spacing_mm,
     );
 }
 
-/// Where the keys of `tilting` act.
-fn tilts(model: ModelKind) -> (bool, &'static str) {
-    (
+/// A key of `tilting`, which balls do not do.
+fn tilt_key<K: Keys>(
+    k: &mut K,
+    (model, element): (ModelKind, Element),
+    spec: Spec,
+    fallback: Fallback<f64>,
+    value: &mut f64,
+) {
+    let acts = (
         model == ModelKind::Tilting,
         "simulation.model is \"tilting\"",
-    )
+    );
+    match element {
+        Element::Roller => k.key_acting_where(spec, acts, fallback, value),
+        Element::Ball => {
+            let without = fallback.clone().value();
+            k.key_where(spec, (false, ROLLERS), fallback, value);
+            *value = without.unwrap_or(*value);
+        }
+    }
+}
+
+/// Conformities of the grooves, which only balls have.
+fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
+    let has_balls = b.has_balls();
+    for (spec, value) in [
+        (
+            key(
+                "inner_groove_conformity",
+                "radius of the inner groove's cross-section over the ball's diameter",
+            ),
+            &mut b.inner_groove_conformity,
+        ),
+        (
+            key(
+                "outer_groove_conformity",
+                "radius of the outer groove's cross-section over the ball's diameter",
+            ),
+            &mut b.outer_groove_conformity,
+        ),
+    ] {
+        let mut conformity = value.unwrap_or(f64::NAN);
+        k.key_where(
+            spec.above(0.5).to(1.0),
+            (has_balls, BALLS),
+            assumed(0.52, "the usual groove of deep-groove bearings (Harris)"),
+            &mut conformity,
+        );
+        *value = has_balls.then_some(conformity);
+    }
 }
 
 /// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is given.
@@ -219,12 +306,18 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         },
         (None, Some(class)) => Fallback::Instead {
             value: bore_diameter_mm(b)
-                .and_then(|bore| class.one_sided_middle(bore))
+                .and_then(|bore| class.one_sided_middle(b.element, bore))
                 .unwrap_or(f64::NAN),
             how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
             assumed: true,
         },
-        (None, None) => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
+        (None, None) => match b.element {
+            Element::Roller => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
+            Element::Ball => assumed(
+                6.25,
+                "half of the middle of class CN of ISO 5753-1 for bores of 18 to 30 mm",
+            ),
+        },
     };
     k.key(
         key(
@@ -254,17 +347,22 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         ),
         &mut c.outer_diameter_mm,
     );
-    // A ring of width 1.25 L with its pockets cut out.
     let thickness = 0.5 * (c.outer_diameter_mm - c.inner_diameter_mm);
-    let area = 1.25 * PI * b.pitch_diameter_mm - b.rollers_per_row as f64 * d;
-    k.key(
-        key("mass_kg", "m_c").above(0.0),
-        derived(
-            STEEL * thickness * b.roller_length_mm * area,
-            "steel ring, width 1.25 roller lengths, pockets cut out",
+    let mass = match b.element {
+        // A ring of width 1.25 L with its pockets cut out.
+        Element::Roller => {
+            let area = 1.25 * PI * b.pitch_diameter_mm - b.rollers_per_row as f64 * d;
+            derived(
+                STEEL * thickness * b.roller_length_mm * area,
+                "steel ring, width 1.25 roller lengths, pockets cut out",
+            )
+        }
+        Element::Ball => derived(
+            STEEL * thickness * 0.2 * d * PI * b.pitch_diameter_mm,
+            "two pressed steel strips, each 0.1 ball diameters thick",
         ),
-        &mut c.mass_kg,
-    );
+    };
+    k.key(key("mass_kg", "m_c").above(0.0), mass, &mut c.mass_kg);
     k.key(
         key("pocket_clearance_mm", "C_p, to each side").from(0.0),
         derived(15.0 * d / 1000.0, "1.5 % of the roller diameter"),
@@ -307,7 +405,10 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     k.key(
         key("guide_width_mm", "L_1, width of the land").above(0.0),
-        derived(b.roller_length_mm, "the roller's length"),
+        match b.element {
+            Element::Roller => derived(b.roller_length_mm, "the roller's length"),
+            Element::Ball => derived(0.25 * d, "a quarter of the ball's diameter"),
+        },
         &mut c.guide_width_mm,
     );
     k.key(
@@ -324,21 +425,37 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
 
 fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contact) {
     let law = match (model, &b.profile) {
+        _ if b.has_balls() => stated(Law::Sliced, "the only law of balls"),
         (ModelKind::Tilting, _) => stated(Law::Sliced, "what tilts has slices"),
         (_, RollerProfile::Straight) => stated(Law::Ecl, PAPER),
         _ => stated(Law::Sliced, "a profile has slices"),
     };
-    k.key(key("law", "force of a damaged contact"), law, &mut c.law);
+    let path = match b.element {
+        Element::Roller => stated(RollerPath::Point, PAPER),
+        Element::Ball => stated(RollerPath::Envelope, "what a ball's radius lets it reach"),
+    };
     k.key(
-        key("roller_path", "how a roller follows the damage's depth"),
-        stated(RollerPath::Point, PAPER),
-        &mut c.roller_path,
+        key("law", "force of a damaged contact; of balls only sliced"),
+        law,
+        &mut c.law,
     );
     k.key(
-        key("slices", "slices across the roller; ecl does not use them")
-            .from(1.0)
-            .to(10000.0),
-        stated(30, "ecl does not use them"),
+        key("roller_path", "how a roller follows the damage's depth"),
+        path,
+        &mut c.roller_path,
+    );
+    let slices_why = match b.element {
+        Element::Roller => "ecl does not use them",
+        Element::Ball => "as of rollers",
+    };
+    k.key(
+        key(
+            "slices",
+            "slices across the roller, under balls across the damage; ecl does not use them",
+        )
+        .from(1.0)
+        .to(10000.0),
+        stated(30, slices_why),
         &mut c.slices,
     );
     k.key(
@@ -349,23 +466,17 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
         stated(EdgeReaction::None, PAPER),
         &mut c.edge_reaction,
     );
-    k.key(
+    k.key_where(
         key("exponent", "n of Q = K delta^n").from(1.0).to(2.0),
+        (!b.has_balls(), ROLLERS),
         stated(LINE_EXPONENT, "line contact, 10/9"),
         &mut c.exponent,
     );
-    let palmgren = || {
-        if (c.exponent - LINE_EXPONENT).abs() < 1e-9 {
-            let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
-            derived(
-                k_mm * 1000f64.powf(LINE_EXPONENT),
-                "Palmgren, 8.06e4 L^(8/9)",
-            )
-        } else {
-            Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
-        }
-    };
-    let (inner, outer) = (palmgren(), palmgren());
+    if b.has_balls() {
+        c.exponent = POINT_EXPONENT;
+    }
+    steel(k, b, c);
+    let [inner, outer] = stiffness(b, c);
     k.key(
         key("inner_stiffness", "K_in of a healthy contact")
             .above(0.0)
@@ -385,6 +496,53 @@ fn contact<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), c: &mut Contac
         assumed(200.0, PAPER),
         &mut c.damping_ns_per_m,
     );
+}
+
+/// What Hertz's ellipse needs of the material; of rollers Palmgren's constant has it in it.
+fn steel<K: Keys>(k: &mut K, b: &Bearing, c: &mut Contact) {
+    let wanted = (b.has_balls(), BALLS);
+    let mut modulus = c.youngs_modulus_gpa.unwrap_or(f64::NAN);
+    k.key_where(
+        key("youngs_modulus_gpa", "E of balls and rings").above(0.0),
+        wanted,
+        stated(206.0, "rolling bearing steel (ISO/TS 16281)"),
+        &mut modulus,
+    );
+    let mut ratio = c.poisson_ratio.unwrap_or(f64::NAN);
+    k.key_where(
+        key("poisson_ratio", "Poisson's ratio of balls and rings")
+            .from(0.0)
+            .to(0.5),
+        wanted,
+        stated(0.3, "steel"),
+        &mut ratio,
+    );
+    c.youngs_modulus_gpa = wanted.0.then_some(modulus);
+    c.poisson_ratio = wanted.0.then_some(ratio);
+}
+
+/// Stiffness of the healthy inner and outer contact where the file gives none.
+fn stiffness(b: &Bearing, c: &Contact) -> [Fallback<f64>; 2] {
+    if let Some(ellipses) = ball::ellipses(b, c) {
+        return ellipses.map(|e| {
+            derived(
+                e.stiffness,
+                "Hertz, of the ball's and the groove's curvatures",
+            )
+        });
+    }
+    let palmgren = || {
+        if (c.exponent - LINE_EXPONENT).abs() < 1e-9 {
+            let k_mm = PALMGREN * b.roller_length_mm.powf(8.0 / 9.0);
+            derived(
+                k_mm * 1000f64.powf(LINE_EXPONENT),
+                "Palmgren, 8.06e4 L^(8/9)",
+            )
+        } else {
+            Needed("where contact.exponent is not 10/9, Palmgren's stiffness does not hold")
+        }
+    };
+    [palmgren(), palmgren()]
 }
 
 fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
@@ -422,7 +580,7 @@ fn lubricant<K: Keys>(k: &mut K, l: &mut Lubricant) {
     );
 }
 
-fn operation<K: Keys>(k: &mut K, model: ModelKind, o: &mut Operation) {
+fn operation<K: Keys>(k: &mut K, (model, b): (ModelKind, &Bearing), o: &mut Operation) {
     k.key(
         key(
             "speed_rpm",
@@ -454,12 +612,13 @@ fn operation<K: Keys>(k: &mut K, model: ModelKind, o: &mut Operation) {
         stated([0.0, 0.0], POINT_OF_SCOPE),
         &mut o.gravity_m_per_s2,
     );
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key(
             "load_offset_mm",
             "Z_F, where along the axis the load acts; 0 is the bearing's middle",
         ),
-        tilts(model),
         stated(0.0, "in the middle"),
         &mut o.load_offset_mm,
     );
@@ -500,27 +659,31 @@ fn support<K: Keys>(
     let (k_ti, k_to) = (s.inner_stiffness_n_per_m, s.outer_stiffness_n_per_m);
     let (c_ti, c_to) = (s.inner_damping_ns_per_m, s.outer_damping_ns_per_m);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("inner_tilt_stiffness_nm_per_rad", "k_ti").from(0.0),
-        tilts(model),
         derived(k_ti * lever, stiffness),
         &mut s.inner_tilt_stiffness_nm_per_rad,
     );
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("inner_tilt_damping_nms_per_rad", "c_ti").from(0.0),
-        tilts(model),
         derived(c_ti * lever, damping),
         &mut s.inner_tilt_damping_nms_per_rad,
     );
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("outer_tilt_stiffness_nm_per_rad", "k_to").from(0.0),
-        tilts(model),
         derived(k_to * lever, stiffness),
         &mut s.outer_tilt_stiffness_nm_per_rad,
     );
-    k.key_acting_where(
+    tilt_key(
+        k,
+        (model, b.element),
         key("outer_tilt_damping_nms_per_rad", "c_to").from(0.0),
-        tilts(model),
         derived(c_to * lever, damping),
         &mut s.outer_tilt_damping_nms_per_rad,
     );

@@ -15,6 +15,11 @@ macro_rules! words {
     };
 }
 
+words! { Element:
+    Roller = "roller", "cylindrical rollers";
+    Ball = "ball", "balls in grooves, radial load";
+}
+
 words! { ClearanceClass:
     CN = "CN", "normal";
     C2 = "C2", "less than CN";
@@ -146,6 +151,13 @@ impl Surface {
     /// As the scenario file says it, without the roller's number: `outer-raceway`, `inner-raceway` or `roller`.
     pub fn word(self) -> &'static str {
         Choice::word(SurfaceWord::from(self))
+    }
+}
+
+impl Element {
+    /// As the scenario file says it: `roller` or `ball`.
+    pub fn word(self) -> &'static str {
+        Choice::word(self)
     }
 }
 

@@ -69,6 +69,8 @@ pub trait Lanes:
     fn minus_times(self, b: Self, c: Self) -> Self;
     /// |self|.
     fn abs(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
     /// |self| with the sign of `sign`.
     fn with_sign(self, sign: Self) -> Self;
     /// `x` where self > other, else `y`.

@@ -32,6 +32,11 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
     }

@@ -89,6 +89,7 @@ impl Lanes for Avx2Pair {
         times_plus(b, c;);
         minus_times(b, c;);
         abs(;);
+        sqrt(;);
         with_sign(sign;);
         if_above(other, x, y;);
         and_bits(; bits);

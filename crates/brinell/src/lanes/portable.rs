@@ -143,6 +143,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.map(f64::abs)
     }

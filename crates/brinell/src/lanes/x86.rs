@@ -135,6 +135,11 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        unsafe { Self(_mm512_sqrt_pd(self.0)) }
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         self.and_bits(!(1 << 63))
     }
@@ -274,6 +279,11 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn sum(self) -> f64 {
         unsafe { sum_of_four(self.0) }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        unsafe { Self(_mm256_sqrt_pd(self.0)) }
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! What a model refuses of a scenario that was not checked as a file.
 
 use super::ModelError;
-use crate::scenario::{Scenario, Surface};
+use crate::scenario::{Law, ModelKind, Scenario, Surface};
 
 /// Refuses what would divide by zero or index out of range.
 pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
@@ -55,6 +55,20 @@ pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
                 requirement: "a bearing has at least 1 row of at least 3 rollers",
             });
         }
+    }
+    if s.bearing.has_balls() && s.simulation.model == ModelKind::Tilting {
+        return Err(ModelError {
+            key: "simulation.model".into(),
+            value: "Tilting".into(),
+            requirement: "must be full or lumped for balls",
+        });
+    }
+    if s.bearing.has_balls() && s.contact.law != Law::Sliced {
+        return Err(ModelError {
+            key: "contact.law".into(),
+            value: format!("{:?}", s.contact.law),
+            requirement: "must be sliced for balls",
+        });
     }
     for (k, defect) in s.defects.iter().enumerate() {
         let roller_fits = match defect.on {

@@ -5,7 +5,8 @@
 
 use super::{Model, Power, Workspace, series_stiffness};
 use crate::contact::{ContactReduction, Hertz};
-use crate::defect::{Angles, SIDES, Side, floors};
+use crate::defect::{Angles, SIDES, Side, depth_at_bottom, floors};
+use crate::scenario::Element;
 
 /// One roller's series contact: law, and the depth that full-width damage takes from the deformation.
 #[derive(Clone, Copy)]
@@ -31,6 +32,9 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         damaged_length: [0.0; 2],
         on_damage: [false; 2],
     };
+    if model.element == Element::Ball {
+        return of_ball(model, slot, angles, healthy);
+    }
     let damaged = SIDES.map(|side| {
         floors(model.defects_of(slot, side), angles, side)
             .map(|floor| {
@@ -47,6 +51,18 @@ fn series(model: &Model, slot: usize, angles: &Angles, delta: f64) -> Series {
         [Some(one), None] | [None, Some(one)] => with_floors(model, &healthy, &[one]),
         [Some(inner), Some(outer)] => with_floors(model, &healthy, &[inner, outer]),
     }
+}
+
+/// Damage takes its depth at the groove's bottom from a ball's deformation, by the ball's path (section 17).
+fn of_ball(model: &Model, slot: usize, angles: &Angles, healthy: Series) -> Series {
+    let mut series = healthy;
+    for side in SIDES {
+        if let Some(depth) = depth_at_bottom(model.defects_of(slot, side), angles, side) {
+            series.sunk += depth;
+            series.on_damage[side as usize] = true;
+        }
+    }
+    series
 }
 
 /// A partial width multiplies its side's stiffness by g; the full width sinks the roller by h.

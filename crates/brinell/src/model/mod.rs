@@ -28,6 +28,7 @@ pub use workspace::Workspace;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
+use crate::contact::ball::{self, Strips};
 use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
@@ -35,10 +36,10 @@ use crate::kernel;
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
-    Guidance, GuidanceFilm, Law, LoadOn, ModelKind, RollerProfile, Scenario, Start,
+    Element, Guidance, GuidanceFilm, Law, LoadOn, ModelKind, RollerProfile, Scenario, Start,
 };
 use crate::slices::Slices;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A scenario built in code that no model can be made of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -72,7 +73,7 @@ pub struct Geometry {
     pub pitch_radius: f64,
     /// r, m.
     pub roller_radius: f64,
-    /// L, m.
+    /// L, m; of a ball its diameter.
     pub roller_length: f64,
     /// C_r, m, on one side, at the inner contact.
     pub clearance: f64,
@@ -89,7 +90,7 @@ pub struct Inertia {
     pub outer_ring: f64,
     /// m.
     pub roller: f64,
-    /// I_r = m r^2 / 2.
+    /// I_r = m r^2 / 2; of a ball 2/5 m r^2.
     pub roller_spin: f64,
     /// m_c.
     pub cage: f64,
@@ -102,6 +103,8 @@ pub struct Inertia {
 pub struct Model {
     /// Which equations hold.
     pub kind: ModelKind,
+    /// Rollers or balls.
+    pub element: Element,
     /// State layout.
     pub layout: Layout,
     /// Geometry.
@@ -186,15 +189,28 @@ impl Model {
             inner_ring: b.inner_ring_mass_kg,
             outer_ring: b.outer_ring_mass_kg,
             roller: b.roller_mass_kg,
-            roller_spin: 0.5 * b.roller_mass_kg * geometry.roller_radius.powi(2),
+            roller_spin: match b.element {
+                Element::Roller => 0.5,
+                Element::Ball => 0.4,
+            } * b.roller_mass_kg
+                * geometry.roller_radius.powi(2),
             cage: c.mass_kg,
             cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
         };
         let exponent = Exponent::new(s.contact.exponent);
-        let hertz = |stiffness| Hertz {
+        let ellipses = match b.element {
+            Element::Roller => None,
+            Element::Ball => Some(ball::ellipses(b, &s.contact).ok_or_else(|| ModelError {
+                key: "bearing.inner_groove_conformity".into(),
+                value: format!("{:?}", b.inner_groove_conformity),
+                requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
+            })?),
+        };
+        let hertz = |stiffness, side: Side| Hertz {
             stiffness,
             exponent,
             damping: s.contact.damping_ns_per_m,
+            strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
         };
         let tilts = s.simulation.model == ModelKind::Tilting;
         let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
@@ -211,7 +227,6 @@ impl Model {
                 }
             })
             .collect();
-        let mut defects = Vec::with_capacity(s.defects.len());
         for (k, defect) in s.defects.iter().enumerate() {
             if let Some(file) = defect.shape.file() {
                 return Err(ModelError {
@@ -220,12 +235,12 @@ impl Model {
                     requirement: "a shape, not a file: read it first, with brinell_damage::resolve",
                 });
             }
-            defects.push(Defect::new(defect, b, &s.contact).ok_or_else(|| ModelError {
-                key: format!("defects.{k}"),
-                value: format!("{defect:?}"),
-                requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
-            })?);
         }
+        let defects = Defect::all(&s.defects, b, &s.contact).map_err(|k| ModelError {
+            key: format!("defects.{k}"),
+            value: format!("{:?}", s.defects[k]),
+            requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
+        })?;
         let broad_phase = SIDES.map(|side| BroadPhase::new(&layout, &defects, side));
         let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
         let row_lanes = (0..layout.rows)
@@ -239,6 +254,7 @@ impl Model {
         const NEVER_CLOSES: f64 = 1e3;
         Ok(Self {
             kind: s.simulation.model,
+            element: b.element,
             roller_mask: by_slot(1.0, 0.0),
             gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
             pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
@@ -247,8 +263,8 @@ impl Model {
             layout,
             geometry,
             inertia,
-            inner_contact: hertz(s.contact.inner_stiffness),
-            outer_contact: hertz(s.contact.outer_stiffness),
+            inner_contact: hertz(s.contact.inner_stiffness, Side::Inner),
+            outer_contact: hertz(s.contact.outer_stiffness, Side::Outer),
             series_contact: Hertz {
                 stiffness: series_stiffness(
                     s.contact.inner_stiffness,
@@ -257,6 +273,7 @@ impl Model {
                 ),
                 exponent,
                 damping: 0.5 * s.contact.damping_ns_per_m,
+                strips: None,
             },
             friction: Friction {
                 coefficient: s.friction.raceway_coefficient,
@@ -265,7 +282,11 @@ impl Model {
             drag: drag_factor(
                 s.lubricant.drag_coefficient,
                 s.lubricant.effective_density_kg_per_m3,
-                geometry.roller_length,
+                // The area against the flow is L d, and pi d^2/4 of a ball.
+                match b.element {
+                    Element::Roller => geometry.roller_length,
+                    Element::Ball => FRAC_PI_2 * geometry.roller_radius,
+                },
                 2.0 * geometry.roller_radius,
             ),
             pocket: Pocket {

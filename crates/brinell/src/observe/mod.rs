@@ -5,6 +5,7 @@ pub mod motion;
 pub mod orbit;
 mod pass_rate;
 pub mod passes;
+pub mod section;
 pub mod slip;
 pub mod slip_course;
 pub mod time_frequency;

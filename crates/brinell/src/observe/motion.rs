@@ -1,5 +1,6 @@
 //! The bearing in motion: the last turn of the shaft in a bounded number of frames, for an animation.
 
+use super::section::{SectionRow, Sections};
 use crate::channel::Frame;
 use crate::defect::{Side, wrap};
 use crate::model::Model;
@@ -41,6 +42,7 @@ pub struct Motion {
     rings: Vec<f32>,
     cages: Vec<f32>,
     states: Vec<RollerState>,
+    sections: Option<Sections>,
 }
 
 impl Motion {
@@ -78,6 +80,7 @@ impl Motion {
             rings: vec![0.0; capacity],
             cages: vec![0.0; capacity * rows],
             states: vec![still; capacity * rollers],
+            sections: Sections::new(model, capacity),
         }
     }
 
@@ -117,6 +120,9 @@ impl Motion {
             };
             self.cages[at * self.rows + row] = wrap(angle) as f32;
         }
+        if let Some(sections) = &mut self.sections {
+            sections.take(at, f);
+        }
     }
 
     /// Frames held.
@@ -147,6 +153,16 @@ impl Motion {
     pub fn cages(&self, frame: usize) -> &[f32] {
         let at = self.place(frame);
         &self.cages[at * self.rows..(at + 1) * self.rows]
+    }
+
+    /// Slopes of the inner and the outer ring's axis in the section's plane, rad; `None` where nothing tilts.
+    pub fn ring_tilts(&self, frame: usize) -> Option<[f32; 2]> {
+        Some(self.sections.as_ref()?.rings(self.place(frame)))
+    }
+
+    /// A row of the section of a frame; `None` where nothing tilts.
+    pub fn section_row(&self, frame: usize, row: usize) -> Option<SectionRow<'_>> {
+        Some(self.sections.as_ref()?.row(self.place(frame), row))
     }
 
     /// The rollers of a frame, by slot.

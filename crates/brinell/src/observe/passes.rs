@@ -1,6 +1,6 @@
 //! Rollers passing damage: instants of entry and exit, and one pass of each defect step by step.
 
-use crate::channel::{Frame, contact_stiffness};
+use crate::channel::{Frame, contact_length, contact_stiffness};
 use crate::defect::{Angles, Defect, SIDES, Side, wrap};
 use crate::model::Model;
 use crate::scenario::{ModelKind, Surface};
@@ -253,7 +253,7 @@ impl Watch {
         let point = PassPoint {
             t: f.t,
             angle: u,
-            length: f.model.geometry.roller_length - c.damaged_length[pass.slot],
+            length: contact_length(f.model, f.ws, pass.side, pass.slot),
             stiffness: contact_stiffness(f.model, f.ws, pass.side, pass.slot),
             force: c.force[pass.slot],
         };
@@ -283,6 +283,6 @@ pub fn place(defect: &Defect) -> String {
     match defect.surface {
         Surface::OuterRaceway => format!("outer raceway, row {row}"),
         Surface::InnerRaceway => format!("inner raceway, row {row}"),
-        Surface::Roller(k) => format!("roller {}, row {row}", k + 1),
+        Surface::Roller(k) => format!("{} {}, row {row}", defect.element.word(), k + 1),
     }
 }

@@ -40,21 +40,36 @@ pub struct Scenario {
     pub simulation: Simulation,
 }
 
+/// What rolls between the raceways.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Element {
+    /// Cylindrical rollers on cylindrical raceways.
+    Roller,
+    /// Balls in grooves: a deep-groove ball bearing under radial load.
+    Ball,
+}
+
 /// `[bearing]`: geometry and masses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
     /// Catalogue name that filled the keys not given, if any.
     pub preset: Option<String>,
-    /// D_i, mm.
+    /// Rollers or balls. The keys named after rollers are then a ball's.
+    pub element: Element,
+    /// D_i, mm; a groove's at its bottom.
     pub inner_raceway_diameter_mm: f64,
-    /// D_o, mm.
+    /// D_o, mm; a groove's at its bottom.
     pub outer_raceway_diameter_mm: f64,
     /// D_m, mm.
     pub pitch_diameter_mm: f64,
     /// d, mm.
     pub roller_diameter_mm: f64,
-    /// L, effective contact length, mm.
+    /// L, effective contact length, mm. A ball has none, no key for it either, and its diameter here.
     pub roller_length_mm: f64,
+    /// Radius of the inner groove's cross-section over the ball's diameter; `None` for rollers.
+    pub inner_groove_conformity: Option<f64>,
+    /// The same of the outer groove.
+    pub outer_groove_conformity: Option<f64>,
     /// Z, rollers in each row.
     pub rollers_per_row: usize,
     /// N_r, rows.
@@ -80,6 +95,21 @@ pub struct Bearing {
     pub width_mm: f64,
     /// b, between the middles of neighbouring rows; `tilting` only.
     pub row_spacing_mm: f64,
+}
+
+impl Bearing {
+    /// Whether balls roll in it.
+    pub fn has_balls(&self) -> bool {
+        self.element == Element::Ball
+    }
+
+    /// Length along the axis within which damage must lie, mm: that of a roller, and more than a ball's groove is wide.
+    pub fn axial_reach_mm(&self) -> f64 {
+        match self.element {
+            Element::Roller => self.roller_length_mm,
+            Element::Ball => 2.0 * self.roller_diameter_mm,
+        }
+    }
 }
 
 /// What centres the cage.
@@ -165,8 +195,12 @@ pub struct Contact {
     pub slices: usize,
     /// Tangential push of the damage's slopes.
     pub edge_reaction: EdgeReaction,
-    /// n.
+    /// n; 3/2 of balls, which have no key for it.
     pub exponent: f64,
+    /// E of balls and grooves, GPa; `None` for rollers.
+    pub youngs_modulus_gpa: Option<f64>,
+    /// Poisson's ratio of both; `None` for rollers.
+    pub poisson_ratio: Option<f64>,
     /// K_in of a healthy contact, N/m^n.
     pub inner_stiffness: f64,
     /// K_out of a healthy contact, N/m^n.

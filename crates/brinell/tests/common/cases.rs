@@ -59,6 +59,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("heavy", case("xval/heavy-load-profile")),
         ("tilting", case("reference/tilting-edge")),
         ("tilting-offset", tilting_offset()),
+        ("balls", case("reference/ball-6205-outer")),
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use brinell::document::{Problem, Severity, read, read_bytes};
 
-use crate::{BARE, OUTER, report, with};
+use super::{BARE, OUTER, report, with};
 
 /// The problem of `key` among those of a text.
 fn problem_of(problems: &[Problem], key: &str) -> Problem {

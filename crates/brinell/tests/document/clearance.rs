@@ -4,7 +4,7 @@ use brinell::bearing::clearance::bore_diameter_mm;
 use brinell::document::{Loaded, Origin, Problem, Severity, json_schema, read, template};
 use serde_json::json;
 
-use crate::{BARE, report, with};
+use super::{BARE, report, with};
 
 /// A preset with lines of its own in `[bearing]`.
 fn nu206(lines: &str) -> Result<Loaded, Vec<Problem>> {

@@ -4,7 +4,7 @@ use brinell::bearing::catalogue;
 use brinell::document::{Origin, read, template};
 use brinell::scenario::{GuidanceFilm, Scenario, Shape, Surface};
 
-use crate::{BARE, INNER, OUTER, good, report, with};
+use super::{BARE, INNER, OUTER, good, report, with};
 
 #[test]
 fn xval_reference_scenarios_read_as_they_stand() {

@@ -4,7 +4,7 @@ use brinell::document::{json_schema, template};
 use brinell::scenario::Scenario;
 use serde_json::{Value, json};
 
-use crate::{BARE, INNER, OUTER};
+use super::{BARE, INNER, OUTER};
 
 /// As much of JSON Schema as the scenario's uses; the path of the first value that does not fit.
 fn misfit(schema: &Value, value: &Value, path: &str) -> Option<String> {

@@ -4,7 +4,7 @@ use brinell::defect::MOST_CROSSINGS;
 use brinell::document::{MOST_OF_A_KIND, Problem, Severity, read};
 use brinell::random::Random;
 
-use crate::{BARE, OUTER, good, report, with};
+use super::{BARE, OUTER, good, report, with};
 
 fn refused(text: &str) -> Vec<Problem> {
     match read(text, &[]) {

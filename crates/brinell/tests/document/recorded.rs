@@ -2,7 +2,7 @@
 
 use brinell::document::{Loaded, Origin, read, template};
 
-use crate::{BARE, good, report, with};
+use super::{BARE, good, report, with};
 
 /// Key, value and reason of what is assumed.
 fn assumed(loaded: &Loaded) -> Vec<(String, String, String)> {

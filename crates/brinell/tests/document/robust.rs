@@ -5,7 +5,7 @@ use brinell::scenario::*;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-use crate::{INNER, OUTER, report};
+use super::{INNER, OUTER, report};
 
 /// Reads, shows and, where possible, writes: nothing may panic, and spans must lie in the text.
 fn exercise(text: &str, overrides: &[(String, String)]) {
@@ -287,6 +287,9 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             Speed::Profile(times.zip(&points).map(|(t, point)| [t, point.1]).collect())
         }),
     ];
+    // A preset of rollers has no balls, and balls do not tilt.
+    let balls =
+        |words: (usize, usize, usize, usize, usize)| words.1 == 0 && words.2 != 2 && words.4 == 1;
     let words = (0..3usize, 0..2usize, 0..3usize, 0..3usize, 0..2usize);
     let numbers = prop::collection::vec(1e-9..1e9f64, 16);
     let text = (
@@ -304,15 +307,22 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
         defects(),
     )
         .prop_map(
-            |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
+            move |((name, record), d, z, rows, x, speed_rpm, words, defects)| Scenario {
                 name,
                 bearing: Bearing {
                     preset: (words.1 == 1).then(|| "NN3007".into()),
+                    element: if balls(words) {
+                        Element::Ball
+                    } else {
+                        Element::Roller
+                    },
+                    inner_groove_conformity: balls(words).then_some(0.5 + x[6] / 4e9 + 1e-9),
+                    outer_groove_conformity: balls(words).then_some(0.5 + x[7] / 4e9 + 1e-9),
                     inner_raceway_diameter_mm: 6.0 * d,
                     outer_raceway_diameter_mm: 8.0 * d,
                     pitch_diameter_mm: 7.0 * d,
                     roller_diameter_mm: d,
-                    roller_length_mm: d * 1.1,
+                    roller_length_mm: if balls(words) { d } else { d * 1.1 },
                     rollers_per_row: z,
                     rows,
                     row_stagger_deg: -x[0],
@@ -333,8 +343,12 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                         },
                         _ => RollerProfile::Straight,
                     },
-                    width_mm: 1.6 * (d * 1.1) * rows as f64,
-                    row_spacing_mm: if rows == 1 { 0.0 } else { 1.5 * (d * 1.1) },
+                    width_mm: 1.6 * (if balls(words) { d } else { d * 1.1 }) * rows as f64,
+                    row_spacing_mm: match (rows, balls(words)) {
+                        (1, _) => 0.0,
+                        (_, true) => 1.5 * d,
+                        (_, false) => 1.5 * (d * 1.1),
+                    },
                 },
                 cage: Cage {
                     mass_kg: x[6],
@@ -350,11 +364,17 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                     contact_damping_ns_per_m: x[10],
                 },
                 contact: Contact {
-                    law: if words.2 == 2 { Law::Sliced } else { Law::Ecl },
+                    law: if words.2 == 2 || balls(words) {
+                        Law::Sliced
+                    } else {
+                        Law::Ecl
+                    },
                     roller_path: RollerPath::Point,
                     slices: z,
                     edge_reaction: EdgeReaction::None,
-                    exponent: 1.0 + x[0] / 1e9,
+                    exponent: if balls(words) { 1.5 } else { 1.0 + x[0] / 1e9 },
+                    youngs_modulus_gpa: balls(words).then_some(x[8]),
+                    poisson_ratio: balls(words).then_some(x[9] / 2e9),
                     inner_stiffness: x[11],
                     outer_stiffness: x[12],
                     damping_ns_per_m: x[13],

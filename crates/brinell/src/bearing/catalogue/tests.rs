@@ -3,12 +3,11 @@ use crate::bearing::kinematics::{Geometry, Kinematics};
 use std::f64::consts::TAU;
 
 const COUNTS: [&str; 2] = ["bearing.rollers_per_row", "bearing.rows"];
-const BEARING: [&str; 14] = [
+const BEARING: [&str; 13] = [
     "bearing.inner_raceway_diameter_mm",
     "bearing.outer_raceway_diameter_mm",
     "bearing.pitch_diameter_mm",
     "bearing.roller_diameter_mm",
-    "bearing.roller_length_mm",
     "bearing.rollers_per_row",
     "bearing.rows",
     "bearing.row_stagger_deg",
@@ -25,6 +24,12 @@ const CAGE: [&str; 5] = [
     "cage.pocket_clearance_mm",
     "cage.guide_clearance_mm",
     "cage.guide_width_mm",
+];
+const OF_ROLLERS: [&str; 1] = ["bearing.roller_length_mm"];
+const OF_BALLS: [&str; 3] = [
+    "bearing.element",
+    "bearing.inner_groove_conformity",
+    "bearing.outer_groove_conformity",
 ];
 const OPTIONAL: [&str; 5] = [
     "cage.guidance",
@@ -73,13 +78,20 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
             "{}",
             entry.name
         );
-        for key in BEARING.iter().chain(&CAGE) {
+        let own = match entry.has_balls() {
+            true => &OF_BALLS[..],
+            false => &OF_ROLLERS[..],
+        };
+        let numbers = own.iter().filter(|key| **key != "bearing.element");
+        for key in BEARING.iter().chain(&CAGE).chain(numbers) {
             number(entry, key);
         }
         for value in &entry.values {
             let key = value.key.as_str();
             assert!(
-                [&BEARING[..], &CAGE, &OPTIONAL].concat().contains(&key),
+                [&BEARING[..], own, &CAGE, &OPTIONAL]
+                    .concat()
+                    .contains(&key),
                 "{}: {key}",
                 entry.name
             );
@@ -88,10 +100,13 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
                     number.is_finite() && !COUNTS.contains(&key) && key != "cage.guidance"
                 }
                 Datum::Integer(count) => *count > 0 && COUNTS.contains(&key),
-                Datum::Text(choice) => {
-                    key == "cage.guidance"
-                        && ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str())
-                }
+                Datum::Text(choice) => match key {
+                    "bearing.element" => choice == "ball",
+                    "cage.guidance" => {
+                        ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str())
+                    }
+                    _ => false,
+                },
             };
             assert!(fits, "{}: {key} = {:?}", entry.name, value.value);
         }
@@ -182,7 +197,6 @@ fn prop_every_entry_fits_together() {
         );
 
         for key in [
-            "roller_length_mm",
             "inner_ring_mass_kg",
             "outer_ring_mass_kg",
             "roller_mass_kg",
@@ -195,12 +209,15 @@ fn prop_every_entry_fits_together() {
             "{name}: stagger"
         );
 
-        // A steel roller of the effective length, and up to 20 % more where chamfers and crown do not bear.
-        let bearing_part =
-            7850e-9 * TAU / 8.0 * roller * roller * bearing(entry, "roller_length_mm");
+        // A steel roller of the effective length, and up to 20 % more where chamfers and crown do not bear; a steel ball.
+        let (length, most) = match entry.has_balls() {
+            true => (roller / 1.5, 1.03),
+            false => (bearing(entry, "roller_length_mm"), 1.2),
+        };
+        let bearing_part = 7850e-9 * TAU / 8.0 * roller * roller * length;
         let ratio = bearing(entry, "roller_mass_kg") / bearing_part;
         assert!(
-            (0.97..1.2).contains(&ratio),
+            (0.97..most).contains(&ratio),
             "{name}: roller mass is {ratio} of its volume"
         );
     }
@@ -343,5 +360,36 @@ fn lit_effective_lengths_follow_from_the_static_rating() {
             (given - length).abs() <= 0.05,
             "{name}: {given} mm against {length} mm"
         );
+    }
+}
+
+#[test]
+fn lit_balls_follow_from_the_static_rating() {
+    // ISO 76 with the maker's C0: balls of standard sizes, so to 2 %.
+    for entry in all().iter().filter(|entry| entry.has_balls()) {
+        let Some(rating) = entry.fact(STATIC_RATING) else {
+            continue;
+        };
+        let text = format!(
+            "[bearing]\npreset = \"{}\"\n[operation]\nspeed_rpm = 1500\nload_n = [100, 0]\n",
+            entry.name
+        );
+        let loaded = crate::document::read(&text, &[]).unwrap_or_else(|p| panic!("{p:?}"));
+        let mut bearing = loaded.scenario.bearing;
+        bearing.preset = None;
+        let iso = crate::bearing::rating::static_rating(&bearing).load;
+        assert!(
+            (iso / rating - 1.0).abs() < 0.021,
+            "{}: {iso} N",
+            entry.name
+        );
+    }
+}
+
+#[test]
+fn lit_6203_orders_of_paderborn_and_uer204s_of_xjtu() {
+    for (name, bpfo, bpfi) in [("6203", 3.05, 4.95), ("UER204", 3.083, 4.917)] {
+        let k = per_turn(name);
+        assert!((k.bpfo / bpfo - 1.0).abs() < 2e-3 && (k.bpfi / bpfi - 1.0).abs() < 2e-3);
     }
 }

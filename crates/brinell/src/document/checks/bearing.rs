@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use super::{Checker, short};
-use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
+use crate::bearing::catalogue;
+use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm, largest_bore_mm};
+use crate::scenario::Law;
 
 /// Share of a roller's diameter by which rounded catalogue diameters may miss each other.
 const GEOMETRY_TOLERANCE: f64 = 0.02;
@@ -12,6 +14,7 @@ const CLEARANCES: f64 = 3.0;
 /// Share of a roller's diameter beyond which a clearance or preload is a slip of the unit.
 const LARGEST_CLEARANCE: f64 = 0.05;
 
+const ELEMENT: &str = "bearing.element";
 const INNER: &str = "bearing.inner_raceway_diameter_mm";
 const OUTER: &str = "bearing.outer_raceway_diameter_mm";
 const PITCH: &str = "bearing.pitch_diameter_mm";
@@ -151,7 +154,8 @@ impl Checker<'_> {
             return;
         }
         let bore = bore_diameter_mm(&self.s.bearing);
-        let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(bore).is_some());
+        let of = self.s.bearing.element;
+        let known = bore.is_some_and(|bore| ClearanceClass::CN.limits(of, bore).is_some());
         if ways == [CLASS] && !known {
             let (key, message) = match bore {
                 None => (
@@ -160,7 +164,7 @@ impl Checker<'_> {
                 ),
                 Some(_) => (BORE, "ISO 5753-1 has no class for this bore"),
             };
-            let allowed = "a bore of up to 1000 mm".to_owned();
+            let allowed = format!("a bore of up to {} mm", largest_bore_mm(of));
             self.error(key, message.into(), allowed, &[CLASS]);
         }
     }
@@ -170,7 +174,7 @@ impl Checker<'_> {
         let b = &self.s.bearing;
         let (key, factor) = self.clearance_key();
         let (one_sided, bore) = (b.radial_clearance_um, bore_diameter_mm(b));
-        let largest = bore.and_then(|bore| ClearanceClass::C5.limits(bore));
+        let largest = bore.and_then(|bore| ClearanceClass::C5.limits(b.element, bore));
         if one_sided != 0.0 && one_sided.abs() < SMALLEST_CLEARANCE {
             self.warn(
                 key,
@@ -248,8 +252,34 @@ impl Checker<'_> {
         }
     }
 
+    /// What balls cannot have.
+    fn balls(&mut self) {
+        const LAW: &str = "contact.law";
+        let entry = self.s.bearing.preset.as_deref().and_then(catalogue::find);
+        if let Some(entry) = entry
+            && entry.has_balls() != self.s.bearing.has_balls()
+        {
+            let word = if entry.has_balls() { "ball" } else { "roller" };
+            self.error(
+                ELEMENT,
+                format!("{} is a {word} bearing", entry.name),
+                format!("\"{word}\", or no preset"),
+                &["bearing.preset"],
+            );
+        }
+        if self.s.bearing.has_balls() && self.s.contact.law == Law::Ecl {
+            self.error(
+                LAW,
+                "a ball's contact has no length that damage could take a share of".into(),
+                "\"sliced\", or the key left out".into(),
+                &[ELEMENT],
+            );
+        }
+    }
+
     pub(super) fn contact(&mut self) {
         const EXPONENT: &str = "contact.exponent";
+        self.balls();
         for stiffness in ["contact.inner_stiffness", "contact.outer_stiffness"] {
             if self.finder.is_preset(stiffness)
                 && self.finder.place(EXPONENT).is_some()

@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use super::{Checker, short};
-use crate::scenario::{Defect, Shape, Surface};
+use crate::scenario::{Defect, Element, Shape, Surface};
 
 const LENGTH: &str = "bearing.roller_length_mm";
+const BALL: &str = "bearing.roller_diameter_mm";
 
 impl Checker<'_> {
     pub(super) fn defects(&mut self) {
@@ -66,17 +67,21 @@ impl Checker<'_> {
             // Their extent is known once their file is read.
             Shape::Image(_) | Shape::Svg(_) | Shape::Scan(_) => return,
         };
-        let length = self.s.bearing.roller_length_mm;
+        let length = self.s.bearing.axial_reach_mm();
         if width > length {
+            let (than, also) = match self.s.bearing.element {
+                Element::Roller => ("the roller, whose length is", LENGTH),
+                Element::Ball => ("any groove: two ball diameters are", BALL),
+            };
             self.error(
                 &format!("defects.{i}.shape.{key}"),
                 format!(
-                    "{} mm is wider than the roller, whose length is {} mm",
+                    "{} mm is wider than {than} {} mm",
                     short(width),
                     short(length)
                 ),
                 format!("<= {}", short(length)),
-                &[LENGTH],
+                &[also],
             );
         } else if defect.axial_offset_mm != 0.0 {
             let half = 0.5e-3 * width;

@@ -149,7 +149,7 @@ impl Checker<'_> {
         key: &str,
         (low, high): (f64, f64),
     ) {
-        let half = 0.5 * self.s.bearing.roller_length_mm;
+        let half = 0.5 * self.s.bearing.axial_reach_mm();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
         // What an offset carries over the edge is left out, as long as anything stays.
@@ -289,7 +289,7 @@ impl Checker<'_> {
                 &["contact.law", "simulation.model"],
             );
         }
-        let half = 0.5 * self.s.bearing.roller_length_mm;
+        let half = 0.5 * self.s.bearing.axial_reach_mm();
         let (low, high) = map.heights();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);

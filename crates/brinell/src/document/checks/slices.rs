@@ -17,7 +17,14 @@ impl Checker<'_> {
         let tilts = s.simulation.model == ModelKind::Tilting;
         let has_profile = s.bearing.profile != RollerProfile::Straight;
         let sliced = s.contact.law == Law::Sliced;
-        if tilts && !sliced {
+        if tilts && s.bearing.has_balls() {
+            self.error(
+                MODEL,
+                "a ball has no ends that could tilt".into(),
+                "\"full\" or \"lumped\" where bearing.element = \"ball\"".into(),
+                &["bearing.element"],
+            );
+        } else if tilts && !sliced {
             self.error(
                 LAW,
                 "a contact that tilts needs slices: \"ecl\" knows one deformation for the whole roller".into(),

@@ -12,6 +12,7 @@ use brinell::scenario::{self, DepthGrid, Law, RollerPath, Scenario, Surface};
 use std::f64::consts::TAU;
 
 const LAW: Hertz = Hertz {
+    strips: None,
     stiffness: 1.898e8,
     exponent: Exponent::TenNinths,
     damping: 200.0,

@@ -1,4 +1,4 @@
-//! A whole run of the paper's rectangle, from the model to the last sample. `cargo bench --bench run`.
+//! A whole run of the paper's rectangle, from the model to the last sample. `cargo bench -p brinell-bench --bench run`.
 //!
 //! Also prints what a simulated second costs in runs of 0.25 to 10 s.
 

@@ -1,6 +1,7 @@
 //! Scenario files: reading, writing, and everything that can be wrong with them.
 
 mod bad_input;
+mod balls;
 mod clearance;
 mod defaults;
 mod json;

@@ -1,12 +1,10 @@
 //! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not fit is told.
 
 mod bytes;
-#[path = "../common/mod.rs"]
-mod common;
 mod refusals;
 mod rows;
 
-use common::{Call, SHORT, brinell, command, files, json};
+use crate::common::{Call, SHORT, brinell, command, files, json};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 use std::fs;

@@ -1,6 +1,6 @@
 //! A right-hand side: its time with each kernel, its arithmetic, and how near that comes to what the core can do.
 //!
-//! `cargo bench --bench kernel`. Operations are counted by running the equations in lanes that count; a fused product and sum is two, as is
+//! `cargo bench -p brinell-bench --bench kernel`. Operations are counted by running the equations in lanes that count; a fused product and sum is two, as is
 //! usual; comparisons and moves of bits are named apart. Work on single numbers (rings, cages, damage under a roller) is not counted.
 //! The peak is a loop of independent fused products and sums on the same core at the same moment.
 
@@ -156,6 +156,7 @@ impl Lanes for Counting {
     }
     others! {
         abs();
+        sqrt();
         with_sign(sign: Self);
         if_above(other: Self, x: Self, y: Self);
         and_bits(bits: u64);

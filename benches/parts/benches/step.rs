@@ -1,4 +1,4 @@
-//! A step: of the stepper alone, and in a run with its audits. `cargo bench --bench step`.
+//! A step: of the stepper alone, and in a run with its audits. `cargo bench -p brinell-bench --bench step`.
 
 mod common;
 

@@ -1,0 +1,8 @@
+//! The crate's tests in one program, because each program links the library anew; `fuzz.rs` needs a process of its own.
+
+mod common;
+mod depth_maps;
+mod drawings;
+mod images;
+mod outlines;
+mod resolve;

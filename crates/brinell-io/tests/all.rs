@@ -1,0 +1,11 @@
+//! The crate's tests in one program, because each program links the library anew; `fuzz.rs` needs a process of its own.
+
+mod atomic;
+mod bad_files;
+mod common;
+mod csv;
+mod measured;
+mod parquet;
+mod records;
+mod table;
+mod written;

@@ -1,0 +1,4 @@
+//! The crate's tests in one program, because each program links the library anew.
+
+mod analysis;
+mod report;

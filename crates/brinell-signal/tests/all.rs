@@ -1,0 +1,9 @@
+//! The crate's tests in one program, because each program links the library anew; `signal_allocations.rs` needs a process of its own.
+
+mod analysis;
+mod cases;
+mod drift;
+mod rig;
+mod signal_scipy;
+mod signal_speed;
+mod verdicts;

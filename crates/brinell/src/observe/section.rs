@@ -1,0 +1,164 @@
+//! A tilting bearing seen from the side: a section along its axis, through the damage or through the middle of the load zone.
+
+use crate::channel::Frame;
+use crate::defect::{Angles, SIDES, Side, cover_slices, wrap};
+use crate::model::Model;
+use crate::scenario::Surface;
+use crate::slices::{Approach, Cover};
+
+/// Line loads kept across a roller, at most.
+#[doc(hidden)]
+pub const STRIPS: usize = 64;
+
+/// Where the section is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    /// At an angle, rad.
+    Still(f64),
+    /// At an angle of the inner ring, rad.
+    OnInner(f64),
+    /// Through a roller: its slot.
+    Through(usize),
+}
+
+/// One row of a section at one instant: its roller nearest the section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionRow<'a> {
+    /// How far the roller is from the section, rad, counter-clockwise.
+    pub away: f32,
+    /// Its tilt beta, rad.
+    pub tilt: f32,
+    /// Line loads at the inner and the outer raceway from -L/2 to L/2, N/m, at even steps.
+    pub line_loads: [&'a [f32]; 2],
+}
+
+/// Sections of a bounded number of frames.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sections {
+    place: Place,
+    rows: usize,
+    strips: usize,
+    values: Vec<f32>,
+    line: Vec<f64>,
+    cover: Cover,
+}
+
+/// Slopes of the rings, and a row's two numbers before its line loads.
+const RINGS: usize = 2;
+const ROLLER: usize = 2;
+
+impl Sections {
+    /// For `frames` frames of a model that tilts; `None` for others.
+    pub(super) fn new(model: &Model, frames: usize) -> Option<Self> {
+        let (slices, l) = (model.slices.as_ref()?, &model.layout);
+        model.tilt.as_ref()?;
+        let [x, y] = model.load.full;
+        let place = model.defects.first().map_or(Place::Still(y.atan2(x)), |d| {
+            let (first, last) = d.shape.arc();
+            let middle = d.center + 0.5 * (first + last) / d.radius;
+            match d.surface {
+                Surface::OuterRaceway => Place::Still(middle),
+                Surface::InnerRaceway => Place::OnInner(middle),
+                Surface::Roller(k) => Place::Through(l.slot(d.row, k)),
+            }
+        });
+        let strips = slices.count.min(STRIPS);
+        Some(Self {
+            place,
+            rows: l.rows,
+            strips,
+            values: vec![0.0; frames * (RINGS + l.rows * (ROLLER + 2 * strips))],
+            line: vec![0.0; slices.count],
+            cover: Cover::new(slices.count),
+        })
+    }
+
+    fn row_size(&self) -> usize {
+        ROLLER + 2 * self.strips
+    }
+
+    fn frame_size(&self) -> usize {
+        RINGS + self.rows * self.row_size()
+    }
+
+    /// Takes an instant as frame `at` of the ring buffer.
+    pub(super) fn take(&mut self, at: usize, f: &Frame) {
+        let l = &f.model.layout;
+        let angle = match self.place {
+            Place::Still(angle) => angle,
+            Place::OnInner(angle) => angle + f.model.rotation.at(f.t).1,
+            Place::Through(slot) => f.y[l.theta() + slot],
+        };
+        let (sin, cos) = angle.sin_cos();
+        let slope = |tau: usize| (cos * f.y[tau] + sin * f.y[tau + 1]) as f32;
+        let first = at * self.frame_size();
+        self.values[first] = slope(l.inner_tilt());
+        self.values[first + 1] = slope(l.outer_tilt());
+        for row in 0..self.rows {
+            let near = |slot: &usize| cos * f.ws.cos[*slot] + sin * f.ws.sin[*slot];
+            let slots = (0..l.rollers_per_row).map(|roller| l.slot(row, roller));
+            let Some(slot) = slots.max_by(|a, b| near(a).total_cmp(&near(b))) else {
+                continue;
+            };
+            let start = first + RINGS + row * self.row_size();
+            self.values[start] = wrap(f.y[l.theta() + slot] - angle) as f32;
+            self.values[start + 1] = f.y[l.beta() + slot] as f32;
+            for side in SIDES {
+                self.line_load(f, slot, side);
+                let strips = self.strips;
+                let to = &mut self.values[start + ROLLER + side as usize * strips..][..strips];
+                let count = self.line.len();
+                for (k, to) in to.iter_mut().enumerate() {
+                    let part = &self.line[k * count / strips..(k + 1) * count / strips];
+                    *to = (part.iter().sum::<f64>() / part.len() as f64) as f32;
+                }
+            }
+        }
+    }
+
+    fn line_load(&mut self, f: &Frame, slot: usize, side: Side) {
+        let Some(slices) = &f.model.slices else {
+            return;
+        };
+        let contacts = &f.ws.contacts[side as usize];
+        let at = Approach {
+            deformation: contacts.deformation[slot],
+            tilt: contacts.tilt[slot],
+            rate: contacts.approach_rate[slot],
+            tilt_rate: contacts.tilt_rate[slot],
+        };
+        let l = &f.model.layout;
+        let angles = Angles {
+            orbit: f.y[l.theta() + slot],
+            spin: f.y[l.phi() + slot],
+            ring: f.model.rotation.at(f.t).1,
+        };
+        let covered = contacts.on_damage[slot]
+            && cover_slices(
+                f.model.defects_of(slot, side),
+                &angles,
+                side,
+                &mut self.cover,
+            );
+        let cover = covered.then_some(&self.cover);
+        slices.line_load(f.model.contact(side), &at, cover, &mut self.line);
+    }
+
+    /// Slopes of the inner and the outer ring's axis in the plane of the section, of a place in the ring buffer, rad.
+    pub(super) fn rings(&self, at: usize) -> [f32; 2] {
+        let first = at * self.frame_size();
+        [self.values[first], self.values[first + 1]]
+    }
+
+    /// A row of the same.
+    pub(super) fn row(&self, at: usize, row: usize) -> SectionRow<'_> {
+        let start = at * self.frame_size() + RINGS + row * self.row_size();
+        let loads = &self.values[start + ROLLER..][..2 * self.strips];
+        let (inner, outer) = loads.split_at(self.strips);
+        SectionRow {
+            away: self.values[start],
+            tilt: self.values[start + 1],
+            line_loads: [inner, outer],
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! The crate's tests in one program, because each program links the library anew; `allocations.rs` and `damage_allocations.rs` need processes of their own.
+
+mod accuracy;
+mod architecture;
+mod balls;
+mod common;
+mod conservation;
+mod convergence;
+mod damage;
+mod document;
+mod examples;
+mod film;
+mod kernels;
+mod kinematics;
+mod lamina;
+mod literature;
+mod observe;
+mod plausibility;
+mod sensor;
+mod shapes;
+mod signal_on_runs;
+mod statics;
+mod symmetry;
+mod tilting;
+mod trajectories;
+mod work;

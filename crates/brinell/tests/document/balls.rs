@@ -1,0 +1,156 @@
+//! Scenario files of ball bearings: which keys they have, which are refused, what is assumed.
+
+use super::{good, report, with};
+use brinell::document::{Loaded, read};
+use brinell::model::Model;
+use brinell::scenario::{Element, Law, RollerPath};
+
+/// The drive end of the Case Western rig, with nothing that has a default.
+const BARE: &str = "\
+[bearing]
+element = \"ball\"
+inner_raceway_diameter_mm = 31.1
+outer_raceway_diameter_mm = 46.98
+roller_diameter_mm = 7.94
+rollers_per_row = 9
+[operation]
+speed_rpm = 1797.0
+load_n = [0.0, -200.0]
+[[defects]]
+on = \"roller\"
+roller = 3
+row = 1
+depth_um = 280.0
+center_deg = 0.0
+shape = { circle = { diameter_mm = 0.5 } }
+";
+
+fn refused(overrides: &[(&str, &str)], key: &str, words: &str) {
+    let problems = with(BARE, overrides).expect_err(key);
+    let found = problems
+        .iter()
+        .any(|p| p.key == key && p.to_string().contains(words));
+    assert!(found, "{key}, {words}: {}", report(&problems));
+}
+
+#[test]
+fn regress_defaults_of_balls() {
+    let loaded = good(BARE);
+    let s = &loaded.scenario;
+    assert_eq!(s.bearing.element, Element::Ball);
+    assert_eq!(s.bearing.inner_groove_conformity, Some(0.52));
+    assert_eq!(s.bearing.outer_groove_conformity, Some(0.52));
+    assert_eq!(s.contact.youngs_modulus_gpa, Some(206.0));
+    assert_eq!(s.contact.poisson_ratio, Some(0.3));
+    assert_eq!(
+        (s.contact.law, s.contact.roller_path),
+        (Law::Sliced, RollerPath::Envelope)
+    );
+    assert_eq!(s.contact.exponent, 1.5);
+    assert!((s.contact.inner_stiffness / 2.53251e10 - 1.0).abs() < 1e-5);
+    assert!((s.contact.outer_stiffness / 2.68371e10 - 1.0).abs() < 1e-5);
+    assert!((s.bearing.roller_mass_kg / 0.002057 - 1.0).abs() < 1e-3);
+    let assumed = |key: &str| loaded.provenance_of(key).is_some_and(|p| p.assumed);
+    assert!(assumed("bearing.inner_groove_conformity") && assumed("contact.inner_stiffness"));
+    assert!(loaded.provenance_of("bearing.roller_length_mm").is_none());
+    assert!(loaded.provenance_of("contact.exponent").is_none());
+}
+
+#[test]
+fn regress_what_balls_do_not_have_is_refused() {
+    for (key, value) in [
+        ("bearing.profile", "logarithmic"),
+        ("bearing.width_mm", "15"),
+        ("bearing.row_spacing_mm", "0"),
+        ("operation.load_offset_mm", "1"),
+        ("support.inner_tilt_stiffness_nm_per_rad", "1e3"),
+        ("support.outer_tilt_damping_nms_per_rad", "1"),
+    ] {
+        let words = "has a meaning only where bearing.element is \"roller\"";
+        refused(&[(key, value)], key, words);
+    }
+    refused(
+        &[("simulation.model", "tilting")],
+        "simulation.model",
+        "no ends that could tilt",
+    );
+    let no_meaning = "has a meaning only where bearing.element is \"roller\"";
+    refused(
+        &[("bearing.roller_length_mm", "7.0")],
+        "bearing.roller_length_mm",
+        no_meaning,
+    );
+    refused(
+        &[("contact.exponent", "1.5")],
+        "contact.exponent",
+        no_meaning,
+    );
+    refused(&[("contact.law", "ecl")], "contact.law", "sliced");
+    refused(
+        &[("bearing.inner_groove_conformity", "0.5")],
+        "bearing.inner_groove_conformity",
+        "> 0.5",
+    );
+    refused(
+        &[("bearing.preset", "NU206")],
+        "bearing.element",
+        "NU206 is a roller bearing",
+    );
+    let balls = with(super::BARE, &[("bearing.outer_groove_conformity", "0.53")]).unwrap_err();
+    assert!(report(&balls).contains("has a meaning only where bearing.element is \"ball\""));
+    let balls = with(super::BARE, &[("contact.youngs_modulus_gpa", "210")]).unwrap_err();
+    assert!(report(&balls).contains("has a meaning only where bearing.element is \"ball\""));
+}
+
+#[test]
+fn prop_a_written_ball_bearing_checks_the_same() {
+    for overrides in [
+        &[][..],
+        &[("simulation.model", "lumped")],
+        &[
+            ("contact.inner_stiffness", "2e10"),
+            ("contact.roller_path", "point"),
+        ],
+        &[
+            ("bearing.clearance_class", "C3"),
+            ("bearing.bore_diameter_mm", "25"),
+        ],
+    ] {
+        let loaded = with(BARE, overrides).unwrap_or_else(|p| panic!("{}", report(&p)));
+        let again: Loaded = read(&loaded.to_toml(), &[])
+            .unwrap_or_else(|p| panic!("{}\n{}", loaded.to_toml(), report(&p)));
+        assert_eq!(again.scenario, loaded.scenario);
+        assert_eq!(again.warnings, loaded.warnings);
+        let assumed = |l: &Loaded| -> Vec<String> {
+            let all = l.provenance.iter().filter(|p| p.assumed);
+            all.map(|p| p.key.clone()).collect()
+        };
+        assert_eq!(assumed(&again), assumed(&loaded));
+        assert_eq!(again.scenario.problems(), loaded.warnings);
+        Model::new(&again.scenario).unwrap();
+    }
+    let class = with(
+        BARE,
+        &[
+            ("bearing.clearance_class", "C3"),
+            ("bearing.bore_diameter_mm", "25"),
+        ],
+    );
+    // 13 to 28 um on the diameter.
+    assert_eq!(class.unwrap().scenario.bearing.radial_clearance_um, 10.25);
+}
+
+#[test]
+fn prop_damage_may_be_wider_than_the_ball_but_not_than_any_groove() {
+    let wide = |mm: &str| {
+        with(
+            BARE,
+            &[(
+                "defects.0.shape",
+                &format!("{{ rectangle = {{ length_mm = 1.0, width_mm = {mm} }} }}"),
+            )],
+        )
+    };
+    assert!(wide("10").is_ok());
+    assert!(report(&wide("16").unwrap_err()).contains("wider than any groove"));
+}

@@ -1,0 +1,95 @@
+"""Damage off the middle, with tilting and in the plane: the table of docs/src/one-sided.md.
+
+    python3 validation/one_sided/one_sided.py BRINELL
+
+Runs variants of examples/one-sided.toml, 1 s each, and prints what differs: acceleration of the outer ring, line of BPFO, tilt of the inner
+ring against the outer one, and the share of the load that row 1 carries. Needs NumPy.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "one-sided.toml"
+FULL = "defects.0.shape={ rectangle = { length_mm = 3.0, width_mm = 6.0 } }"
+CENTRED = "defects.0.axial_offset_mm=0.0"
+BOTH = [
+    "defects.1.on=outer-raceway",
+    "defects.1.row=2",
+    "defects.1.center_deg=0.0",
+    "defects.1.depth_um=20.0",
+    "defects.1.shape={ rectangle = { length_mm = 3.0, width_mm = 6.0 } }",
+]
+CASES = {
+    "healthy": None,
+    "3 mm in the middle of row 1": [CENTRED],
+    "3 mm at one side of row 1": [],
+    "whole width of row 1": [CENTRED, FULL],
+    "whole width of both rows": [CENTRED, FULL, *BOTH],
+}
+
+
+def run(brinell, folder, settings, model):
+    text = EXAMPLE.read_text()
+    if settings is None:
+        text = text[: text.index("[[defects]]")] + text[text.index("[simulation]") :]
+        settings = []
+    scenario = folder / "scenario.toml"
+    scenario.write_text(text)
+    record = ["inner_tilt_*", "outer_tilt_*", "contact*_outer_force", "roller*_orbit"]
+    command = [brinell, "run", scenario, "-o", folder / "out", "--overwrite", "--no-report", "--quiet", "--signals", "csv"]
+    sets = [*settings, f"simulation.model={model}", "simulation.duration_s=1.0"]
+    if model == "tilting":
+        sets.append(f"simulation.record={json.dumps([*record, 'sensor_*'])}")
+    else:
+        sets.append(f"simulation.record={json.dumps([*record[2:], 'sensor_*'])}")
+    for setting in sets:
+        command += ["--set", setting]
+    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+    summary = json.loads((folder / "out" / "summary.json").read_text())
+    path = folder / "out" / "signals.csv"
+    with path.open() as file:
+        names = file.readline().strip().split(",")
+    values = np.loadtxt(path, delimiter=",", skiprows=1)
+    return summary, dict(zip(names, values.T))
+
+
+def row_share(signals):
+    """Mean share of the load that row 1 carries, along X."""
+    along = {1: 0.0, 2: 0.0}
+    late = signals["t"] > 0.1
+    for name, force in signals.items():
+        if name.startswith("contact") and name.endswith("_outer_force"):
+            orbit = signals[name.replace("contact", "roller").replace("_outer_force", "_orbit")]
+            along[int(name[7])] += np.mean((force * np.cos(orbit))[late])
+    return along[1] / (along[1] + along[2])
+
+
+def main(brinell):
+    print("| damage | model | RMS ax, m/s^2 | RMS ay, m/s^2 | kurtosis ax | inner from outer tilt, urad, RMS | row 1's share of the load |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
+    for name, settings in CASES.items():
+        for model in ("full", "tilting"):
+            with tempfile.TemporaryDirectory() as folder:
+                summary, signals = run(brinell, Path(folder), settings, model)
+            late = signals["t"] > 0.1
+            cells = []
+            for axis in "xy":
+                rms = summary["indicators"]["channels"][f"sensor_a{axis}"]["anti-aliased"]["rms"]
+                cells.append(f"{rms['value']:.3g} ({rms['low']:.3g} to {rms['high']:.3g})")
+            cells.append(f"{summary['indicators']['channels']['sensor_ax']['anti-aliased']['kurtosis']['value']:.3g}")
+            if model == "tilting":
+                relative = [signals[f"inner_tilt_{a}"] - signals[f"outer_tilt_{a}"] for a in "xy"]
+                cells.append(f"{1e6 * np.sqrt(np.mean([r[late] ** 2 for r in relative]) * 2):.3g}")
+            else:
+                cells.append("-")
+            cells.append(f"{100 * row_share(signals):.1f} %")
+            print(f"| {name} | {model} | " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
