@@ -111,6 +111,10 @@ pub(crate) struct RunArgs {
     /// Also write each picture of the report into FOLDER/plots, as files of these formats
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these instants (s); of scenarios with
+    /// simulation.model = "tilting" or a bearing.profile
+    #[arg(long, value_delimiter = ',', value_name = "T")]
+    pub(crate) line_loads: Vec<f64>,
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,

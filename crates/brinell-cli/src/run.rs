@@ -1,5 +1,6 @@
 //! `brinell run`.
 
+mod line_loads;
 mod many;
 
 use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
@@ -108,6 +109,9 @@ fn earlier(
 ) -> Result<Earlier, Failure> {
     let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
     writes.push(SUMMARY);
+    if !args.line_loads.is_empty() {
+        writes.push(line_loads::FILE);
+    }
     if !args.no_report {
         writes.push(REPORT);
     }
@@ -135,6 +139,8 @@ fn execute(
     progress: Progress,
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
+    let end = loaded.scenario.simulation.duration_s;
+    let loads = line_loads::asked(args, &simulation, end)?;
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
@@ -144,12 +150,20 @@ fn execute(
 
     let mut shown = Shown::new(progress, stop);
     let mut recorder = Recorder::new(&simulation, writers, &mut shown);
-    let finished = finish(loaded.scenario.clone(), simulation, &mut recorder);
+    let mut reading = line_loads::Reading {
+        inner: &mut recorder,
+        loads,
+    };
+    let finished = finish(loaded.scenario.clone(), simulation, &mut reading);
+    let loads = reading.loads;
     let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
     drop(shown);
     let recording = recording?;
     ready.extend(recording.files);
+    if let Some(loads) = &loads {
+        ready.push(line_loads::ready(loads, folder)?);
+    }
     let RunResult {
         simulation,
         outcome,

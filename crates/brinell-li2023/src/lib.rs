@@ -15,6 +15,7 @@ mod curves;
 mod error;
 mod figures;
 mod judge;
+mod models;
 mod numbers;
 mod outcome;
 mod outline;

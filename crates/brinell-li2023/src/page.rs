@@ -95,6 +95,7 @@ pub(crate) fn study(
     if let Some(sensitivity) = &reproduction.sensitivity {
         chapters.extend(sensitivity.chapters());
     }
+    chapters.extend(reproduction.models.as_ref().map(|models| models.chapter()));
     let mut rules: Vec<StudyPiece> = RULES.map(|w| StudyPiece::Words(w.into())).to_vec();
     rules.push(StudyPiece::Table(runs(request)));
     rules.push(StudyPiece::Table(scenario()));

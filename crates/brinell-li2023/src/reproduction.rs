@@ -1,6 +1,7 @@
 //! A reproduction from its request to its files: which runs it needs, what they decide, and what is written of that.
 
 use crate::curve_files::{CurveFiles, make_folder};
+use crate::models::{OtherRuns, OtherVerdicts};
 use crate::outcome::Outcome;
 use crate::points::numbers;
 use crate::sensitivity::{Plan, Sensitivity};
@@ -23,6 +24,7 @@ pub struct Request {
     /// Whether it is all of section 4.
     whole: bool,
     plan: Option<Plan>,
+    models: Option<OtherRuns>,
 }
 
 impl Request {
@@ -50,6 +52,7 @@ impl Request {
             experiments,
             length,
             plan: None,
+            models: None,
         })
     }
 
@@ -60,6 +63,18 @@ impl Request {
     pub fn with_sensitivity(self, quick: bool) -> Result<Self, Error> {
         Ok(Self {
             plan: Some(Plan::new(quick)?),
+            ..self
+        })
+    }
+
+    /// The same with every case also in slices and with tilting, the verdicts side by side.
+    ///
+    /// # Errors
+    /// Where a case is no scenario of those models.
+    pub fn with_tilting(self) -> Result<Self, Error> {
+        let cases: Vec<_> = self.points.iter().map(|point| point.case).collect();
+        Ok(Self {
+            models: Some(OtherRuns::new(&cases, self.length)?),
             ..self
         })
     }
@@ -79,6 +94,7 @@ pub struct Reproduction {
     pub(crate) request: Request,
     pub(crate) numbers: Numbers,
     pub(crate) sensitivity: Option<Sensitivity>,
+    pub(crate) models: Option<OtherVerdicts>,
     /// The claims that it decides, in the paper's order.
     pub outcomes: Vec<Outcome>,
     /// Case and reason of each run that failed.
@@ -95,7 +111,9 @@ impl Reproduction {
     pub fn run<R: Runs>(request: Request, runs: &mut R) -> Result<Self, R::Error> {
         let plan = request.plan.as_ref();
         let varied = plan.into_iter().flat_map(Plan::points);
-        let points: Vec<&Point> = request.points.iter().chain(varied).collect();
+        let others = request.models.iter().flat_map(OtherRuns::points);
+        let points = request.points.iter().chain(varied).chain(others);
+        let points: Vec<&Point> = points.collect();
         let mut flow = runs.make(&points, Stage::Cases)?;
         let mut sensitivity = None;
         if let (Some(plan), ControlFlow::Continue(())) = (plan, flow) {
@@ -134,8 +152,11 @@ impl Reproduction {
             let reason = row.result.as_ref().err()?;
             Some((point.case.label.to_owned(), reason.clone()))
         });
+        let outcomes: Vec<Outcome> = outcomes.collect();
+        let models = request.models.as_ref();
         Self {
-            outcomes: outcomes.collect(),
+            models: models.map(|others| others.verdicts(&outcomes, runs)),
+            outcomes,
             failures: failures.collect(),
             request,
             numbers,
@@ -147,6 +168,11 @@ impl Reproduction {
     /// What the search for a set of assumptions found, in a sentence or two, where there was one.
     pub fn search_result(&self) -> Option<String> {
         self.sensitivity.as_ref().map(Sensitivity::found)
+    }
+
+    /// What tilting changes, in a sentence, where that was asked for.
+    pub fn tilting_result(&self) -> Option<String> {
+        self.models.as_ref().map(OtherVerdicts::found)
     }
 
     /// The page. `plan` gives the view from above of a scenario's first defect.
@@ -162,7 +188,7 @@ impl Reproduction {
         page::study(self, curves, plan)
     }
 
-    /// Writes `claims.csv` and `claims.json` into a folder, which exists.
+    /// Writes `claims.csv`, `claims.json` and, with other models, `models.csv` into a folder, which exists.
     ///
     /// # Errors
     /// Where a file cannot be written.
@@ -174,7 +200,11 @@ impl Reproduction {
         if let Some(sensitivity) = &self.sensitivity {
             header["sensitivity"] = sensitivity.json();
         }
-        outcome::write(&self.outcomes, &header, folder)
+        let mut written = outcome::write(&self.outcomes, &header, folder)?;
+        if let Some(models) = &self.models {
+            written.push(models.write(folder)?);
+        }
+        Ok(written)
     }
 
     /// Writes `reproduction.md`, the book's chapter, and its pictures into the folder `book`.

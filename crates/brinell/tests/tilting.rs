@@ -1,10 +1,13 @@
 //! Rollers and rings that tilt, and profiles: sections 15 and 16.
 
 use crate::common::cases::{case, random_state, tilting_offset};
+use brinell::channel::Frame;
 use brinell::model::{Model, Workspace};
+use brinell::observe::line_load::LineLoads;
 use brinell::scenario::{
     Defect, EdgeReaction, LoadOn, ModelKind, RollerPath, RollerProfile, Scenario, Shape, Start,
 };
+use brinell::simulate::{Observer, Simulation};
 use brinell::slices::drop;
 use brinell::statics::{Problem, solve};
 
@@ -261,4 +264,44 @@ fn prop_damage_in_the_middle_of_one_row_tilts_nothing() {
             assert!(a[k].abs() < 1e-3, "{}: {} rad/s^2", l.name(k), a[k]);
         }
     }
+}
+
+/// Reads line loads and the forces of the same contacts.
+struct Loads {
+    lines: LineLoads,
+    forces: Vec<f64>,
+}
+
+impl Observer for Loads {
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        let before = self.lines.rows.len();
+        self.lines.take(index, frame);
+        if self.lines.rows.len() > before {
+            let all = frame
+                .ws
+                .contacts
+                .iter()
+                .map(|c| c.force.iter().sum::<f64>());
+            self.forces.push(all.sum());
+        }
+    }
+}
+
+#[test]
+fn prop_line_loads_add_up_to_the_forces() {
+    let mut s = edge();
+    s.simulation.duration_s = 0.012;
+    let simulation = Simulation::new(&s).unwrap();
+    let instants = [0.008, 0.01, 0.0115];
+    let lines = LineLoads::new(simulation.model(), &instants, 25600.0).unwrap();
+    let mut loads = Loads {
+        lines,
+        forces: Vec::new(),
+    };
+    simulation.run(&mut loads);
+    assert_eq!(loads.forces.len(), 3);
+    let width = 6e-3 / 32.0;
+    let sum: f64 = loads.lines.rows.iter().map(|r| r.line_load * width).sum();
+    let forces: f64 = loads.forces.iter().sum();
+    assert!((sum / forces - 1.0).abs() < 1e-9, "{sum} N and {forces} N");
 }

@@ -2,7 +2,7 @@
 
 use crate::args::PlotFormat;
 use brinell_li2023::FIGURES;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -10,6 +10,7 @@ use std::path::PathBuf;
 #[command(after_help = "Files in the folder:\n  \
     reproduce.html       the claims and the figures; one file, no network\n  \
     claims.csv, claims.json   each statement with its verdict, numbers and intervals\n  \
+    models.csv           with --model: each claim's verdict by each model\n  \
     plots/               with --plots\n  \
     journal.jsonl        finished runs, each on the disk when it is done; curves/ beside it holds what pictures need of them\n\n\
     The same command again resumes where it stopped; runs of the same scenario and the same version of brinell are not run again, so \
@@ -30,6 +31,9 @@ pub(crate) struct ReproduceArgs {
     /// Also vary what the paper does not state, one assumption at a time, and search over 1000 sets of assumptions for those that agree best
     #[arg(long, conflicts_with = "figure")]
     pub(crate) sensitivity: bool,
+    /// Also make every case with this model, and in slices, and show the verdicts side by side
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: Option<OtherModel>,
     /// Turns of the shaft whose statistics count, of every run [default: 240, with --quick 40]
     #[arg(long, value_name = "N", conflicts_with = "quick", value_parser = clap::value_parser!(u32).range(3..=100_000))]
     pub(crate) turns: Option<u32>,
@@ -48,6 +52,13 @@ pub(crate) struct ReproduceArgs {
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+/// Models beside the paper's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OtherModel {
+    /// Rollers and rings tilt
+    Tilting,
 }
 
 fn figure(text: &str) -> Result<u32, String> {

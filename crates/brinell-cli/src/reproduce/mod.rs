@@ -9,6 +9,7 @@ use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
 use crate::say::{complain, say, short};
 use crate::sweep::plural;
+use args::OtherModel;
 pub(crate) use args::ReproduceArgs;
 use brinell::result::{Quantity, RunResult};
 use brinell::scenario::Scenario;
@@ -40,6 +41,9 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     let mut request = Request::new(&args.figure, args.turns.map_or(usual, Length::Turns))?;
     if args.sensitivity {
         request = request.with_sensitivity(args.quick)?;
+    }
+    if args.model == Some(OtherModel::Tilting) {
+        request = request.with_tilting()?;
     }
     let place = Place {
         kind: Results::Reproduction,
@@ -233,7 +237,8 @@ fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: In
     for outcome in &reproduction.outcomes {
         say!("  {:<15} {}", outcome.words(), outcome.claim.id);
     }
-    if let Some(found) = reproduction.search_result() {
+    let found = [reproduction.search_result(), reproduction.tilting_result()];
+    for found in found.into_iter().flatten() {
         say!("{found}");
     }
     // One line for all pictures of a folder.

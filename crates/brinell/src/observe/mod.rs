@@ -1,5 +1,6 @@
 //! What is kept of a run when its rows are gone: indicators, spectra, load zone, slip, passes, motion. Bounded memory, whatever the duration.
 
+pub mod line_load;
 pub mod load_zone;
 pub mod motion;
 pub mod orbit;

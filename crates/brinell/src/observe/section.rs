@@ -1,10 +1,10 @@
 //! A tilting bearing seen from the side: a section along its axis, through the damage or through the middle of the load zone.
 
+use super::line_load::LineLoad;
 use crate::channel::Frame;
-use crate::defect::{Angles, SIDES, Side, cover_slices, wrap};
+use crate::defect::{SIDES, wrap};
 use crate::model::Model;
 use crate::scenario::Surface;
-use crate::slices::{Approach, Cover};
 
 /// Line loads kept across a roller, at most.
 #[doc(hidden)]
@@ -39,8 +39,7 @@ pub struct Sections {
     rows: usize,
     strips: usize,
     values: Vec<f32>,
-    line: Vec<f64>,
-    cover: Cover,
+    reader: LineLoad,
 }
 
 /// Slopes of the rings, and a row's two numbers before its line loads.
@@ -68,8 +67,7 @@ impl Sections {
             rows: l.rows,
             strips,
             values: vec![0.0; frames * (RINGS + l.rows * (ROLLER + 2 * strips))],
-            line: vec![0.0; slices.count],
-            cover: Cover::new(slices.count),
+            reader: LineLoad::new(slices),
         })
     }
 
@@ -104,44 +102,15 @@ impl Sections {
             self.values[start] = wrap(f.y[l.theta() + slot] - angle) as f32;
             self.values[start + 1] = f.y[l.beta() + slot] as f32;
             for side in SIDES {
-                self.line_load(f, slot, side);
-                let strips = self.strips;
+                let line = self.reader.of(f, slot, side);
+                let (strips, count) = (self.strips, line.len());
                 let to = &mut self.values[start + ROLLER + side as usize * strips..][..strips];
-                let count = self.line.len();
                 for (k, to) in to.iter_mut().enumerate() {
-                    let part = &self.line[k * count / strips..(k + 1) * count / strips];
+                    let part = &line[k * count / strips..(k + 1) * count / strips];
                     *to = (part.iter().sum::<f64>() / part.len() as f64) as f32;
                 }
             }
         }
-    }
-
-    fn line_load(&mut self, f: &Frame, slot: usize, side: Side) {
-        let Some(slices) = &f.model.slices else {
-            return;
-        };
-        let contacts = &f.ws.contacts[side as usize];
-        let at = Approach {
-            deformation: contacts.deformation[slot],
-            tilt: contacts.tilt[slot],
-            rate: contacts.approach_rate[slot],
-            tilt_rate: contacts.tilt_rate[slot],
-        };
-        let l = &f.model.layout;
-        let angles = Angles {
-            orbit: f.y[l.theta() + slot],
-            spin: f.y[l.phi() + slot],
-            ring: f.model.rotation.at(f.t).1,
-        };
-        let covered = contacts.on_damage[slot]
-            && cover_slices(
-                f.model.defects_of(slot, side),
-                &angles,
-                side,
-                &mut self.cover,
-            );
-        let cover = covered.then_some(&self.cover);
-        slices.line_load(f.model.contact(side), &at, cover, &mut self.line);
     }
 
     /// Slopes of the inner and the outer ring's axis in the plane of the section, of a place in the ring buffer, rad.

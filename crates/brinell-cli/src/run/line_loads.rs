@@ -1,0 +1,90 @@
+//! `brinell run --line-loads`: the load along the rollers at chosen instants, as a table.
+
+use crate::args::RunArgs;
+use crate::failure::Failure;
+use brinell::channel::Frame;
+use brinell::defect::Side;
+use brinell::observe::line_load::{LineLoadRow, LineLoads};
+use brinell::simulate::{Observer, Simulation, SolverWork};
+use brinell_io::{Cells, Column, Complete, Table};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// File in the folder of a run.
+pub(super) const FILE: &str = "line_loads.csv";
+
+/// What the instants asked for are read with; `None` where none are.
+pub(super) fn asked(
+    args: &RunArgs,
+    simulation: &Simulation,
+    end: f64,
+) -> Result<Option<LineLoads>, Failure> {
+    let instants = &args.line_loads;
+    if instants.is_empty() {
+        return Ok(None);
+    }
+    if let Some(t) = instants.iter().find(|t| !(0.0..=end).contains(*t)) {
+        return Err(Failure::Usage(format!(
+            "--line-loads {t}: the run goes from 0 to {end} s"
+        )));
+    }
+    match LineLoads::new(simulation.model(), instants, simulation.sample_rate()) {
+        None => Err(Failure::Usage(
+            "--line-loads: contacts have no slices of their own here; they have with simulation.model = \"tilting\" or a bearing.profile".into(),
+        )),
+        some => Ok(some),
+    }
+}
+
+/// An observer that reads line loads besides.
+pub(super) struct Reading<'a, O> {
+    pub(super) inner: &'a mut O,
+    pub(super) loads: Option<LineLoads>,
+}
+
+impl<O: Observer> Observer for Reading<'_, O> {
+    fn step(&mut self, frame: &Frame) {
+        self.inner.step(frame);
+    }
+
+    fn sample(&mut self, index: u64, frame: &Frame) {
+        self.inner.sample(index, frame);
+        if let Some(loads) = &mut self.loads {
+            loads.take(index, frame);
+        }
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        self.inner.row(index, row, filtered)
+    }
+
+    fn progress(&mut self, t: f64, work: &SolverWork) -> ControlFlow<()> {
+        self.inner.progress(t, work)
+    }
+}
+
+/// The table as a file of `folder`, up to its name.
+pub(super) fn ready(loads: &LineLoads, folder: &Path) -> Result<Complete, Failure> {
+    let rows = &loads.rows;
+    let numbers = |of: &dyn Fn(&LineLoadRow) -> f64| {
+        Cells::Numbers(rows.iter().map(|row| Some(of(row))).collect())
+    };
+    let side = |row: &LineLoadRow| match row.side {
+        Side::Inner => Some("inner".to_owned()),
+        Side::Outer => Some("outer".to_owned()),
+    };
+    let mut table = Table::default();
+    let mut push = |name, unit, what, cells| table.push(Column::new(name, unit, what), cells);
+    push("t", "s", "time", numbers(&|row| row.t));
+    let row = numbers(&|row| row.roller.0 as f64);
+    push("row", "", "row, from 1", row);
+    let roller = numbers(&|row| row.roller.1 as f64);
+    push("roller", "", "roller, from 1", roller);
+    let sides = Cells::Words(rows.iter().map(side).collect());
+    push("raceway", "", "inner or outer", sides);
+    let z = numbers(&|row| row.z);
+    push("z", "m", "middle of the slice along the roller", z);
+    let load = numbers(&|row| row.line_load);
+    push("line_load", "N/m", "load along the roller", load);
+    Ok(table.prepare_csv(folder.join(FILE))?)
+}

@@ -1,0 +1,125 @@
+//! The load along rollers: q(z) of contacts at an instant, and of all loaded contacts at chosen ones.
+
+use crate::channel::Frame;
+use crate::defect::{Angles, SIDES, Side, cover_slices};
+use crate::model::Model;
+use crate::slices::{Approach, Cover, Slices};
+
+/// Reads line loads off frames.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineLoad {
+    values: Vec<f64>,
+    cover: Cover,
+}
+
+impl LineLoad {
+    /// For contacts in such slices.
+    pub fn new(slices: &Slices) -> Self {
+        Self {
+            values: vec![0.0; slices.count],
+            cover: Cover::new(slices.count),
+        }
+    }
+
+    /// Line load of each slice of one contact, N/m, with each slice's own damping; empty where contacts have no slices of their own.
+    pub fn of(&mut self, f: &Frame, slot: usize, side: Side) -> &[f64] {
+        let Some(slices) = &f.model.slices else {
+            return &[];
+        };
+        let contacts = &f.ws.contacts[side as usize];
+        let tilting = |of: &[f64]| of.get(slot).copied().unwrap_or_default();
+        let at = Approach {
+            deformation: contacts.deformation[slot],
+            tilt: tilting(&contacts.tilt),
+            rate: contacts.approach_rate[slot],
+            tilt_rate: tilting(&contacts.tilt_rate),
+        };
+        let l = &f.model.layout;
+        let angles = Angles {
+            orbit: f.y[l.theta() + slot],
+            spin: f.y[l.phi() + slot],
+            ring: f.model.rotation.at(f.t).1,
+        };
+        let covered = contacts.on_damage[slot]
+            && cover_slices(
+                f.model.defects_of(slot, side),
+                &angles,
+                side,
+                &mut self.cover,
+            );
+        let cover = covered.then_some(&self.cover);
+        slices.line_load(f.model.contact(side), &at, cover, &mut self.values);
+        &self.values
+    }
+}
+
+/// Line loads of every loaded contact at the samples next to chosen instants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineLoads {
+    /// Chosen samples, rising.
+    samples: Vec<u64>,
+    reader: LineLoad,
+    /// What was read, in time's order.
+    pub rows: Vec<LineLoadRow>,
+}
+
+/// One slice of one contact at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineLoadRow {
+    /// s.
+    pub t: f64,
+    /// Row and roller, from 1.
+    pub roller: (usize, usize),
+    /// Raceway.
+    pub side: Side,
+    /// Middle of the slice, m.
+    pub z: f64,
+    /// N/m.
+    pub line_load: f64,
+}
+
+impl LineLoads {
+    /// At `instants` (s) of a run at `sample_rate` (Hz); `None` where contacts have no slices of their own.
+    pub fn new(model: &Model, instants: &[f64], sample_rate: f64) -> Option<Self> {
+        let mut samples: Vec<u64> = instants
+            .iter()
+            .map(|t| (t * sample_rate).round() as u64)
+            .collect();
+        samples.sort_unstable();
+        samples.dedup();
+        Some(Self {
+            samples,
+            reader: LineLoad::new(model.slices.as_ref()?),
+            rows: Vec::new(),
+        })
+    }
+
+    /// Takes one sample instant.
+    pub fn take(&mut self, index: u64, f: &Frame) {
+        let Some(slices) = &f.model.slices else {
+            return;
+        };
+        if self.samples.binary_search(&index).is_err() {
+            return;
+        }
+        let l = &f.model.layout;
+        for row in 0..l.rows {
+            for roller in 0..l.rollers_per_row {
+                for side in SIDES {
+                    let loads = self.reader.of(f, l.slot(row, roller), side);
+                    if loads.iter().all(|q| *q == 0.0) {
+                        continue;
+                    }
+                    let of = |(z, line_load): (&f64, &f64)| LineLoadRow {
+                        t: f.t,
+                        roller: (row + 1, roller + 1),
+                        side,
+                        z: *z,
+                        line_load: *line_load,
+                    };
+                    self.rows.extend(slices.z.iter().zip(loads).map(of));
+                }
+            }
+        }
+    }
+}
