@@ -10,7 +10,7 @@ use crate::defect::{Angles, SIDES, Side, cover_slices, relative_radius, wrap};
 use crate::error::Error;
 use crate::model::Model;
 use crate::pressure::line_pressure;
-use crate::scenario::{Bearing, Law, Scenario, Surface};
+use crate::scenario::{Bearing, Element, Law, Scenario, Surface};
 use crate::slices::{Approach, Cover, Slices};
 use crate::statics::{Balance, NoBalance, Problem, solve};
 pub use life::{lamina_ratings, reference_life, stress_riser};
