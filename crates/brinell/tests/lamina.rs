@@ -90,7 +90,7 @@ fn xval_iso_16281_by_another_program() {
 
 #[test]
 fn lit_geometry_factors_of_iso_281() {
-    // ISO 281, table of f_c for radial roller bearings, by d cos(alpha)/D_m; b_m = 1.1.
+    // ISO 281, table of f_c for radial roller bearings, by d cos(alpha)/D_m; b_m = 1.1. Quoted at second hand.
     let s = iso(1.0, 0.0, 0.0, RollerProfile::Straight);
     for (gamma, printed) in [
         (0.01, 52.1),
@@ -111,7 +111,7 @@ fn lit_geometry_factors_of_iso_281() {
 
 #[test]
 fn lit_makers_dynamic_ratings_are_a_seventh_above_iso_281() {
-    // SKF General catalogue: NU 205 ECP 32.5 kN, NU 206 ECP 44 kN; a bearing's effective roller length here is from its C0.
+    // SKF, at second hand: NU 205 ECP 32.5 kN, NU 206 ECP 44 kN; a bearing's effective roller length here is from its C0.
     for (name, printed) in [("NU205", 32.5e3), ("NU206", 44e3)] {
         let text =
             format!("[bearing]\npreset = \"{name}\"\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]");
@@ -205,7 +205,7 @@ fn tilted(profile: RollerProfile, minutes: f64) -> (f64, f64) {
     (end, reference_life(&s.bearing, &d).unwrap())
 }
 
-/// Mesh study and misalignment: `cargo test --test lamina -- tables --nocapture`.
+/// Mesh study and misalignment: `cargo test -p brinell --test all lamina:: -- --nocapture`.
 #[test]
 fn prop_tables_of_the_book() {
     println!(

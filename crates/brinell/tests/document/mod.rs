@@ -8,6 +8,7 @@ mod json;
 mod limits;
 mod recorded;
 mod robust;
+mod tilting;
 
 use brinell::document::{Loaded, Problem, read};
 
