@@ -1,9 +1,7 @@
 //! Scenarios and states that several test programs start from.
 
 use brinell::model::Model;
-use brinell::scenario::{
-    EdgeReaction, Guidance, GuidanceFilm, ModelKind, RollerPath, Scenario, Surface,
-};
+use brinell::scenario::{Guidance, GuidanceFilm, ModelKind, Scenario};
 use brinell::{document, start};
 
 /// A scenario beside the tests, such as `reference/outer-rectangle` or `xval/roller-defect`.
@@ -65,16 +63,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
 
 /// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges push.
 pub fn tilting_offset() -> Scenario {
-    let mut s = case("reference/tilting-edge");
-    s.operation.load_offset_mm = 3.0;
-    s.operation.gravity_m_per_s2 = [0.0, -9.81];
-    s.cage.guidance = Guidance::InnerRing;
-    s.cage.guidance_film = GuidanceFilm::Dynamic;
-    s.cage.guide_clearance_mm = 0.2;
-    s.contact.roller_path = RollerPath::Envelope;
-    s.contact.edge_reaction = EdgeReaction::Conservative;
-    s.defects[0].on = Surface::Roller(3);
-    s
+    case("tilting-offset")
 }
 
 /// A small generator of uniform numbers (xorshift64*), so that a failure names its seed and nothing else.
