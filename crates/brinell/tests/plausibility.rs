@@ -291,6 +291,8 @@ fn prop_wide_slices_along_an_envelope_are_said_of_slanted_edges_alone() {
         told.contains("contact.slices = 30") && told.contains("allowed: >= 100"),
         "{told}"
     );
+    let told = warning(&[circle, envelope, ("simulation.model", "tilting")]);
+    assert!(told.contains("allowed: >= 100"), "{told}");
     silent(&[circle, sliced, envelope, ("contact.slices", "100")]);
     silent(&[sliced, envelope]);
     silent(&[circle, sliced]);
