@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::motion::{finite, packed, turns};
+use crate::motion::{finite, packed};
 use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
@@ -31,8 +31,6 @@ pub struct AxialSection {
 pub struct AxialRow {
     /// Z of the row's middle.
     pub middle_mm: f64,
-    /// How far the roller is from the section, a frame each.
-    pub away: Vec<f32>,
     /// Its tilt, a frame each.
     pub tilt: Vec<f32>,
     /// Line loads at the inner raceway, `strips` a frame.
@@ -63,9 +61,8 @@ impl AxialSection {
         }
         let of = |row: &AxialRow| {
             let strips = self.strips.max(1);
-            [row.away.len(), row.tilt.len(), row.inner.len() / strips]
-                .into_iter()
-                .fold(row.outer.len() / strips, usize::min)
+            let loads = row.inner.len().min(row.outer.len()) / strips;
+            row.tilt.len().min(loads)
         };
         let rows = self.rows.iter().map(of);
         rows.fold(self.rings.len(), usize::min)
@@ -297,8 +294,7 @@ pub(crate) fn data(page: &mut String, section: &AxialSection, frames: usize) {
             .iter()
             .map(slope)
             .chain(row.outer[..loads].iter().map(load))
-            .chain(row.inner[..loads].iter().map(load))
-            .chain(turns(&row.away[..frames]));
+            .chain(row.inner[..loads].iter().map(load));
         let _ = write!(
             page,
             "{}{{\"middle\":{},\"values\":\"{}\"}}",

@@ -334,7 +334,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
 }
 
 /// Angles as 65536ths of a turn.
-pub(crate) fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
+fn turns(angles: &[f32]) -> impl Iterator<Item = u16> + '_ {
     let turn = |a: &f32| ((finite(*a) / TAU).rem_euclid(1.0) * 65536.0).round() as u32 as u16;
     angles.iter().map(turn)
 }

@@ -8,7 +8,7 @@ mod load_zone;
 mod newton;
 mod tilting;
 
-use crate::defect::{Angles, Side, cover_slices, damaged_contact, energy, tangent};
+use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
 use crate::slices::{Approach, Cover, Slices};
@@ -239,6 +239,14 @@ fn in_series(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roll
     }
 }
 
+/// What damage covers of a roller's inner and outer contact.
+fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Option<Cover>; 2] {
+    SIDES.map(|side| {
+        let mut cover = Cover::new(slices.count);
+        cover_slices(model.defects_of(slot, side), angles, side, &mut cover).then_some(cover)
+    })
+}
+
 /// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance, by bisection with Newton steps.
 fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
     let angles = angles(problem, slot);
@@ -247,14 +255,17 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
     let outer_at = cos * x[2] + sin * x[3] + model.geometry.outer_gap;
     let own = model.inertia.roller
         * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
+    let covers = model
+        .slices
+        .as_ref()
+        .map(|s| covers(model, s, slot, &angles));
     let sliced = |slices: &Slices, side: Side, delta: f64| {
-        let mut cover = Cover::new(slices.count);
-        let covered = cover_slices(model.defects_of(slot, side), &angles, side, &mut cover);
         let at = Approach {
             deformation: delta,
             ..Approach::default()
         };
-        slices.carry(model.contact(side), &at, covered.then_some(&cover))
+        let cover = covers.as_ref().and_then(|c| c[side as usize].as_ref());
+        slices.carry(model.contact(side), &at, cover)
     };
     let contact = |side: Side, delta: f64| -> (f64, f64) {
         if let Some(slices) = &model.slices {

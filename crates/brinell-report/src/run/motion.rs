@@ -159,7 +159,6 @@ fn axial_section(parts: &Parts, frames: usize) -> Option<AxialSection> {
             ..AxialRow::default()
         };
         for kept in (0..frames).filter_map(|frame| kept.section_row(frame, row)) {
-            data.away.push(kept.away);
             data.tilt.push(kept.tilt);
             let [inner, outer] = kept.line_loads;
             data.inner.extend(inner.iter().map(|q| 1e-3 * q));

@@ -92,7 +92,6 @@ fn motion(text: &str, values: &[f64], dt: f64) -> Motion {
     };
     let axial = AxialRow {
         middle_mm: values.first().copied().unwrap_or(4.5),
-        away: some.clone(),
         tilt: some.clone(),
         inner: some.iter().chain(&some).copied().collect(),
         outer: some.iter().chain(&some).copied().collect(),

@@ -656,35 +656,43 @@ fn support<K: Keys>(
         &mut s.outer_damping_ns_per_m,
     );
     let lever = (0.5e-3 * b.pitch_diameter_mm).powi(2);
-    let (k_ti, k_to) = (s.inner_stiffness_n_per_m, s.outer_stiffness_n_per_m);
-    let (c_ti, c_to) = (s.inner_damping_ns_per_m, s.outer_damping_ns_per_m);
     let (stiffness, damping) = ("k R_m^2 of the same ring", "c R_m^2 of the same ring");
-    tilt_key(
-        k,
-        (model, b.element),
-        key("inner_tilt_stiffness_nm_per_rad", "k_ti").from(0.0),
-        derived(k_ti * lever, stiffness),
+    let mut tilt = |name, symbol, own: f64, how, value: &mut f64| {
+        let spec = key(name, symbol).from(0.0);
+        tilt_key(
+            k,
+            (model, b.element),
+            spec,
+            derived(own * lever, how),
+            value,
+        );
+    };
+    tilt(
+        "inner_tilt_stiffness_nm_per_rad",
+        "k_ti",
+        s.inner_stiffness_n_per_m,
+        stiffness,
         &mut s.inner_tilt_stiffness_nm_per_rad,
     );
-    tilt_key(
-        k,
-        (model, b.element),
-        key("inner_tilt_damping_nms_per_rad", "c_ti").from(0.0),
-        derived(c_ti * lever, damping),
+    tilt(
+        "inner_tilt_damping_nms_per_rad",
+        "c_ti",
+        s.inner_damping_ns_per_m,
+        damping,
         &mut s.inner_tilt_damping_nms_per_rad,
     );
-    tilt_key(
-        k,
-        (model, b.element),
-        key("outer_tilt_stiffness_nm_per_rad", "k_to").from(0.0),
-        derived(k_to * lever, stiffness),
+    tilt(
+        "outer_tilt_stiffness_nm_per_rad",
+        "k_to",
+        s.outer_stiffness_n_per_m,
+        stiffness,
         &mut s.outer_tilt_stiffness_nm_per_rad,
     );
-    tilt_key(
-        k,
-        (model, b.element),
-        key("outer_tilt_damping_nms_per_rad", "c_to").from(0.0),
-        derived(c_to * lever, damping),
+    tilt(
+        "outer_tilt_damping_nms_per_rad",
+        "c_to",
+        s.outer_damping_ns_per_m,
+        damping,
         &mut s.outer_tilt_damping_nms_per_rad,
     );
 }

@@ -150,12 +150,8 @@ impl Energy {
                 + 0.5 * m.roller_spin * dphi * dphi;
             e.gravity -= m.roller * arm * along(&[ws.cos[slot], ws.sin[slot]]);
             for side in SIDES {
-                let contacts = &ws.contacts[side as usize];
-                let held = Held {
-                    delta: contacts.deformation[slot],
-                    tilt: contacts.tilt.get(slot).copied().unwrap_or_default(),
-                };
-                e.contacts += held.energy(model, (slot, side), &angles(slot), &mut cover);
+                let at = ws.contacts[side as usize].approach(slot);
+                e.contacts += held(model, (slot, side), &at, &angles(slot), &mut cover);
             }
             let xc = &q[l.cage(l.row(slot))..];
             let s = g.pitch_radius * (xc[2] + model.pocket_angle[slot] - q[l.theta() + slot])
@@ -177,36 +173,20 @@ impl Energy {
     }
 }
 
-/// How far a contact is pressed.
-#[derive(Clone, Copy)]
-struct Held {
-    /// delta, m.
-    delta: f64,
-    /// d(delta)/dz.
-    tilt: f64,
-}
-
-impl Held {
-    /// Elastic energy, J.
-    fn energy(
-        &self,
-        model: &Model,
-        (slot, side): (usize, Side),
-        angles: &Angles,
-        cover: &mut Cover,
-    ) -> f64 {
-        let (defects, law) = (model.defects_of(slot, side), model.contact(side));
-        let Some(slices) = &model.slices else {
-            return energy(defects, law, angles, side, self.delta);
-        };
-        let at = Approach {
-            deformation: self.delta,
-            tilt: self.tilt,
-            ..Approach::default()
-        };
-        let covered = cover_slices(defects, angles, side, cover);
-        slices.carry(law, &at, covered.then_some(cover)).energy
-    }
+/// Elastic energy of a contact, J; its rates do not matter.
+fn held(
+    model: &Model,
+    (slot, side): (usize, Side),
+    at: &Approach,
+    angles: &Angles,
+    cover: &mut Cover,
+) -> f64 {
+    let (defects, law) = (model.defects_of(slot, side), model.contact(side));
+    let Some(slices) = &model.slices else {
+        return energy(defects, law, angles, side, at.deformation);
+    };
+    let covered = cover_slices(defects, angles, side, cover);
+    slices.carry(law, at, covered.then_some(cover)).energy
 }
 
 /// What decides the energy of the contacts at one end of a step.
@@ -312,13 +292,14 @@ fn work_at(
     let k = side as usize;
     let (from, to) = (before.angles(slot), after.angles(slot));
     let mut change = |state: &ContactState| {
-        let held = Held {
-            delta: state.deformation[k][slot],
+        let pressed = Approach {
+            deformation: state.deformation[k][slot],
             tilt: state.tilt[k].get(slot).copied().unwrap_or_default(),
+            ..Approach::default()
         };
         match model.kind {
             ModelKind::Full | ModelKind::Tilting => {
-                let mut at = |angles: &Angles| held.energy(model, (slot, side), angles, cover);
+                let mut at = |angles: &Angles| held(model, (slot, side), &pressed, angles, cover);
                 at(&to) - at(&from)
             }
             // One contact in series for both sides: counted at the inner one where that is on damage.
@@ -329,8 +310,9 @@ fn work_at(
                 0.0
             }
             ModelKind::Lumped => {
-                let at =
-                    |angles: &Angles| super::lumped::energy_at(model, slot, angles, held.delta);
+                let at = |angles: &Angles| {
+                    super::lumped::energy_at(model, slot, angles, pressed.deformation)
+                };
                 at(&to) - at(&from)
             }
         }

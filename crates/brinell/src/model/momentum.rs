@@ -13,13 +13,8 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
     let l = &model.layout;
     let (q, v) = y.split_at(l.dof());
     let m = &model.inertia;
-    let mut left = [0.0; 2];
-    let mut scale = 0.0;
-    let mut add = |f: [f64; 2]| {
-        left[0] += f[0];
-        left[1] += f[1];
-        scale += f[0].abs() + f[1].abs();
-    };
+    let mut sum = Sum::default();
+    let mut add = |f| sum.add(f);
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
         (l.inner(), m.inner_ring, model.inner_support, load_in),
@@ -56,19 +51,37 @@ pub fn imbalance(model: &Model, t: f64, y: &[f64], a: &[f64], ws: &Workspace) ->
             ]);
         }
     }
-    scale += ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
-    let forces = relative(left, scale);
+    let pressed = ws.contacts.iter().flat_map(|c| &c.force).sum::<f64>();
+    let forces = sum.relative(pressed);
     Some(match &model.tilt {
         None => forces,
         Some(tilt) => forces.max(moments(model, tilt, t, (q, v, a), ws)),
     })
 }
 
-fn relative(left: [f64; 2], scale: f64) -> f64 {
-    if scale > 0.0 {
-        (left[0].abs() + left[1].abs()) / scale
-    } else {
-        0.0
+/// Vectors that should add up to nothing.
+#[derive(Default)]
+struct Sum {
+    left: [f64; 2],
+    scale: f64,
+}
+
+impl Sum {
+    #[inline(always)]
+    fn add(&mut self, f: [f64; 2]) {
+        self.left[0] += f[0];
+        self.left[1] += f[1];
+        self.scale += f[0].abs() + f[1].abs();
+    }
+
+    /// What is left of them, relative to their sizes and to `more`.
+    fn relative(&self, more: f64) -> f64 {
+        let scale = self.scale + more;
+        if scale > 0.0 {
+            (self.left[0].abs() + self.left[1].abs()) / scale
+        } else {
+            0.0
+        }
     }
 }
 
@@ -82,13 +95,8 @@ fn moments(
 ) -> f64 {
     let l = &model.layout;
     let m = &model.inertia;
-    let mut left = [0.0; 2];
-    let mut scale = 0.0;
-    let mut add = |f: [f64; 2]| {
-        left[0] += f[0];
-        left[1] += f[1];
-        scale += f[0].abs() + f[1].abs();
-    };
+    let mut sum = Sum::default();
+    let mut add = |f| sum.add(f);
     let w = model.rotation.at(t).0;
     let (load_in, load_out) = model.load.on_rings(model.load.share(t));
     let rings = [
@@ -118,7 +126,7 @@ fn moments(
         add([0, 1].map(|k| tilt.rows[row] * m.cage * (a[at + k] - model.gravity[k])));
     }
     let carried = ws.contacts.iter().flat_map(|c| c.moment.iter());
-    relative(left, scale + carried.map(|t| t.abs()).sum::<f64>())
+    sum.relative(carried.map(|t| t.abs()).sum())
 }
 
 /// Force of the raceways and the pocket on a roller along e_r and e_t, from its motion, N.

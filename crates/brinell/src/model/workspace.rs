@@ -4,7 +4,7 @@ use super::{Model, Power};
 use crate::cage::GuideForce;
 use crate::kernel::Kernel;
 use crate::lanes::{Column, WIDTH};
-use crate::slices::Cover;
+use crate::slices::{Approach, Cover};
 
 /// Contact of one side, structure of arrays over slots.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -55,6 +55,18 @@ impl Contacts {
             slip: zeros(),
             damaged_length: zeros(),
             on_damage: vec![false; slots],
+        }
+    }
+
+    /// How the contact of `slot` approaches; without tilt where nothing tilts.
+    #[inline(always)]
+    pub fn approach(&self, slot: usize) -> Approach {
+        let tilting = |of: &[f64]| of.get(slot).copied().unwrap_or_default();
+        Approach {
+            deformation: self.deformation[slot],
+            tilt: tilting(&self.tilt),
+            rate: self.approach_rate[slot],
+            tilt_rate: tilting(&self.tilt_rate),
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::channel::Frame;
 use crate::defect::{Angles, SIDES, Side, cover_slices};
 use crate::model::Model;
-use crate::slices::{Approach, Cover, Slices};
+use crate::slices::{Cover, Slices};
 
 /// Reads line loads off frames.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +27,7 @@ impl LineLoad {
             return &[];
         };
         let contacts = &f.ws.contacts[side as usize];
-        let tilting = |of: &[f64]| of.get(slot).copied().unwrap_or_default();
-        let at = Approach {
-            deformation: contacts.deformation[slot],
-            tilt: tilting(&contacts.tilt),
-            rate: contacts.approach_rate[slot],
-            tilt_rate: tilting(&contacts.tilt_rate),
-        };
+        let at = contacts.approach(slot);
         let l = &f.model.layout;
         let angles = Angles {
             orbit: f.y[l.theta() + slot],

@@ -2,7 +2,7 @@
 
 use super::line_load::LineLoad;
 use crate::channel::Frame;
-use crate::defect::{SIDES, wrap};
+use crate::defect::SIDES;
 use crate::model::Model;
 use crate::scenario::Surface;
 
@@ -24,9 +24,7 @@ enum Place {
 /// One row of a section at one instant: its roller nearest the section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionRow<'a> {
-    /// How far the roller is from the section, rad, counter-clockwise.
-    pub away: f32,
-    /// Its tilt beta, rad.
+    /// Tilt beta of its roller nearest the section, rad.
     pub tilt: f32,
     /// Line loads at the inner and the outer raceway from -L/2 to L/2, N/m, at even steps.
     pub line_loads: [&'a [f32]; 2],
@@ -42,9 +40,9 @@ pub struct Sections {
     reader: LineLoad,
 }
 
-/// Slopes of the rings, and a row's two numbers before its line loads.
+/// Slopes of the rings, and a row's tilt before its line loads.
 const RINGS: usize = 2;
-const ROLLER: usize = 2;
+const ROLLER: usize = 1;
 
 impl Sections {
     /// For `frames` frames of a model that tilts; `None` for others.
@@ -99,8 +97,7 @@ impl Sections {
                 continue;
             };
             let start = first + RINGS + row * self.row_size();
-            self.values[start] = wrap(f.y[l.theta() + slot] - angle) as f32;
-            self.values[start + 1] = f.y[l.beta() + slot] as f32;
+            self.values[start] = f.y[l.beta() + slot] as f32;
             for side in SIDES {
                 let line = self.reader.of(f, slot, side);
                 let (strips, count) = (self.strips, line.len());
@@ -125,8 +122,7 @@ impl Sections {
         let loads = &self.values[start + ROLLER..][..2 * self.strips];
         let (inner, outer) = loads.split_at(self.strips);
         SectionRow {
-            away: self.values[start],
-            tilt: self.values[start + 1],
+            tilt: self.values[start],
             line_loads: [inner, outer],
         }
     }

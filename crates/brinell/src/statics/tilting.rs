@@ -2,9 +2,9 @@
 
 use super::newton::{State, eliminate, minimise};
 use super::{
-    Balance, NoBalance, Problem, Tilted, angles, centrifugal, external, force_scale, softest,
+    Balance, NoBalance, Problem, Tilted, angles, centrifugal, covers, external, force_scale,
+    softest,
 };
-use crate::defect::{SIDES, Side, cover_slices};
 use crate::model::{Model, Tilt};
 use crate::slices::{Approach, Carried, Cover, Slices};
 
@@ -23,29 +23,10 @@ struct Roller {
     energy: f64,
 }
 
-/// What each slot's contacts meet.
-struct Contacts {
-    covers: Vec<[Option<Cover>; 2]>,
-}
-
-impl Contacts {
-    fn new(model: &Model, slices: &Slices, problem: &Problem) -> Self {
-        let cover = |slot: usize, side: Side| {
-            let mut cover = Cover::new(slices.count);
-            let defects = model.defects_of(slot, side);
-            cover_slices(defects, &angles(problem, slot), side, &mut cover).then_some(cover)
-        };
-        Self {
-            covers: (0..model.layout.rollers())
-                .map(|slot| SIDES.map(|side| cover(slot, side)))
-                .collect(),
-        }
-    }
-}
-
 pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Balance, NoBalance> {
     let slices = model.slices.as_ref().expect("a tilting model has slices");
-    let contacts = Contacts::new(model, slices, problem);
+    let met = |slot| covers(model, slices, slot, &angles(problem, slot));
+    let covered: Vec<_> = (0..model.layout.rollers()).map(met).collect();
     let arm = model.geometry.pitch_radius;
     let planar = external(model, problem);
     let (load_in, load_out) = model.load.on_rings(problem.load_share);
@@ -79,7 +60,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
         for (slot, roller) in rollers.iter_mut().enumerate() {
             let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
             let met = meet(&along, x);
-            *roller = between_raceways(model, slices, problem, slot, &met, &contacts.covers[slot]);
+            *roller = between_raceways(model, slices, problem, slot, &met, &covered[slot]);
             state.potential += roller.energy;
             add(&mut state, roller, &along);
         }

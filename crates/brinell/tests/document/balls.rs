@@ -1,6 +1,6 @@
 //! Scenario files of ball bearings: which keys they have, which are refused, what is assumed.
 
-use super::{good, report, with};
+use super::{good, refused, report, with};
 use brinell::document::{Loaded, read};
 use brinell::model::Model;
 use brinell::scenario::{Element, Law, RollerPath};
@@ -24,14 +24,6 @@ depth_um = 280.0
 center_deg = 0.0
 shape = { circle = { diameter_mm = 0.5 } }
 ";
-
-fn refused(overrides: &[(&str, &str)], key: &str, words: &str) {
-    let problems = with(BARE, overrides).expect_err(key);
-    let found = problems
-        .iter()
-        .any(|p| p.key == key && p.to_string().contains(words));
-    assert!(found, "{key}, {words}: {}", report(&problems));
-}
 
 #[test]
 fn regress_defaults_of_balls() {
@@ -67,31 +59,36 @@ fn regress_what_balls_do_not_have_is_refused() {
         ("support.outer_tilt_damping_nms_per_rad", "1"),
     ] {
         let words = "has a meaning only where bearing.element is \"roller\"";
-        refused(&[(key, value)], key, words);
+        refused(BARE, &[(key, value)], key, words);
     }
     refused(
+        BARE,
         &[("simulation.model", "tilting")],
         "simulation.model",
         "no ends that could tilt",
     );
     let no_meaning = "has a meaning only where bearing.element is \"roller\"";
     refused(
+        BARE,
         &[("bearing.roller_length_mm", "7.0")],
         "bearing.roller_length_mm",
         no_meaning,
     );
     refused(
+        BARE,
         &[("contact.exponent", "1.5")],
         "contact.exponent",
         no_meaning,
     );
-    refused(&[("contact.law", "ecl")], "contact.law", "sliced");
+    refused(BARE, &[("contact.law", "ecl")], "contact.law", "sliced");
     refused(
+        BARE,
         &[("bearing.inner_groove_conformity", "0.5")],
         "bearing.inner_groove_conformity",
         "> 0.5",
     );
     refused(
+        BARE,
         &[("bearing.preset", "NU206")],
         "bearing.element",
         "NU206 is a roller bearing",

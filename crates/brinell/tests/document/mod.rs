@@ -46,3 +46,12 @@ fn report(problems: &[Problem]) -> String {
         .map(|problem| format!("{problem}\n"))
         .collect()
 }
+
+/// Overrides over `text` that are refused: a problem of `key` says `words`.
+fn refused(text: &str, overrides: &[(&str, &str)], key: &str, words: &str) {
+    let problems = with(text, overrides).expect_err(key);
+    let found = problems
+        .iter()
+        .any(|p| p.key == key && p.to_string().contains(words));
+    assert!(found, "{key}, {words}: {}", report(&problems));
+}

@@ -1,6 +1,6 @@
 //! Scenario files with profiles and tilts: defaults, what is refused, and what has no effect.
 
-use super::{good, report, with};
+use super::{good, refused, with};
 use brinell::scenario::{Law, ModelKind, RollerProfile};
 
 const BARE: &str = "\
@@ -10,14 +10,6 @@ preset = \"NN3007\"
 speed_rpm = 1800.0
 load_n = [300.0, 0.0]
 ";
-
-fn tilting(overrides: &[(&str, &str)], key: &str, words: &str) {
-    let problems = with(BARE, overrides).expect_err(key);
-    let found = problems
-        .iter()
-        .any(|p| p.key == key && p.to_string().contains(words));
-    assert!(found, "{key}, {words}: {}", report(&problems));
-}
 
 #[test]
 fn regress_defaults_of_what_tilts() {
@@ -53,15 +45,16 @@ fn regress_what_has_no_slices_has_no_profile_and_no_tilt() {
     let tilts = ("simulation.model", "tilting");
     let profile = ("bearing.profile", "logarithmic");
     let ecl = ("contact.law", "ecl");
-    tilting(&[tilts, ecl], "contact.law", "needs slices");
-    tilting(
+    refused(BARE, &[tilts, ecl], "contact.law", "needs slices");
+    refused(
+        BARE,
         &[tilts, ("contact.slices", "1")],
         "contact.slices",
         "2 to 10000",
     );
-    tilting(&[profile, ecl], "bearing.profile", "needs slices");
+    refused(BARE, &[profile, ecl], "bearing.profile", "needs slices");
     let lumped = ("simulation.model", "lumped");
-    tilting(&[profile, lumped], "bearing.profile", "no profile");
+    refused(BARE, &[profile, lumped], "bearing.profile", "no profile");
     // With a profile alone the law is sliced.
     let loaded = with(BARE, &[profile]).unwrap();
     assert_eq!(loaded.scenario.contact.law, Law::Sliced);
@@ -71,13 +64,13 @@ fn regress_what_has_no_slices_has_no_profile_and_no_tilt() {
 fn regress_profiles_that_make_no_sense() {
     let table = |text: &'static str| ("bearing.profile", text);
     let far = table("{ z_mm = [-3, 3], drop_um = [500, 500] }");
-    tilting(&[far], "bearing.profile", "no slice ever touches");
+    refused(BARE, &[far], "bearing.profile", "no slice ever touches");
     let falls = table("{ z_mm = [3, -3], drop_um = [0, 0] }");
-    tilting(&[falls], "bearing.profile.z_mm", "does not rise");
+    refused(BARE, &[falls], "bearing.profile.z_mm", "does not rise");
     let uneven = table("{ z_mm = [-3, 3], drop_um = [0] }");
-    tilting(&[uneven], "bearing.profile", "one drop for each z");
+    refused(BARE, &[uneven], "bearing.profile", "one drop for each z");
     let unknown = table("barrel");
-    tilting(&[unknown], "bearing.profile", "logarithmic");
+    refused(BARE, &[unknown], "bearing.profile", "logarithmic");
 }
 
 #[test]

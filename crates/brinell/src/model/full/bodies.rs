@@ -4,7 +4,6 @@ use super::{Sums, Turn};
 use crate::cage::GuideForce;
 use crate::defect::{Angles, SIDES, Side, edge_gradient, edge_gradient_of_slices};
 use crate::model::{Model, Power, Tilt, Workspace};
-use crate::slices::Approach;
 
 /// The push of damage's slopes, `edge_reaction = "conservative"` (section 3): the generalised forces -dE/dtheta on the orbit and -dE/dphi on the
 /// spin of each roller. At an inner defect the drive holds the ring against -dE/dW and so puts in dE/dW w_i.
@@ -40,11 +39,7 @@ pub(super) fn edge_reaction(
             let e = match &model.slices {
                 None => edge_gradient(defects, law, &angles, side, delta),
                 Some(slices) => {
-                    let at = Approach {
-                        deformation: delta,
-                        tilt: contacts.tilt.get(slot).copied().unwrap_or_default(),
-                        ..Approach::default()
-                    };
+                    let at = contacts.approach(slot);
                     edge_gradient_of_slices(defects, &angles, side, cover, |cover| {
                         slices.carry(law, &at, cover).energy
                     })

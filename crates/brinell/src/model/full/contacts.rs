@@ -6,7 +6,7 @@ use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;
 use crate::model::workspace::Contacts;
 use crate::model::{Model, Workspace};
-use crate::slices::{Approach, Pressed, Slices};
+use crate::slices::{Pressed, Slices};
 
 /// Finds what may be on damage.
 #[inline(always)]
@@ -201,15 +201,7 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
             let mut closed = false;
             for lane in 0..L::COUNT {
                 let slot = group * L::COUNT + lane;
-                let mut at = Approach {
-                    deformation: contacts.deformation[slot],
-                    ..Approach::default()
-                };
-                if TILT {
-                    at.rate = contacts.approach_rate[slot];
-                    at.tilt = contacts.tilt[slot];
-                    at.tilt_rate = contacts.tilt_rate[slot];
-                }
+                let at = contacts.approach(slot);
                 let mut covered = false;
                 if (ws.candidates[k][group] >> lane) & 1 == 1 {
                     let angles = Angles {
