@@ -3,6 +3,7 @@
 //! `sections` lists every key once; `reader`, `writer` and `schema` are walks over that list. `checks` holds
 //! what no single key can say: geometry that does not fit, a defect wider than its roller.
 
+mod bearing_keys;
 mod blank;
 mod checks;
 mod damage;

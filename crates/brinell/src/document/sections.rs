@@ -1,14 +1,14 @@
-//! Every key of a scenario file: name, meaning, range, default, once and in order; those of damage are in [`super::damage`], the sensor's in
-//! [`super::sensor`].
+//! Every key of a scenario file: name, meaning, range, default, once and in order; those of the bearing are in
+//! [`super::bearing_keys`], of damage in [`super::damage`], the sensor's in [`super::sensor`].
 
 use std::f64::consts::PI;
 
+use super::bearing_keys::{bearing, tilt_key};
 use super::blank;
 use super::damage::defect;
-use super::keys::Fallback::{self, Catalogued, Needed, Required};
-use super::keys::{Keys, Spec, assumed, derived, key, stated};
+use super::keys::Fallback::{self, Needed, Required};
+use super::keys::{Keys, assumed, derived, key, stated};
 use super::sensor::sensor;
-use crate::bearing::clearance::{ClearanceClass, bore_diameter_mm};
 use crate::contact::ball;
 use crate::scenario::*;
 
@@ -17,12 +17,12 @@ const LINE_EXPONENT: f64 = 10.0 / 9.0;
 /// Exponent of a point contact (Hertz).
 const POINT_EXPONENT: f64 = 1.5;
 /// Rolling bearing steel, kg/mm^3.
-const STEEL: f64 = 7.85e-6;
+pub(super) const STEEL: f64 = 7.85e-6;
 /// Palmgren's line contact, N/mm^(10/9) for L in mm (model.md, section 2).
 const PALMGREN: f64 = 8.06e4;
 /// Where some keys have a meaning.
-const ROLLERS: &str = "bearing.element is \"roller\"";
-const BALLS: &str = "bearing.element is \"ball\"";
+pub(super) const ROLLERS: &str = "bearing.element is \"roller\"";
+pub(super) const BALLS: &str = "bearing.element is \"ball\"";
 
 const POINT_OF_SCOPE: &str = "not in the paper's model";
 pub(super) const PAPER: &str = "Li et al. 2023";
@@ -74,259 +74,6 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     k.section(key("simulation", "what to compute and to record"), |k| {
         simulation(k, &mut s.simulation)
     });
-}
-
-fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
-    k.preset(
-        key("preset", "catalogue bearing that fills the keys left out"),
-        &mut b.preset,
-    );
-    k.key(
-        key(
-            "element",
-            "what rolls; the keys named after rollers are then a ball's",
-        ),
-        stated(Element::Roller, "cylindrical rollers, as in the paper"),
-        &mut b.element,
-    );
-    k.key(
-        key("inner_raceway_diameter_mm", "D_i").above(0.0),
-        Catalogued,
-        &mut b.inner_raceway_diameter_mm,
-    );
-    k.key(
-        key("outer_raceway_diameter_mm", "D_o").above(0.0),
-        Catalogued,
-        &mut b.outer_raceway_diameter_mm,
-    );
-    let mean = 0.5 * (b.inner_raceway_diameter_mm + b.outer_raceway_diameter_mm);
-    k.key(
-        key("pitch_diameter_mm", "D_m, circle of the roller centres").above(0.0),
-        derived(mean, "mean of the raceway diameters"),
-        &mut b.pitch_diameter_mm,
-    );
-    k.key(
-        key("roller_diameter_mm", "d").above(0.0),
-        Catalogued,
-        &mut b.roller_diameter_mm,
-    );
-    k.key_where(
-        key("roller_length_mm", "L, effective contact length").above(0.0),
-        (!b.has_balls(), ROLLERS),
-        Catalogued,
-        &mut b.roller_length_mm,
-    );
-    if b.has_balls() {
-        b.roller_length_mm = b.roller_diameter_mm;
-    }
-    grooves(k, b);
-    k.key(
-        key("rollers_per_row", "Z").from(3.0).to(1000.0),
-        Catalogued,
-        &mut b.rollers_per_row,
-    );
-    k.key(
-        key("rows", "N_r").from(1.0).to(100.0),
-        assumed(1, "a single row"),
-        &mut b.rows,
-    );
-    let stagger = key("row_stagger_deg", "row i starts (i - 1) times this later");
-    let stagger_default = if b.rows == 1 {
-        stated(0.0, "a single row")
-    } else {
-        derived(180.0 / b.rollers_per_row as f64, "half a roller pitch")
-    };
-    k.key(stagger, stagger_default, &mut b.row_stagger_deg);
-    clearance(k, b);
-    k.key(
-        key("outer_gap_um", "gap subtracted at the outer contact too").from(0.0),
-        stated(0.0, "all clearance is at the inner contact"),
-        &mut b.outer_gap_um,
-    );
-    // Rings of rectangular section. Of rollers: wall 0.6 d, width 1.6 L for each row, within 8 % of the NN3007's sum; of balls: wall 0.45 d, width
-    // 1.75 d, within 12 % of what makers print for 6204 to 6206 less balls and cage.
-    let (wall, width, ring_how) = match b.element {
-        Element::Roller => (
-            0.6,
-            1.6,
-            "steel ring, wall 0.6 roller diameters, width 1.6 roller lengths a row",
-        ),
-        Element::Ball => (
-            0.45,
-            1.75,
-            "steel ring, wall 0.45 and width 1.75 ball diameters",
-        ),
-    };
-    let wall = wall * b.roller_diameter_mm;
-    let ring = |mean_diameter: f64| {
-        STEEL * PI * mean_diameter * wall * width * b.roller_length_mm * b.rows as f64
-    };
-    let inner_ring = ring(b.inner_raceway_diameter_mm - wall);
-    let outer_ring = ring(b.outer_raceway_diameter_mm + wall);
-    k.key(
-        key("inner_ring_mass_kg", "m_i, with all that moves with it").above(0.0),
-        derived(inner_ring, ring_how),
-        &mut b.inner_ring_mass_kg,
-    );
-    k.key(
-        key("outer_ring_mass_kg", "m_o, with all that moves with it").above(0.0),
-        derived(outer_ring, ring_how),
-        &mut b.outer_ring_mass_kg,
-    );
-    let roller = match b.element {
-        Element::Roller => derived(
-            STEEL * PI / 4.0 * b.roller_diameter_mm.powi(2) * b.roller_length_mm,
-            "steel cylinder",
-        ),
-        Element::Ball => derived(
-            STEEL * PI / 6.0 * b.roller_diameter_mm.powi(3),
-            "steel ball",
-        ),
-    };
-    k.key(
-        key("roller_mass_kg", "m").above(0.0),
-        roller,
-        &mut b.roller_mass_kg,
-    );
-    k.key_where(
-        key(
-            "profile",
-            "p(z), how far roller and raceway together stand back",
-        ),
-        (!b.has_balls(), ROLLERS),
-        stated(RollerProfile::Straight, PAPER),
-        &mut b.profile,
-    );
-    tilt_key(
-        k,
-        (model, b.element),
-        key("width_mm", "B, width of the rings").above(0.0),
-        derived(
-            1.6 * b.roller_length_mm * b.rows as f64,
-            "1.6 roller lengths a row",
-        ),
-        &mut b.width_mm,
-    );
-    let spacing = if b.rows == 1 {
-        stated(0.0, "a single row")
-    } else {
-        derived(1.5 * b.roller_length_mm, "1.5 roller lengths")
-    };
-    tilt_key(
-        k,
-        (model, b.element),
-        key("row_spacing_mm", "b, between the middles of two rows").from(0.0),
-        spacing,
-        &mut b.row_spacing_mm,
-    );
-}
-
-/// A key of `tilting`, which balls do not do.
-fn tilt_key<K: Keys>(
-    k: &mut K,
-    (model, element): (ModelKind, Element),
-    spec: Spec,
-    fallback: Fallback<f64>,
-    value: &mut f64,
-) {
-    let acts = (
-        model == ModelKind::Tilting,
-        "simulation.model is \"tilting\"",
-    );
-    match element {
-        Element::Roller => k.key_acting_where(spec, acts, fallback, value),
-        Element::Ball => {
-            let without = fallback.clone().value();
-            k.key_where(spec, (false, ROLLERS), fallback, value);
-            *value = without.unwrap_or(*value);
-        }
-    }
-}
-
-/// Conformities of the grooves, which only balls have.
-fn grooves<K: Keys>(k: &mut K, b: &mut Bearing) {
-    let has_balls = b.has_balls();
-    for (spec, value) in [
-        (
-            key(
-                "inner_groove_conformity",
-                "radius of the inner groove's cross-section over the ball's diameter",
-            ),
-            &mut b.inner_groove_conformity,
-        ),
-        (
-            key(
-                "outer_groove_conformity",
-                "radius of the outer groove's cross-section over the ball's diameter",
-            ),
-            &mut b.outer_groove_conformity,
-        ),
-    ] {
-        let mut conformity = value.unwrap_or(f64::NAN);
-        k.key_where(
-            spec.above(0.5).to(1.0),
-            (has_balls, BALLS),
-            assumed(0.52, "the usual groove of deep-groove bearings (Harris)"),
-            &mut conformity,
-        );
-        *value = has_balls.then_some(conformity);
-    }
-}
-
-/// The clearance: on one side, on the diameter, or as a class of ISO 5753-1. `checks` sees to it that only one is given.
-fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
-    k.optional(
-        key(
-            "bore_diameter_mm",
-            "bore, for clearance_class; left out, the preset's",
-        )
-        .above(0.0),
-        &mut b.bore_diameter_mm,
-    );
-    let (mut diametral, mut class): (Option<f64>, Option<ClearanceClass>) = (None, None);
-    k.optional(
-        key(
-            "diametral_clearance_um",
-            "radial internal clearance of ISO 5753, twice radial_clearance_um; in place of it",
-        ),
-        &mut diametral,
-    );
-    k.optional(
-        key(
-            "clearance_class",
-            "class of ISO 5753-1 for the bore, its middle is used; in place of radial_clearance_um",
-        ),
-        &mut class,
-    );
-    let default = match (diametral, class) {
-        (Some(diametral), _) => Fallback::Instead {
-            value: 0.5 * diametral,
-            how: "half of bearing.diametral_clearance_um",
-            assumed: false,
-        },
-        (None, Some(class)) => Fallback::Instead {
-            value: bore_diameter_mm(b)
-                .and_then(|bore| class.one_sided_middle(b.element, bore))
-                .unwrap_or(f64::NAN),
-            how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
-            assumed: true,
-        },
-        (None, None) => match b.element {
-            Element::Roller => assumed(10.0, "a small bearing's usual gap, and the NN3007's"),
-            Element::Ball => assumed(
-                6.25,
-                "half of the middle of class CN of ISO 5753-1 for bores of 18 to 30 mm",
-            ),
-        },
-    };
-    k.key(
-        key(
-            "radial_clearance_um",
-            "C_r, gap on one side, half of ISO 5753's; negative is preload",
-        ),
-        default,
-        &mut b.radial_clearance_um,
-    );
 }
 
 fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
