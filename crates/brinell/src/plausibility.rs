@@ -4,15 +4,18 @@
 //! `brinell run` say it, and `summary.json` holds it. [`after`] needs the energy audit of a run. What a scenario file alone can say is in
 //! [`crate::document`].
 
+mod slices;
+
 use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
-use crate::scenario::{Accuracy, Law, ModelKind, RollerPath, Scenario, Shape, Speed, Surface};
+use crate::scenario::{Accuracy, ModelKind, RollerPath, Scenario, Speed, Surface};
 use crate::simulate::EnergyAudit;
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
+use slices::coarse_slices;
 use std::f64::consts::TAU;
 
 /// Share of the dissipation in contacts beyond which the parametric work of damage is worth a warning.
@@ -21,8 +24,6 @@ pub(crate) const PARAMETRIC_SHARE: f64 = 0.1;
 const WEIGHT_SHARE: f64 = 0.1;
 /// Share of a defect's depth that a roller must reach: the deepest point of a rough floor is nobody's.
 const REACHED_SHARE: f64 = 0.9;
-/// Slices from which on the RMS no longer depends on their number where an envelope meets a slanted edge (docs/src/validation.md, "Slices").
-const ENVELOPE_SLICES: usize = 100;
 /// Static deformations of the heaviest contact: deeper damage over a roller's whole width takes all load off it where it begins.
 const DROP: f64 = 10.0;
 /// Share of the turnover that an energy audit may miss before the run is worth a warning; sound runs stay far below.
@@ -67,7 +68,7 @@ pub fn before(
     warnings.extend(outside_the_load_zone(scenario, model));
     let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
-    warnings.extend(coarse_slices(scenario, model));
+    warnings.extend(deformation.and_then(|delta| coarse_slices(scenario, model, delta)));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)
 }
@@ -323,29 +324,6 @@ fn drop_at_once(defect: &Defect) -> f64 {
     ends.filter(|s| defect.damaged_length(*s) >= defect.roller_length)
         .map(|s| defect.depth_at(s))
         .fold(0.0, f64::max)
-}
-
-/// Slices too wide for a depth that varies across them: one mean depth lets go of a whole slice.
-fn coarse_slices(scenario: &Scenario, model: &Model) -> Option<Problem> {
-    let c = &scenario.contact;
-    let slanted = |shape: &Shape| !matches!(shape, Shape::Rectangle { .. });
-    let counts = c.law == Law::Sliced
-        && c.roller_path == RollerPath::Envelope
-        && c.slices < ENVELOPE_SLICES
-        && model.kind.moves_every_part()
-        // Under balls they divide the damage, however narrow.
-        && !scenario.bearing.has_balls()
-        && scenario.defects.iter().any(|d| slanted(&d.shape));
-    counts.then(|| {
-        warning(
-            "contact.slices",
-            c.slices.to_string(),
-            "along an envelope near a slanted edge a slice this wide leaves contact as a whole, which makes impacts: the RMS can be twice that of \
-             narrow slices"
-                .into(),
-            format!(">= {ENVELOPE_SLICES}"),
-        )
-    })
 }
 
 /// A run that ends before every roller has passed the load zone once after the start.

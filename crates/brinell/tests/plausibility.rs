@@ -282,18 +282,35 @@ fn analytic_a_floor_out_of_reach_is_said_with_the_depth_that_is_reached() {
 }
 
 #[test]
-fn prop_wide_slices_along_an_envelope_are_said_of_slanted_edges_alone() {
+fn analytic_slices_follow_the_slant_of_an_edge_along_an_envelope() {
     let circle = ("defects.0.shape", "{ circle = { diameter_mm = 4.0 } }");
     let sliced = ("contact.law", "sliced");
     let envelope = ("contact.roller_path", "envelope");
     let told = warning(&[circle, sliced, envelope]);
+    assert!(told.contains("contact.slices = 30"), "{told}");
+    let asked = |told: &str| -> f64 {
+        let number = told.split("allowed: >= ").nth(1).expect("a bound");
+        number.split_whitespace().next().unwrap().parse().unwrap()
+    };
+    // Each half of a circle's edge runs its radius over a half of its width: 45 degrees on average. NN3007's L = 6 mm, R_eq of the outer contact.
+    let way = told.split("within ").nth(1).expect("a way");
+    let way: f64 = way.split_whitespace().next().unwrap().parse().unwrap();
+    let needed = 6.0 / way;
     assert!(
-        told.contains("contact.slices = 30") && told.contains("allowed: >= 100"),
-        "{told}"
+        (asked(&told) / needed - 1.0).abs() < 0.15,
+        "{told}, {needed}"
     );
-    let told = warning(&[circle, envelope, ("simulation.model", "tilting")]);
-    assert!(told.contains("allowed: >= 100"), "{told}");
-    silent(&[circle, sliced, envelope, ("contact.slices", "100")]);
+    let enough = asked(&told).to_string();
+    silent(&[circle, sliced, envelope, ("contact.slices", &enough)]);
+    // A longer slant across the same width takes more of them.
+    let long = (
+        "defects.0.shape",
+        "{ profile = { arc_mm = [0.0, 4.0, 8.0], width_mm = [0.0, 4.0, 0.0] } }",
+    );
+    let longer = warning(&[long, sliced, envelope]);
+    assert!((asked(&longer) / needed - 2.0).abs() < 0.3, "{longer}");
+    let tilting = warning(&[circle, envelope, ("simulation.model", "tilting")]);
+    assert!(tilting.contains("contact.slices"), "{tilting}");
     silent(&[sliced, envelope]);
     silent(&[circle, sliced]);
     silent(&[circle, envelope]);

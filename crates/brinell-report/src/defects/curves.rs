@@ -2,29 +2,14 @@
 
 use crate::{DamageCurve, DamagePanel, DepthPatch};
 use brinell::defect::section::{Section, sections};
-use brinell::defect::{Angles, Defect, Shape, Side, damaged_contact};
+use brinell::defect::{Defect, Shape, Side, damaged_contact};
 use brinell::model::Model;
-use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario, Surface};
-use std::f64::consts::TAU;
+use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
 
 /// Points of a curve.
 const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
-
-/// Angles of a roller whose contact on a side is at the angle u from the defect's centre.
-fn at(d: &Defect, side: Side, u: f64) -> Angles {
-    // A roller's defect meets the inner raceway half a turn after the outer one.
-    let half_turn = match (d.surface, side) {
-        (Surface::Roller(_), Side::Inner) => 0.5 * TAU,
-        _ => 0.0,
-    };
-    Angles {
-        orbit: d.center + u - half_turn,
-        spin: 0.0,
-        ring: 0.0,
-    }
-}
 
 /// What a roller meets, over its angle from the defect's centre.
 pub(super) fn passage(
@@ -59,7 +44,7 @@ pub(super) fn passage(
     let stiffness = |d: &Defect, side: Side, delta: f64| -> Vec<f64> {
         let law = model.contact(side);
         let k = |u: &f64| {
-            damaged_contact(std::iter::once(d), law, &at(d, side, *u), side, delta)
+            damaged_contact(std::iter::once(d), law, &d.met_at(side, *u), side, delta)
                 .map_or(law.stiffness, |a| {
                     law.stiffness * a.elastic / law.healthy(delta)
                 })
@@ -82,7 +67,7 @@ pub(super) fn passage(
             damaged_contact(
                 std::iter::once(defect),
                 law,
-                &at(defect, side, *u),
+                &defect.met_at(side, *u),
                 side,
                 delta,
             )

@@ -246,6 +246,20 @@ impl Defect {
         self.windows[side as usize]
     }
 
+    /// Angles of a roller whose contact on a side stands at the angle u (rad) from the damage's centre, at rest.
+    pub fn met_at(&self, side: Side, u: f64) -> Angles {
+        // A roller's damage meets the inner raceway half a turn after the outer one.
+        let half_turn = match (self.surface, side) {
+            (Surface::Roller(_), Side::Inner) => PI,
+            _ => 0.0,
+        };
+        Angles {
+            orbit: self.center + u - half_turn,
+            spin: 0.0,
+            ring: 0.0,
+        }
+    }
+
     /// L_s at the arc coordinate s (m): the covered z within the roller's length; 0 off the damage.
     #[inline]
     pub fn damaged_length(&self, s: f64) -> f64 {
