@@ -15,6 +15,7 @@ use brinell::observe::passes::place;
 use brinell::plausibility;
 use brinell::pressure::{pressure_beside, pressures, static_limit};
 use brinell::scenario::{Bearing, Element, Scenario, Speed};
+use brinell::statics::StaticLoadZone;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
@@ -60,41 +61,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     }
     say!("");
     match &d.statics {
-        Ok(zone) => {
-            let size = zone.shift[0].hypot(zone.shift[1]);
-            say!("Static balance under the full load (mean over a pitch of the cage)");
-            say!("  heaviest contact        {} N", short(zone.largest, 4));
-            let [inner, outer] = pressures(s, zone.largest).map(|p| short(1e-6 * p, 4));
-            say!(
-                "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
-                1e-6 * static_limit(b)
-            );
-            for (k, defect) in model.defects.iter().enumerate() {
-                if let Some((left, pressure)) = pressure_beside(&model, b, k, zone.largest) {
-                    say!(
-                        "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",
-                        short(1e-6 * pressure, 4),
-                        short(1e3 * left, 3),
-                        place(defect)
-                    );
-                }
-            }
-            say!(
-                "  load zone               {:.1} deg wide",
-                zone.extent.to_degrees()
-            );
-            say!(
-                "  inner ring from outer   ({}, {}) um",
-                significant(1e6 * zone.shift[0], 1e6 * size, 4),
-                significant(1e6 * zone.shift[1], 1e6 * size, 4)
-            );
-            say!(
-                "  bearing stiffness       xx {}, yy {}, xy {} N/m",
-                short(zone.stiffness[0][0], 4),
-                short(zone.stiffness[1][1], 4),
-                significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
-            );
-        }
+        Ok(zone) => static_balance(s, &model, zone),
         Err(error) => say!("Static balance: {error}"),
     }
     say!("");
@@ -239,5 +206,49 @@ fn rounded(value: &str) -> String {
     match value.parse::<f64>() {
         Ok(x) if digits > 8 => short(x, 6),
         _ => value.to_owned(),
+    }
+}
+
+fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
+    let size = zone.shift[0].hypot(zone.shift[1]);
+    say!("Static balance under the full load (mean over a pitch of the cage)");
+    say!("  heaviest contact        {} N", short(zone.largest, 4));
+    // Where the load along a roller is not even, its slices say more.
+    if s.has_even_contacts() {
+        even_pressures(s, model, zone.largest);
+    }
+    say!(
+        "  load zone               {:.1} deg wide",
+        zone.extent.to_degrees()
+    );
+    say!(
+        "  inner ring from outer   ({}, {}) um",
+        significant(1e6 * zone.shift[0], 1e6 * size, 4),
+        significant(1e6 * zone.shift[1], 1e6 * size, 4)
+    );
+    say!(
+        "  bearing stiffness       xx {}, yy {}, xy {} N/m",
+        short(zone.stiffness[0][0], 4),
+        short(zone.stiffness[1][1], 4),
+        significant(zone.stiffness[0][1], zone.stiffness[0][0], 2)
+    );
+}
+
+/// Of contacts whose load is even along the roller; `force` is the heaviest contact's, N.
+fn even_pressures(s: &Scenario, model: &Model, force: f64) {
+    let [inner, outer] = pressures(s, force).map(|p| short(1e-6 * p, 4));
+    say!(
+        "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
+        1e-6 * static_limit(&s.bearing)
+    );
+    for (k, defect) in model.defects.iter().enumerate() {
+        if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, force) {
+            say!(
+                "  beside the damage       {} MPa at most on the {} mm of contact left on the {}",
+                short(1e-6 * pressure, 4),
+                short(1e3 * left, 3),
+                place(defect)
+            );
+        }
     }
 }

@@ -116,12 +116,18 @@ fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         if !view.section.is_empty() {
             pictures.push(brinell_report::damage_section(view, index, wide));
         }
+        if let Some(along) = &view.along {
+            let name = format!("damage-{}-along", index + 1);
+            pictures.push(brinell_report::load_along(along, &name, wide));
+        }
         for picture in &pictures {
             save(picture, &args.formats, &folder, &mut ready)?;
         }
+        let along = view.along.clone().unwrap_or_default();
         for (name, axis, xs, panels) in [
             ("passage", "angle_deg", &view.angle_deg, &view.passage),
             ("section", "s_mm", &view.section_s_mm, &view.section),
+            ("along", "z_mm", &along.z_mm, &along.panels),
         ] {
             if !panels.is_empty() {
                 let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
@@ -159,6 +165,9 @@ fn tell(damage: &Damage) {
     }
     let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
     say!("  Passage: {plain}");
+    if let Some(along) = &view.along {
+        say!("  {}, {}", along.title, along.note);
+    }
     say!("  Section: {}", view.section_note);
     say!("");
 }
@@ -250,6 +259,8 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "polygons_mm": view.polygons_mm,
         "passage_note": view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n"),
         "passage": curves("angle_deg", &view.angle_deg, &view.passage),
+        "along_note": view.along.as_ref().map(|along| &along.note),
+        "along": view.along.as_ref().map(|along| curves("z_mm", &along.z_mm, &along.panels)),
         "section_note": view.section_note,
         "section": curves("s_mm", &view.section_s_mm, &view.section),
     })

@@ -39,6 +39,45 @@ fn lit_check_shows_clearance_rating_and_pressure() {
 }
 
 #[test]
+fn prop_check_shows_slices_where_the_load_along_a_roller_is_uneven() {
+    let sliced = check(&["contact.law=sliced"]).exits(0).says(&[
+        "contact pressure ",
+        "Static load in 30 slices (ISO/TS 16281), straight rollers; static limit 4000 MPa",
+        "healthy, largest ",
+        "damaged, largest ",
+        "life L10r ",
+        "the damaged bearing's load distribution alone makes it ",
+    ]);
+    assert!(!sliced.out.contains("tilt stiffness"), "{}", sliced.out);
+    let tilting = ["simulation.model=tilting", "bearing.profile=logarithmic"];
+    let call = check(&tilting).exits(0).says(&[
+        "logarithmic rollers",
+        "at the rollers' ends no load",
+        "inner ring from outer   tilted by (",
+        "tilt stiffness          xx ",
+    ]);
+    // It would be of an even load.
+    assert!(!call.out.contains("contact pressure "), "{}", call.out);
+    // Straight rollers are pressed at their ends, and a load off the middle presses one end beyond the limit that the even load keeps.
+    let off = [
+        "simulation.model=tilting",
+        "operation.load_n=[20000, 0]",
+        "operation.load_offset_mm=10",
+        "defects=[]",
+    ];
+    let call = check(&off).exits(0);
+    let peak = call.out.split("at the rollers' ends ").nth(1).unwrap();
+    let peak: f64 = peak.split_whitespace().next().unwrap().parse().unwrap();
+    assert!(peak > 4000.0, "{}", call.out);
+    assert!(
+        call.err
+            .contains(&format!("the contact pressure reaches {peak:.0} MPa")),
+        "{peak} {}",
+        call.err
+    );
+}
+
+#[test]
 fn regress_check_prints_numbers_that_can_be_read() {
     let call = check(&[
         "operation.load_n=[0, -2500]",

@@ -4,7 +4,7 @@
 //! hold an exponent as `N/m^(10/9)` or `m/s^2`; it is typeset, not computed with. Missing data is an empty vector or
 //! `None`, and a value that could not be computed is NaN: both are shown as such.
 
-use crate::damage::DamageView;
+use crate::damage::{AlongRoller, DamageView};
 use crate::motion::Motion;
 use crate::orbit::CageOrbits;
 use crate::sensor::SensorView;
@@ -44,6 +44,8 @@ pub struct Report {
     pub passes: Vec<Pass>,
     /// Contact force around the bearing, a row each.
     pub load_distribution: Vec<RowLoad>,
+    /// The load along a roller of the healthy bearing, where rollers have slices; damage has its own in `damage`.
+    pub along: Option<AlongRoller>,
     /// Indicators of the signals.
     pub indicators: IndicatorTable,
     /// Slip of rollers and cages.

@@ -55,9 +55,9 @@ pub use analysis::{
 pub use axial::{AxialRow, AxialSection, axial_section};
 #[doc(hidden)]
 pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
-pub use damage::{DamageCurve, DamagePanel, DamageView, DepthPatch};
+pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
-pub use damage::{damage_passage, damage_plan, damage_section};
+pub use damage::{damage_passage, damage_plan, damage_section, load_along};
 pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,

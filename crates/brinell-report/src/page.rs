@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::chart::Domain;
-use crate::damage::{damage_passage, damage_plan, damage_section};
+use crate::damage::{damage_passage, damage_plan, damage_section, load_along};
 use crate::data::Report;
 use crate::embedded::Chart;
 use crate::frame::{THINNED, alert, close, code, figure, none, open, plain, section};
@@ -259,6 +259,15 @@ fn damage(page: &mut String, report: &Report) {
                 &sentence(&view.passage_note),
             );
         }
+        if let Some(along) = &view.along {
+            let name = format!("damage-{}-along", index + 1);
+            figure(
+                page,
+                &format!("damage{index}-along"),
+                |layout| load_along(along, &name, layout),
+                &sentence(&along.note),
+            );
+        }
         if view.section.is_empty() {
             if !view.section_note.is_empty() {
                 none(page, &sentence(&view.section_note));
@@ -330,6 +339,14 @@ fn load(page: &mut String, report: &Report) {
         |layout| load_distribution(&report.load_distribution, layout),
         "Contact force of the rolling elements over their place in the bearing. 0° is the +X direction, angles run counter-clockwise.",
     );
+    if let Some(along) = &report.along {
+        figure(
+            page,
+            "along",
+            |layout| load_along(along, "along", layout),
+            &sentence(&along.note),
+        );
+    }
 }
 
 fn audits(page: &mut String, report: &Report) {

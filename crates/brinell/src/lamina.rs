@@ -4,6 +4,7 @@
 //! laminae that do not know of each other: the pressure of a slice is that of an even line contact with its line load. It has no stress
 //! concentration, neither at the roller's end nor beside damage. Planar and tilting frames are those of [`crate::model`]; SI.
 
+mod along;
 mod life;
 
 use crate::defect::{Angles, SIDES, Side, cover_slices, relative_radius, wrap};
@@ -13,6 +14,7 @@ use crate::pressure::line_pressure;
 use crate::scenario::{Bearing, Element, Law, Scenario, Surface};
 use crate::slices::{Approach, Cover, Slices};
 use crate::statics::{Balance, NoBalance, Problem, solve};
+pub use along::LoadAlong;
 pub use life::{lamina_ratings, reference_life, stress_riser};
 use std::f64::consts::TAU;
 
@@ -135,17 +137,26 @@ pub struct Rating {
 }
 
 impl Rating {
+    /// The healthy bearing's distribution alone.
+    ///
+    /// # Errors
+    /// As for [`Distribution::of`].
+    pub fn healthy(s: &Scenario) -> Result<Option<Distribution>, Error> {
+        let Some(mut s) = in_slices(s) else {
+            return Ok(None);
+        };
+        s.defects.clear();
+        Distribution::of(&s).map(Some)
+    }
+
     /// Of a scenario; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
     ///
     /// # Errors
     /// As for [`Distribution::of`].
     pub fn of(s: &Scenario) -> Result<Option<Self>, Error> {
-        let rollers = s.bearing.element == Element::Roller;
-        if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
+        let Some(mut s) = in_slices(s) else {
             return Ok(None);
-        }
-        let mut s = s.clone();
-        s.contact.slices = s.contact.slices.max(FEWEST_SLICES);
+        };
         let damaged = match s.defects.is_empty() {
             true => None,
             false => Some(Distribution::of(&s)?),
@@ -160,6 +171,17 @@ impl Rating {
             damaged,
         }))
     }
+}
+
+/// The scenario with at least [`FEWEST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
+fn in_slices(s: &Scenario) -> Option<Scenario> {
+    let rollers = s.bearing.element == Element::Roller;
+    if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
+        return None;
+    }
+    let mut s = s.clone();
+    s.contact.slices = s.contact.slices.max(FEWEST_SLICES);
+    Some(s)
 }
 
 /// Turns of the cage, the inner ring and the rollers over which the distribution is taken, rad.
@@ -178,14 +200,16 @@ fn positions(model: &Model) -> Vec<[f64; 3]> {
         .collect()
 }
 
+/// In the plane a straight roller's are not kept in the model.
+fn slices_of(model: &Model, bearing: &Bearing) -> Slices {
+    let g = &model.geometry;
+    let (length, diameter) = (g.roller_length, 2.0 * g.roller_radius);
+    Slices::new(model.rules.slices, length, diameter, &bearing.profile)
+}
+
 fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBalance> {
-    let (g, l) = (&model.geometry, &model.layout);
-    let slices = Slices::new(
-        model.rules.slices,
-        g.roller_length,
-        2.0 * g.roller_radius,
-        &bearing.profile,
-    );
+    let l = &model.layout;
+    let slices = slices_of(model, bearing);
     let positions = positions(model);
     let share = 1.0 / positions.len() as f64;
     let mut problem = Problem::at_start(model);
@@ -205,10 +229,7 @@ fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBala
         let balance = solve(model, &problem)?;
         problem.guess = [balance.inner, balance.outer];
         for slot in 0..l.rollers() {
-            let pair = SIDES.map(|side| {
-                let radius = relative_radius(bearing, side);
-                line(model, &slices, (&problem, &balance), (slot, side), radius)
-            });
+            let pair = lines(model, bearing, &slices, (&problem, &balance), slot);
             all.contacts.push(pair);
         }
         let Some(tilted) = &balance.tilting else {
@@ -253,6 +274,20 @@ fn approach(model: &Model, balance: &Balance, orbit: f64, (slot, side): (usize, 
         tilt,
         ..Approach::default()
     }
+}
+
+/// Inner and outer contact of a roller in a balance.
+fn lines(
+    model: &Model,
+    bearing: &Bearing,
+    slices: &Slices,
+    balanced: (&Problem, &Balance),
+    slot: usize,
+) -> [ContactLine; 2] {
+    SIDES.map(|side| {
+        let radius = relative_radius(bearing, side);
+        line(model, slices, balanced, (slot, side), radius)
+    })
 }
 
 /// One contact of a balance; `radius` is R_eq.

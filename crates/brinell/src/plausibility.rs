@@ -9,6 +9,7 @@ mod slices;
 use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
+use crate::lamina::Rating;
 use crate::model::Model;
 use crate::operation::Rotation;
 use crate::pressure::{pressures, static_limit};
@@ -175,11 +176,10 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
             format!("a load of up to {}", short(rating.load)),
         ));
     }
-    let pressures = pressures(scenario, zone.largest);
-    let (ring, highest) = if pressures[0] >= pressures[1] {
-        ("inner", pressures[0])
-    } else {
-        ("outer", pressures[1])
+    let (side, highest) = highest_pressure(scenario, zone);
+    let ring = match side {
+        Side::Inner => "inner",
+        Side::Outer => "outer",
     };
     let limit = static_limit(&scenario.bearing);
     let element = scenario.bearing.element.word();
@@ -198,6 +198,19 @@ fn overload(scenario: &Scenario, zone: &StaticLoadZone) -> Vec<Problem> {
         ));
     }
     warnings
+}
+
+/// Largest pressure of the healthy bearing, Pa, and its raceway: of even contacts, but slice by slice where a profile or a tilt makes them uneven.
+fn highest_pressure(scenario: &Scenario, zone: &StaticLoadZone) -> (Side, f64) {
+    let peak = (!scenario.has_even_contacts()).then(|| Rating::healthy(scenario).ok()??.peak());
+    if let Some(peak) = peak.flatten() {
+        return (peak.side, peak.pressure);
+    }
+    let [inner, outer] = pressures(scenario, zone.largest);
+    match inner >= outer {
+        true => (Side::Inner, inner),
+        false => (Side::Outer, outer),
+    }
 }
 
 /// Damage on the outer raceway that no loaded roller meets. Damage on the inner raceway and on rollers turns into the load zone.

@@ -2,7 +2,7 @@
 
 use brinell::bearing::rating::dynamic_rating;
 use brinell::document::read;
-use brinell::lamina::{Distribution, reference_life, stress_riser};
+use brinell::lamina::{Distribution, LoadAlong, reference_life, stress_riser};
 use brinell::scenario::{LoadOn, RollerProfile, Scenario};
 
 /// NU206 with ISO/TS 16281's line constant, 35 948 L^(8/9) N/mm^(10/9) for both contacts in series; the load on the inner ring, which nothing else
@@ -188,6 +188,43 @@ fn analytic_slices_add_up_to_the_load() {
         for (j, k) in row.iter().enumerate() {
             let scale = (stiffness[i][i] * stiffness[j][j]).sqrt();
             assert!((k - stiffness[j][i]).abs() < 1e-9 * scale);
+        }
+    }
+}
+
+/// A hole that no roller reaches the floor of, over the middle 4 mm of 6: on each surface the roller that is looked at stands over it, and the
+/// load that its slices lose the others take.
+#[test]
+fn analytic_the_load_along_a_roller_leaves_out_a_hole() {
+    for on in [
+        "\"outer-raceway\"",
+        "\"inner-raceway\"",
+        "\"roller\"\nroller = 3",
+    ] {
+        for model in ["full", "tilting"] {
+            let text = format!(
+                "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1\nload_n = [300, 0]\n\
+                 [[defects]]\non = {on}\nrow = 2\ncenter_deg = 20\ndepth_um = 500\n\
+                 shape = {{ rectangle = {{ length_mm = 3, width_mm = 4 }} }}\n\
+                 [contact]\nlaw = \"sliced\"\nslices = 60\n[simulation]\nmodel = \"{model}\""
+            );
+            let s = read(&text, &[]).unwrap().scenario;
+            let load = LoadAlong::of(&s, Some(0)).unwrap().unwrap();
+            let [inner, outer] = load.damaged.as_ref().unwrap();
+            let (hit, other) = match on.contains("inner") {
+                true => (inner, outer),
+                false => (outer, inner),
+            };
+            for (k, z) in load.z.iter().enumerate() {
+                let (here, there) = (hit.line_load[k], other.line_load[k]);
+                assert!(there > 0.0, "{on} {model} z = {z}: {there}");
+                assert_eq!(here == 0.0, z.abs() < 2e-3, "{on} {model} z = {z}: {here}");
+            }
+            assert!((1e3 * hit.touching - 2.0).abs() < 1e-9, "{on} {model}");
+            // At 1 r/min the roller's centrifugal force is nothing beside the load.
+            let [healthy, _] = &load.healthy;
+            assert!((hit.force / other.force - 1.0).abs() < 1e-6, "{on} {model}");
+            assert!(hit.force < healthy.force && hit.force > 0.2 * healthy.force);
         }
     }
 }

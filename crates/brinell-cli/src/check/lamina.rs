@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::say::{say, short, significant};
 use brinell::defect::Side;
 use brinell::lamina::{Distribution, Peak, Rating};
+use brinell::pressure::static_limit;
 use brinell::scenario::{RollerProfile, Scenario};
 use std::f64::consts::TAU;
 
@@ -13,14 +14,15 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
         return Ok(());
     };
     say!(
-        "Static load in {} slices (ISO/TS 16281), {} rollers",
+        "Static load in {} slices (ISO/TS 16281), {} rollers; static limit {} MPa",
         rating.healthy.z.len(),
         match s.bearing.profile {
             RollerProfile::Straight => "straight",
             RollerProfile::Logarithmic => "logarithmic",
             RollerProfile::Crowned { .. } => "crowned",
             RollerProfile::Table { .. } => "profiled",
-        }
+        },
+        1e-6 * static_limit(&s.bearing)
     );
     pressures("healthy", &rating.healthy);
     if let Some(damaged) = &rating.damaged {

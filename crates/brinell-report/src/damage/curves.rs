@@ -1,6 +1,6 @@
 //! Curves of damage: what a roller meets on its way over it, and the ring's section under it.
 
-use super::{DamagePanel, DamageView, heading};
+use super::{AlongRoller, DamagePanel, DamageView, heading};
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};
 use crate::picture::{Paint, Picture, ink};
 use crate::plots::{Layout, legend};
@@ -32,6 +32,18 @@ pub fn damage_section(view: &DamageView, index: usize, layout: Layout) -> Pictur
         ("Along the damage, from its centre", "mm"),
         &view.section_s_mm,
         &view.section,
+        layout,
+    )
+}
+
+/// Profile, line load and pressure along a roller at rest.
+pub fn load_along(along: &AlongRoller, name: &str, layout: Layout) -> Picture {
+    stack(
+        name,
+        [&along.title, &along.title],
+        ("Along the roller, from its middle", "mm"),
+        &along.z_mm,
+        &along.panels,
         layout,
     )
 }

@@ -7,7 +7,7 @@ mod shades;
 use crate::data::Fact;
 use crate::font;
 use crate::picture::{Anchor, Picture, Text};
-pub use curves::{damage_passage, damage_section};
+pub use curves::{damage_passage, damage_section, load_along};
 pub use plan::damage_plan;
 
 /// One defect, seen before it is simulated. Vectors of a panel are as long as the panel's axis.
@@ -48,12 +48,27 @@ pub struct DamageView {
     pub passage: Vec<DamagePanel>,
     /// At which deformation, by which laws.
     pub passage_note: String,
+    /// The load along a roller at rest on it, where rollers have slices.
+    pub along: Option<AlongRoller>,
     /// s along the damage.
     pub section_s_mm: Vec<f64>,
     /// Section properties there.
     pub section: Vec<DamagePanel>,
     /// For which ring.
     pub section_note: String,
+}
+
+/// The load along one roller at rest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AlongRoller {
+    /// "The load along a roller at rest over the damage where it is widest".
+    pub title: String,
+    /// z from the roller's middle.
+    pub z_mm: Vec<f64>,
+    /// Profile's drop, line load, pressure.
+    pub panels: Vec<DamagePanel>,
+    /// Forces and lengths, and by which law.
+    pub note: String,
 }
 
 /// Depths at the nodes of a grid.

@@ -11,6 +11,13 @@ const POINTS: usize = 1601;
 /// Nodes of a shaded picture, along and across.
 const SHADED: [usize; 2] = [161, 121];
 
+pub(super) fn curve(name: &str, values: Vec<f64>) -> DamageCurve {
+    DamageCurve {
+        name: name.into(),
+        values,
+    }
+}
+
 /// What a roller meets, over its angle from the defect's centre.
 pub(super) fn passage(
     s: &Scenario,
@@ -50,10 +57,6 @@ pub(super) fn passage(
                 })
         };
         angles.iter().map(k).collect()
-    };
-    let curve = |name: &str, values: Vec<f64>| DamageCurve {
-        name: name.into(),
-        values,
     };
     let damaged: Vec<f64> = angles
         .iter()

@@ -1,10 +1,12 @@
 //! Damage as it is seen before it is simulated: extents, outlines, what a roller meets, the ring's section.
 
+mod along;
 mod curves;
 mod measures;
 
 use crate::DamageView;
 use crate::number::short;
+pub(crate) use along::along_roller;
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Shape, Side, wrap};
 use brinell::derived::defect_passes;
@@ -168,6 +170,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             passage_note: format!(
                 "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side"
             ),
+            along: along_roller(s, Some(k)),
             section_s_mm,
             section,
             section_note: if is_roller {

@@ -56,6 +56,10 @@ fn report(parts: &Parts) -> Report {
             .map(|p| pass(parts, p))
             .collect(),
         load_distribution: load_distribution(parts),
+        along: match scenario.defects.is_empty() {
+            true => crate::defects::along_roller(scenario, None),
+            false => None,
+        },
         indicators: indicators(parts),
         slip: slip(parts),
         slip_rows: slip_rows(parts),

@@ -1,10 +1,10 @@
 //! Reports to draw: everything filled from given strings and numbers, and an ordinary run.
 
 use brinell_report::{
-    Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve, DamagePanel,
-    DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, IndicatorRow,
-    IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow, Pass, Report, RowLoad,
-    SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
+    AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve,
+    DamagePanel, DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact,
+    IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow, Pass, Report,
+    RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
 };
 
 /// Damage in which every list is filled; one with depths and one of a polygon come from the sign of the first value.
@@ -45,6 +45,13 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         angle_deg: values.to_vec(),
         passage: vec![panel.clone(); 2],
         passage_note: text.into(),
+        along: Some(AlongRoller {
+            title: text.into(),
+            // As many as slices at most.
+            z_mm: values.iter().take(200).copied().collect(),
+            panels: vec![panel.clone()],
+            note: text.into(),
+        }),
         section_s_mm: values.to_vec(),
         section: vec![panel],
         section_note: text.into(),
@@ -201,6 +208,7 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
             contact: text.into(),
             other_contact: text.into(),
         }],
+        along: damage_view(text, values).along,
         load_distribution: vec![RowLoad {
             title: text.into(),
             angle_deg: values.to_vec(),

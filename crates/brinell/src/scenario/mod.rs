@@ -40,6 +40,14 @@ pub struct Scenario {
     pub simulation: Simulation,
 }
 
+impl Scenario {
+    /// Whether a healthy contact is pressed evenly along its roller: no profile, nothing that tilts.
+    pub fn has_even_contacts(&self) -> bool {
+        self.bearing.profile == RollerProfile::Straight
+            && self.simulation.model != ModelKind::Tilting
+    }
+}
+
 /// What rolls between the raceways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Element {

@@ -11,8 +11,11 @@ use crate::slices::{Approach, Carried, Cover, Slices};
 /// (x_i, y_i, tau_ix, tau_iy, x_o, y_o, tau_ox, tau_oy); tilts times the pitch radius, m.
 type Rings = [f64; 8];
 
+/// Share of the forces on the rings below which what a roller carries is round-off.
+const LIGHT: f64 = 1e-6;
+
 /// A roller between its raceways.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 struct Roller {
     r: f64,
     beta: f64,
@@ -21,6 +24,8 @@ struct Roller {
     tangent: [[f64; 2]; 2],
     /// J.
     energy: f64,
+    /// Why its own balance was not found; the search over the rings may pass places where it is not, and must not end there.
+    failed: Option<NoBalance>,
 }
 
 pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Balance, NoBalance> {
@@ -60,7 +65,7 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
         for (slot, roller) in rollers.iter_mut().enumerate() {
             let along = directions(tilt.levers[slot], problem.orbit[slot], arm);
             let met = meet(&along, x);
-            *roller = between_raceways(model, slices, problem, slot, &met, &covered[slot]);
+            *roller = between_raceways(model, slices, problem, (slot, scale), &met, &covered[slot]);
             state.potential += roller.energy;
             add(&mut state, roller, &along);
         }
@@ -68,6 +73,9 @@ pub(super) fn solve(model: &Model, tilt: &Tilt, problem: &Problem) -> Result<Bal
     };
     let found = minimise(guess, &free, (scale, softest(model)), &mut evaluate)?;
     evaluate(&found.x);
+    if let Some(failed) = rollers.iter().find_map(|roller| roller.failed.clone()) {
+        return Err(failed);
+    }
     let slots = model.layout.slots;
     let gather = |of: &dyn Fn(&Roller) -> f64| {
         let mut values = vec![0.0; slots];
@@ -170,12 +178,12 @@ fn stiffness(tilt: &Tilt, problem: &Problem, rollers: &[Roller]) -> [[f64; 4]; 4
 
 /// The roller's equilibrium between raceways at (offset, slope): Q_in - Q_out + its own radial force = 0, T_in = T_out.
 ///
-/// The potential over (r, beta) is convex: a damped Newton method finds its least.
+/// The potential over (r, beta) is convex: a damped Newton method finds its least. `load` is the largest force at play on the rings, N.
 fn between_raceways(
     model: &Model,
     slices: &Slices,
     problem: &Problem,
-    slot: usize,
+    (slot, load): (usize, f64),
     met: &[[f64; 2]; 2],
     covers: &[Option<Cover>; 2],
 ) -> Roller {
@@ -238,8 +246,9 @@ fn between_raceways(
     let scale = own
         .abs()
         .max(model.series_contact.healthy(nearest.max(0.0)))
-        .max(1e-9);
+        .max(LIGHT * load);
     let found = minimise(guess, &[true, true], (scale, softest(model)), evaluate);
+    let failed = found.as_ref().err().cloned();
     let x = found.map_or(guess, |found| found.x);
     let (r, beta) = (x[0], x[1] / half);
     let [i, o] = contacts(r, beta);
@@ -249,6 +258,7 @@ fn between_raceways(
         tangent: in_series(&i.stiffness, &o.stiffness),
         energy: i.energy + o.energy - own * r,
         contacts: [i, o],
+        failed,
     }
 }
 
