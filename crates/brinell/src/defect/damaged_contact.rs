@@ -27,7 +27,7 @@ pub struct DamagedContact {
 /// One defect under one side of a roller.
 #[derive(Clone, Copy)]
 pub(super) struct Cut<'a> {
-    defect: &'a Defect,
+    pub(super) defect: &'a Defect,
     pub(super) profile: &'a DepthProfile,
     pub(super) s: f64,
 }
@@ -73,7 +73,7 @@ impl<'a> Cut<'a> {
         }
     }
 
-    fn is_on_roller(&self) -> bool {
+    pub(super) fn is_on_roller(&self) -> bool {
         matches!(self.defect.surface, Surface::Roller(_))
     }
 
@@ -88,7 +88,7 @@ impl<'a> Cut<'a> {
 /// The defects that bear on a contact: none where it is on no damage; along an envelope also those beside it that a roller, resting on the
 /// deepest floor under it, would reach.
 #[inline]
-fn cuts<'a>(
+pub(super) fn cuts<'a>(
     defects: impl Iterator<Item = &'a Defect> + Clone,
     angles: &Angles,
     side: Side,
@@ -175,15 +175,15 @@ pub(super) fn joint<'a>(
 }
 
 /// Mean over the roller's length of a function of what presses there.
-struct Mean {
-    value: f64,
+pub(super) struct Mean {
+    pub(super) value: f64,
     /// Share of the length that damage covers.
     covered: f64,
 }
 
 /// Mean of f(delta - h) over what is damaged and of f(delta), which is `undamaged`, over the rest; where nothing is, that to the bit.
 #[inline]
-fn mean<'a>(
+pub(super) fn mean<'a>(
     mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
     undamaged: f64,
     delta: f64,
@@ -253,7 +253,7 @@ pub fn cover_slices<'a>(
     cover_cuts(cuts(defects, angles, side), cover)
 }
 
-fn cover_cuts<'a>(
+pub(super) fn cover_cuts<'a>(
     mut cuts: impl Iterator<Item = Cut<'a>> + Clone,
     cover: &mut slices::Cover,
 ) -> bool {
@@ -303,22 +303,6 @@ fn cover_cuts<'a>(
         }
     }
     true
-}
-
-/// Derivatives of the elastic energy that `energy` gives of what damage covers: central differences over 0.2 um of the arc.
-pub fn edge_gradient_of_slices<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    angles: &Angles,
-    side: Side,
-    cover: &mut slices::Cover,
-    energy: impl Fn(Option<&slices::Cover>) -> f64,
-) -> EdgeGradient {
-    central_differences(cuts(defects, angles, side), |moved| {
-        match cover_cuts(moved, cover) {
-            true => energy(Some(cover)),
-            false => energy(None),
-        }
-    })
 }
 
 /// Law of a model's defects; `Ecl` where there are none.
@@ -495,137 +479,4 @@ pub fn energy<'a>(
                 .sum()
         }
     }
-}
-
-/// Derivatives of a contact's elastic energy at a fixed deformation with the angles that carry it over damage, N m.
-///
-/// With E(x) the energy of the healthy contact at the deformation x and Q(x) its force, dE/ds = (1/n_s) sum over slices of
-/// dphi_k/ds (E(delta - h_k) - E(delta)) - phi_k Q(delta - h_k) dh_k/ds; dE/du = R dE/ds, and u = theta - psi, theta - psi - W or
-/// theta - phi - psi (+ pi) by the damaged surface: so dE/dtheta = dE/du always, dE/dphi = -dE/du for a roller's defect, dE/dW = -dE/du for an inner one.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct EdgeGradient {
-    /// dE/dtheta.
-    pub orbit: f64,
-    /// dE/dphi.
-    pub spin: f64,
-    /// dE/dW.
-    pub ring: f64,
-}
-
-impl EdgeGradient {
-    /// Adds dE/du of defects on one surface.
-    fn add(&mut self, surface: Surface, slope: f64) {
-        self.orbit += slope;
-        match surface {
-            Surface::OuterRaceway => {}
-            Surface::InnerRaceway => self.ring -= slope,
-            Surface::Roller(_) => self.spin -= slope,
-        }
-    }
-}
-
-/// Derivatives of an energy of what is cut by central differences. Defects on the roller move over the contact apart from those on the raceway.
-fn central_differences<'a, C: Iterator<Item = Cut<'a>> + Clone>(
-    cuts: C,
-    mut energy: impl FnMut(Moved<C>) -> f64,
-) -> EdgeGradient {
-    /// m. A thousandth of what h changes over, and a hundred times the ridges that the search over several defects leaves out.
-    const STEP: f64 = 1e-7;
-    let mut gradient = EdgeGradient::default();
-    for on_roller in [false, true] {
-        let Some(one) = cuts.clone().find(|cut| cut.is_on_roller() == on_roller) else {
-            continue;
-        };
-        let mut held = |by: f64| {
-            energy(Moved {
-                cuts: cuts.clone(),
-                on_roller,
-                by,
-            })
-        };
-        let slope = (held(STEP) - held(-STEP)) / (2.0 * STEP);
-        gradient.add(one.defect.surface, slope * one.defect.radius);
-    }
-    gradient
-}
-
-/// Cuts, those of one kind moved along the arc.
-#[derive(Clone)]
-struct Moved<C> {
-    cuts: C,
-    on_roller: bool,
-    /// m.
-    by: f64,
-}
-
-impl<'a, C: Iterator<Item = Cut<'a>>> Iterator for Moved<C> {
-    type Item = Cut<'a>;
-
-    fn next(&mut self) -> Option<Cut<'a>> {
-        let mut cut = self.cuts.next()?;
-        if cut.is_on_roller() == self.on_roller {
-            cut.s += self.by;
-        }
-        Some(cut)
-    }
-}
-
-/// The derivatives under `sliced` and `envelope`. Of one defect exact; of several a central difference over 0.2 um of the arc.
-pub fn edge_gradient<'a>(
-    defects: impl Iterator<Item = &'a Defect> + Clone,
-    law: &Hertz,
-    angles: &Angles,
-    side: Side,
-    delta: f64,
-) -> EdgeGradient {
-    let mut gradient = EdgeGradient::default();
-    let cuts = cuts(defects, angles, side);
-    let Some(first) = cuts.clone().next() else {
-        return gradient;
-    };
-    if cuts.clone().nth(1).is_some() {
-        if let Some(strips) = &law.strips {
-            return central_differences(cuts, |moved| {
-                ball_contact::energy(moved, strips, delta).unwrap_or_default()
-            });
-        }
-        let undamaged = law.energy(delta);
-        return central_differences(cuts, |moved| {
-            mean(moved, undamaged, delta, |x| law.energy(x)).map_or(undamaged, |m| m.value)
-        });
-    }
-    let (profile, s) = (first.profile, first.s);
-    let slope = match &profile.cover {
-        Cover::Unsliced => 0.0,
-        Cover::Across(across) => law.strips.map_or(0.0, |strips| {
-            ball_contact::edge_slope(across, s, &strips, delta)
-        }),
-        Cover::Even => {
-            let phi = settled(first.defect.damaged_length(s) / first.defect.roller_length);
-            let floor = profile.floor.as_ref();
-            floor.map_or(0.0, |floor| {
-                -phi * law.healthy(delta - floor.value(s).max(0.0)) * floor.slope(s)
-            })
-        }
-        Cover::Slices(tracks) => {
-            let whole = law.energy(delta);
-            let mut sum = 0.0;
-            for track in tracks {
-                let (phi, h) = track.value(s);
-                if phi > 0.0 {
-                    let (widens, sinks) = track.slope(s);
-                    let x = delta - h;
-                    let edge = if phi < 1.0 && widens != 0.0 {
-                        widens * (law.energy(x) - whole)
-                    } else {
-                        0.0
-                    };
-                    sum += track.count * (edge - phi * law.healthy(x) * sinks);
-                }
-            }
-            sum / profile.slices as f64
-        }
-    };
-    gradient.add(first.defect.surface, slope * first.defect.radius);
-    gradient
 }

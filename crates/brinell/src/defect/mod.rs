@@ -7,6 +7,7 @@ mod ball_contact;
 mod bands;
 mod damaged_contact;
 mod depth_profile;
+mod edge_gradient;
 mod envelope;
 pub mod fit;
 mod grid;
@@ -22,11 +23,12 @@ pub mod simplify;
 mod track;
 
 pub use damaged_contact::{
-    DamagedContact, EdgeGradient, cover_slices, damaged_contact, damaged_contact_given,
-    depth_at_bottom, edge_gradient, edge_gradient_of_slices, energy, floors, tangent,
+    DamagedContact, cover_slices, damaged_contact, damaged_contact_given, depth_at_bottom, energy,
+    floors, tangent,
 };
 use depth_profile::Extent;
 pub use depth_profile::{DepthProfile, Rules, relative_radius};
+pub use edge_gradient::{EdgeGradient, edge_gradient, edge_gradient_of_slices};
 pub use envelope::envelope;
 pub use grid::Grid;
 pub use outline::{Fault, MOST_CROSSINGS, Outline, Tangle, check_crossings, faults};
