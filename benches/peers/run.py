@@ -473,6 +473,20 @@ def machine():
     return f"{cpu}, {os.cpu_count()} cores, {system}"
 
 
+def overhead(peers):
+    """What a run adds to the solver at the same tolerance; above, the solver's is the looser one that meets the error."""
+    solver, run = (next(p for p in peers if p.key == key) for key in ("brinell", "run"))
+    alike = [r for r in solver.rungs if r["tol"] == run.matched["tol"]]
+    if not alike:
+        return []
+    alone = per_second(alike[0], "cpu")
+    return [
+        f"At the same tolerance the solver alone takes {figures(alone)} s: the run costs {figures(run.matched['cpu'] / alone)} of that. Counted instructions:",
+        "`benches/peers/README.md`.",
+        "",
+    ]
+
+
 def page(peers, programs, problem, cli, args):
     base = next(p for p in peers if p.key == "brinell").matched
     whole = next(p for p in peers if p.key == "run").matched
@@ -526,6 +540,7 @@ def page(peers, programs, problem, cli, args):
         f"The command `brinell run examples/rectangle.toml`, half a second with its files and report: {figures(cli[0])} s of CPU, {figures(cli[1])} s of wall",
         "time.",
         "",
+        *overhead(peers),
         "Against what was aimed for, each time by the fastest of the kind:",
         "",
         "| | aimed for | found, by solvers | found, by a whole run |",
