@@ -55,28 +55,49 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
         .into_iter()
         .filter(|r| *r > 0.0)
         .collect();
-    let (labels, power) = tick_labels(&rings);
-    let radius = 0.5 * cell - 44.0;
+    let polar = Polar {
+        radius: 0.5 * cell - 44.0,
+        largest,
+        font,
+    };
     for (index, row) in rows.iter().enumerate() {
         let inset = (width - cell * per_line as f64) / (per_line as f64 + 1.0);
         let column = (index % per_line) as f64;
         let x = inset + column * (cell + inset) + 0.5 * cell;
         let y = top + cell * (index / per_line) as f64 + 0.5 * cell + 12.0;
-        let at = |degrees: f64, force: f64| {
-            let r = radius * (force.max(0.0) / (largest * 1.04)).min(1.05);
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            (x + r * cos, y - r * sin)
-        };
+        polar.grid(&mut picture, (x, y), &rings);
+        polar.curves(&mut picture, (x, y), row, entries.map(|e| e.1));
+        polar.numbers(&mut picture, (x, y), &rings);
+        let title = font::fitted(&row.title, font, true, cell);
+        picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
+    }
+    picture
+}
+
+/// Forces over angles.
+struct Polar {
+    /// Of the rim, px.
+    radius: f64,
+    /// N.
+    largest: f64,
+    font: f64,
+}
+
+impl Polar {
+    fn at(&self, (x, y): (f64, f64), degrees: f64, force: f64) -> (f64, f64) {
+        let r = self.radius * (force.max(0.0) / (self.largest * 1.04)).min(1.05);
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        (x + r * cos, y - r * sin)
+    }
+
+    /// Spokes with their angles, circles of force, the rim.
+    fn grid(&self, picture: &mut Picture, (x, y): (f64, f64), rings: &[f64]) {
+        let (radius, font) = (self.radius, self.font);
         for spoke in 0..8 {
             let degrees = 45.0 * f64::from(spoke);
-            picture.path(
-                &[(x, y), at(degrees, largest * 1.04)],
-                Paint::line(ink::GRID, 1.0),
-            );
-            let (dx, dy) = (
-                at(degrees, largest * 1.04).0 - x,
-                at(degrees, largest * 1.04).1 - y,
-            );
+            let end = self.at((x, y), degrees, self.largest * 1.04);
+            picture.path(&[(x, y), end], Paint::line(ink::GRID, 1.0));
+            let (dx, dy) = (end.0 - x, end.1 - y);
             let reach = 1.0 + (0.5 * font + 7.0) / radius;
             let anchor = match dx {
                 dx if dx > 0.3 * radius => Anchor::Start,
@@ -87,59 +108,59 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
             let (label_x, label_y) = (x + reach * dx, y + reach * dy + 0.36 * font);
             picture.text(Text::new(label_x, label_y, font, anchor, &label).color(ink::FAINT));
         }
-        for ring in &rings {
-            let r = radius * ring / (largest * 1.04);
+        let mut circle = |r: f64, color: &'static str| {
             picture.shapes.push(Shape::Circle {
                 x,
                 y,
                 r,
-                paint: Paint::line(ink::GRID, 1.0),
+                paint: Paint::line(color, 1.0),
             });
-        }
-        let rim = Paint::line(ink::FRAME, 1.0);
-        picture.shapes.push(Shape::Circle {
-            x,
-            y,
-            r: radius,
-            paint: rim,
-        });
-
-        let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
-            let known = row
-                .angle_deg
-                .iter()
-                .zip(forces)
-                .filter(|(angle, _)| angle.is_finite());
-            known
-                .map(|(angle, force)| at(*angle, if force.is_finite() { *force } else { 0.0 }))
-                .collect()
         };
-        for (forces, paint) in [(&row.mean_n, entries[1].1), (&row.max_n, entries[0].1)] {
-            let lines = vec![curve(forces)];
+        for ring in rings {
+            circle(radius * ring / (self.largest * 1.04), ink::GRID);
+        }
+        circle(radius, ink::FRAME);
+    }
+
+    /// Paints are those of the largest, the mean and the static force.
+    fn curves(
+        &self,
+        picture: &mut Picture,
+        centre: (f64, f64),
+        row: &RowLoad,
+        [largest, mean, at_rest]: [Paint; 3],
+    ) {
+        let mut closed = |lines: Vec<Vec<(f64, f64)>>, paint: Paint| {
             picture.shapes.push(Shape::Path {
                 lines,
                 close: true,
                 paint,
                 clip: None,
             });
-        }
-        let mut known: Vec<(f64, f64)> = row
-            .static_points
-            .iter()
-            .copied()
-            .filter(|(angle, force)| angle.is_finite() && force.is_finite())
-            .collect();
+        };
+        let curve = |forces: &[f64]| -> Vec<(f64, f64)> {
+            let known = row.angle_deg.iter().zip(forces);
+            let known = known.filter(|(angle, _)| angle.is_finite());
+            let force = |force: &f64| if force.is_finite() { *force } else { 0.0 };
+            known
+                .map(|(angle, f)| self.at(centre, *angle, force(f)))
+                .collect()
+        };
+        closed(vec![curve(&row.mean_n)], mean);
+        closed(vec![curve(&row.max_n)], largest);
+        let finite = |p: &&(f64, f64)| p.0.is_finite() && p.1.is_finite();
+        let mut known: Vec<_> = row.static_points.iter().filter(finite).collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let around = known.iter().map(|(angle, force)| at(*angle, *force));
-        picture.shapes.push(Shape::Path {
-            lines: straightened(vec![around.collect()]),
-            close: true,
-            paint: entries[2].1,
-            clip: None,
-        });
-        // Numbers where the load usually is not: the bottom, a little aside.
+        let around = known.iter().map(|p| self.at(centre, p.0, p.1));
+        closed(straightened(vec![around.collect()]), at_rest);
+    }
+
+    /// Numbers of the circles where the load usually is not: the bottom, a little aside.
+    fn numbers(&self, picture: &mut Picture, centre: (f64, f64), rings: &[f64]) {
+        let font = self.font;
+        let (labels, power) = tick_labels(rings);
         for (ring, label) in rings.iter().zip(&labels) {
-            let (x, y) = at(247.5, *ring);
+            let (x, y) = self.at(centre, 247.5, *ring);
             let scale = if power == 0 {
                 String::new()
             } else {
@@ -158,10 +179,7 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
             picture.rect(back, Paint::fill("#ffffff", 0.85));
             picture.text(label.color(ink::FAINT));
         }
-        let title = font::fitted(&row.title, font, true, cell);
-        picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
     }
-    picture
 }
 
 /// Angles of equal bins around the circle, degrees: what `RowLoad::angle_deg` holds.

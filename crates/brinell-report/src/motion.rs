@@ -1,6 +1,8 @@
 //! The bearing in motion: one instant as a picture, and the frames that the page's script moves it through.
 
-use std::f64::consts::{PI, TAU};
+mod row;
+
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use crate::axial::{self, AxialSection, axial_section};
@@ -11,6 +13,7 @@ use crate::frame::{figure, none};
 use crate::number::significant;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, escape, ink};
 use crate::plots::{Layout, legend};
+use row::DrawnRow;
 
 /// Evenly spaced instants of a bearing. Lengths in mm, angles in rad counter-clockwise from +X, forces in N.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -139,6 +142,17 @@ fn round_force(largest: f64) -> f64 {
         .unwrap_or(decade)
 }
 
+/// What is drawn in which colour.
+const COLORS: [(&str, Paint); 4] = [
+    (
+        "force at the outer contact",
+        Paint::line(ink::VERMILLION, 2.2),
+    ),
+    ("force at the inner contact", Paint::line(ink::BLUE, 2.2)),
+    ("cage", Paint::line(ink::GREEN, 5.0)),
+    ("damage", Paint::line(ink::ORANGE, 5.0)),
+];
+
 /// The bearing at one of the instants, a circle to a row.
 pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture {
     let size = layout.size(0.0);
@@ -150,17 +164,7 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
     };
     let cell = if layout == Layout::Wide { 460.0 } else { 350.0 };
     let mut picture = Picture::new("motion", "The bearing in motion", size.width, 0.0);
-    let colors = [
-        (
-            "force at the outer contact",
-            Paint::line(ink::VERMILLION, 2.2),
-        ),
-        ("force at the inner contact", Paint::line(ink::BLUE, 2.2)),
-        ("cage", Paint::line(ink::GREEN, 5.0)),
-        ("damage", Paint::line(ink::ORANGE, 5.0)),
-    ];
-    let [outer_paint, inner_paint, cage_paint, damage_paint] = colors.map(|c| c.1);
-    let shown = &colors[..if motion.damage.is_empty() { 3 } else { 4 }];
+    let shown = &COLORS[..if motion.damage.is_empty() { 3 } else { 4 }];
     let frames = motion.frames();
     if frames == 0 {
         picture.height = 4.0 * font;
@@ -178,29 +182,12 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
     let per_newton = if largest > 0.0 { FORCE / largest } else { 0.0 };
     let mut top = legend(&mut picture, shown, 12.0, size.width - 12.0, 2.0, font);
     if largest > 0.0 {
-        let round = round_force(largest);
-        let (y, end) = (top + font, 12.0 + round * per_newton);
-        picture.path(&[(12.0, y), (end, y)], Paint::line(ink::BLACK, 2.2));
-        let words = format!(
-            "{} N; the largest force here is {} N",
-            significant(round, 2),
-            significant(largest, 3)
-        );
-        picture.text(Text::new(
-            end + 8.0,
-            y + 0.36 * font,
-            font,
-            Anchor::Start,
-            &words,
-        ));
+        draw_ruler(&mut picture, largest, per_newton, top + font, font);
         top += 1.6 * font;
     }
 
     let frame = frame.min(frames - 1);
-    let (inner, outer) = (motion.inner_radius_mm, motion.outer_radius_mm);
-    let (pitch, roller) = (motion.pitch_radius_mm, motion.roller_radius_mm);
-    let scale = (0.5 * cell - FORCE - 6.0) / outer;
-    let ring = finite(motion.ring[frame]);
+    let scale = (0.5 * cell - FORCE - 6.0) / motion.outer_radius_mm;
     let mut centres = String::new();
     let tall = cell + 1.6 * font;
     for (index, row) in motion.rows.iter().enumerate() {
@@ -208,121 +195,19 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
         let x = gap + (index % per_line) as f64 * (cell + gap) + 0.5 * cell;
         let y = top + (index / per_line) as f64 * tall + 1.6 * font + 0.5 * cell;
         let _ = write!(centres, " {x:.2} {y:.2}");
-        let at = |radius: f64, angle: f64| {
-            let (sin, cos) = angle.sin_cos();
-            (x + scale * radius * cos, y - scale * radius * sin)
+        let drawn = DrawnRow {
+            motion,
+            row,
+            frame,
+            centre: (x, y),
+            scale,
         };
-        let circle = |r: f64, paint| Shape::Circle {
-            x,
-            y,
-            r: scale * r,
-            paint,
-        };
-        let path = |lines, paint| Shape::Path {
-            lines,
-            close: false,
-            paint,
-            clip: None,
-        };
-        let steel = Paint::line(ink::FRAME, 1.0);
         let s = &mut picture.shapes;
         s.push(Shape::Open("m-row"));
-        let thick = RING * outer;
-        s.push(circle(outer + thick, steel.filled("#eef1f4", 1.0)));
-        s.push(circle(outer, steel.filled("#ffffff", 1.0)));
-        s.push(circle(inner, steel.filled("#eef1f4", 1.0)));
-        s.push(circle(
-            (inner - thick).max(0.2 * inner),
-            steel.filled("#ffffff", 1.0),
-        ));
-
-        s.push(Shape::Open("m-ring"));
-        let mark = vec![at((inner - thick).max(0.2 * inner), ring), at(inner, ring)];
-        s.push(path(vec![mark], Paint::line(ink::BLACK, 2.5)));
-        s.push(Shape::Close);
-
-        let n = row.pockets.len();
-        let values = |list: &[f32]| -> Vec<f64> {
-            list[frame * n..(frame + 1) * n]
-                .iter()
-                .map(|v| finite(*v))
-                .collect()
-        };
-        let (orbit, spin) = (values(&row.orbit), values(&row.spin));
-
-        // Bars of the cage between the pockets.
-        let half = (PI / n.max(1) as f64 - 1.06 * (roller / pitch).min(1.0).asin()).max(0.006);
-        let cage = finite(row.cage[frame]);
-        let bars = row.pockets.iter().map(|pocket| {
-            let middle = finite(*pocket) + cage + PI / n as f64;
-            [-half, 0.0, half].map(|a| at(pitch, middle + a)).to_vec()
-        });
-        s.push(Shape::Open("m-cage"));
-        s.push(path(bars.collect(), cage_paint));
-        s.push(Shape::Close);
-
-        s.push(Shape::Open("m-bodies"));
-        for angle in &orbit {
-            let (x, y) = at(pitch, *angle);
-            s.push(Shape::Circle {
-                x,
-                y,
-                r: scale * roller,
-                paint: Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0),
-            });
-        }
-        s.push(Shape::Close);
-        let spins = orbit.iter().zip(&spin).map(|(angle, spin)| {
-            let (x, y) = at(pitch, *angle);
-            let (sin, cos) = spin.sin_cos();
-            let reach = 0.85 * scale * roller;
-            vec![(x, y), (x + reach * cos, y - reach * sin)]
-        });
-        s.push(Shape::Open("m-spins"));
-        s.push(path(spins.collect(), Paint::line(ink::TEXT, 1.2)));
-        s.push(Shape::Close);
-
-        s.push(Shape::Open("m-damage"));
-        for damage in motion.damage.iter().filter(|d| d.row == index) {
-            let ends = damage.angle.map(|a| {
-                if a.is_finite() {
-                    a.clamp(-TAU, TAU)
-                } else {
-                    0.0
-                }
-            });
-            let along = (0..=8).map(|k| ends[0] + f64::from(k) / 8.0 * (ends[1] - ends[0]));
-            let line = match damage.surface {
-                DamagedSurface::Outer => along.map(|a| at(outer, a)).collect(),
-                DamagedSurface::Inner => along.map(|a| at(inner, a + ring)).collect(),
-                DamagedSurface::Roller(k) => {
-                    let (Some(orbit), Some(spin)) = (orbit.get(k), spin.get(k)) else {
-                        continue;
-                    };
-                    let (x, y) = at(pitch, *orbit);
-                    let on = |a: f64| {
-                        let (sin, cos) = (a + spin).sin_cos();
-                        (x + scale * roller * cos, y - scale * roller * sin)
-                    };
-                    along.map(on).collect()
-                }
-            };
-            s.push(path(vec![line], damage_paint));
-        }
-        s.push(Shape::Close);
-
-        let lines = |forces: &[f32], from: f64, way: f64| -> Vec<Vec<(f64, f64)>> {
-            let loaded = orbit.iter().zip(values(forces)).filter(|(_, f)| *f > 0.0);
-            loaded
-                .map(|(a, f)| vec![at(from, *a), at(from + way * f * per_newton / scale, *a)])
-                .collect()
-        };
-        s.push(Shape::Open("m-outer"));
-        s.push(path(lines(&row.outer_n, outer, 1.0), outer_paint));
-        s.push(Shape::Close);
-        s.push(Shape::Open("m-inner"));
-        s.push(path(lines(&row.inner_n, inner, -1.0), inner_paint));
-        s.push(Shape::Close);
+        drawn.rings(s);
+        drawn.bodies(s);
+        drawn.damage(s, index);
+        drawn.forces(s, per_newton);
         s.push(Shape::Close);
         let title = font::fitted(&row.title, font, true, cell);
         picture
@@ -331,6 +216,19 @@ pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture 
     picture.height = top + motion.rows.len().div_ceil(per_line) as f64 * tall;
     picture.attributes = format!(" data-motion=\"{scale:.4} {per_newton:.6}{centres}\"");
     picture
+}
+
+fn draw_ruler(picture: &mut Picture, largest: f64, per_newton: f64, y: f64, font: f64) {
+    let round = round_force(largest);
+    let end = 12.0 + round * per_newton;
+    picture.path(&[(12.0, y), (end, y)], Paint::line(ink::BLACK, 2.2));
+    let words = format!(
+        "{} N; the largest force here is {} N",
+        significant(round, 2),
+        significant(largest, 3)
+    );
+    let (x, y) = (end + 8.0, y + 0.36 * font);
+    picture.text(Text::new(x, y, font, Anchor::Start, &words));
 }
 
 /// Angles as 65536ths of a turn.

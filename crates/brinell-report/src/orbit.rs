@@ -1,6 +1,6 @@
 //! Orbits of the cages' centres.
 
-use crate::chart::{Chart, Domain, Spec, left_margin, range, right_margin};
+use crate::chart::{Chart, Domain, Size, Spec, left_margin, range, right_margin};
 use crate::data::Report;
 use crate::font;
 use crate::frame::{figure, none};
@@ -31,6 +31,13 @@ pub struct CageOrbit {
     pub last_turn: usize,
 }
 
+const EARLIER: Paint = Paint::line(ink::SKY, 0.9);
+const LAST: Paint = Paint::line(ink::BLUE, 1.8);
+
+fn land() -> Paint {
+    Paint::line(ink::VERMILLION, 1.4).dashed(&[6.0, 3.0])
+}
+
 /// Points drawn of a part of the way, at most.
 const MOST: usize = 2048;
 
@@ -43,9 +50,6 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
         1
     };
     let cell = if layout == Layout::Wide { 440.0 } else { 350.0 };
-    let earlier = Paint::line(ink::SKY, 0.9);
-    let last = Paint::line(ink::BLUE, 1.8);
-    let land = Paint::line(ink::VERMILLION, 1.4).dashed(&[6.0, 3.0]);
     let finite = |row: &CageOrbit| -> Vec<(f64, f64)> {
         let points = row.x_um.iter().copied().zip(row.y_um.iter().copied());
         points
@@ -62,8 +66,8 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
 
     let mut picture = Picture::new("cage-orbit", "Orbit of the cages’ centres", size.width, 0.0);
     let mut entries = vec![
-        ("last turn of the cage", last),
-        ("turns before it", earlier),
+        ("last turn of the cage", LAST),
+        ("turns before it", EARLIER),
     ];
     let words = clearance.map(|c| {
         let c = crate::number::significant(c, 3);
@@ -73,7 +77,7 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
         }
     });
     if let Some(words) = &words {
-        entries.push((words, land));
+        entries.push((words, land()));
     }
     let top = legend(
         &mut picture,
@@ -85,75 +89,76 @@ pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     );
     let mut height = 0.0f64;
     for (index, (row, points)) in orbits.rows.iter().zip(&rows).enumerate() {
-        let mut spec = Spec {
-            name: String::new(),
-            title: String::new(),
-            size: crate::chart::Size {
-                width: cell,
-                ..size
-            },
-            x: Domain::exact(-reach, reach),
-            y: Domain::exact(-reach, reach),
-            x_label: "X".into(),
-            x_unit: "µm".into(),
-            y_label: "Y".into(),
-            y_unit: "µm".into(),
-            lanes: vec![],
-            left: 0.0,
-            right: 0.0,
-            x_axis: true,
-        };
-        // What numbers and labels leave of the width is the side of the square.
-        spec.size.height = cell;
-        let side = cell - left_margin(&spec) - right_margin(&spec);
-        spec.size.height = side + 8.0 + 3.4 * size.font;
-        let tall = spec.size.height + 2.0 * size.font;
-        let mut chart = Chart::new(spec);
-        if points.is_empty() {
-            chart.say("Not recorded");
-        }
-        let turn = points.len().saturating_sub(row.last_turn.max(1));
-        for (part, paint) in [
-            (&points[..(turn + 1).min(points.len())], earlier),
-            (&points[turn..], last),
-        ] {
-            // A loop visits a column of pixels again and again, so nothing is thinned.
-            let line = part
-                .iter()
-                .step_by(part.len().div_ceil(MOST).max(1))
-                .map(|(x, y)| (chart.x.at(*x), chart.y.at(*y)))
-                .collect::<Vec<_>>();
-            if line.len() > 1 {
-                chart.picture.path(&line, paint);
-            }
-        }
-        if let Some(c) = seen {
-            let circle: Vec<(f64, f64)> = (0..=120)
-                .map(|k| (f64::from(k) * 3.0).to_radians().sin_cos())
-                .map(|(sin, cos)| (chart.x.at(c * cos), chart.y.at(c * sin)))
-                .collect();
-            chart.picture.path(&circle, land);
-        }
+        let (chart, tall) = orbit_chart(row, points, (reach, seen), (cell, size));
         let gap = (size.width - cell * per_line as f64) / (per_line as f64 + 1.0);
         let left = gap + (index % per_line) as f64 * (cell + gap);
         let down = top + (index / per_line) as f64 * tall;
         let title = font::fitted(&row.title, size.font, true, cell);
-        let middle = 0.5 * (chart.frame.left + chart.frame.right);
-        picture.text(
-            Text::new(
-                left + middle,
-                down + 1.1 * size.font,
-                size.font,
-                Anchor::Middle,
-                &title,
-            )
-            .bold(),
-        );
+        let middle = left + 0.5 * (chart.frame.left + chart.frame.right);
+        let at = down + 1.1 * size.font;
+        picture.text(Text::new(middle, at, size.font, Anchor::Middle, &title).bold());
         picture.place(chart.finish(), left, down + 1.4 * size.font);
         height = height.max(down + tall);
     }
     picture.height = height.max(top);
     picture
+}
+
+/// One cage's orbit, with the land (um) where it is `seen`, and the height that it takes with its title, px.
+fn orbit_chart(
+    row: &CageOrbit,
+    points: &[(f64, f64)],
+    (reach, seen): (f64, Option<f64>),
+    (cell, size): (f64, Size),
+) -> (Chart, f64) {
+    let mut spec = Spec {
+        name: String::new(),
+        title: String::new(),
+        size: Size {
+            width: cell,
+            ..size
+        },
+        x: Domain::exact(-reach, reach),
+        y: Domain::exact(-reach, reach),
+        x_label: "X".into(),
+        x_unit: "µm".into(),
+        y_label: "Y".into(),
+        y_unit: "µm".into(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: true,
+    };
+    // What numbers and labels leave of the width is the side of the square.
+    spec.size.height = cell;
+    let side = cell - left_margin(&spec) - right_margin(&spec);
+    spec.size.height = side + 8.0 + 3.4 * size.font;
+    let tall = spec.size.height + 2.0 * size.font;
+    let mut chart = Chart::new(spec);
+    if points.is_empty() {
+        chart.say("Not recorded");
+    }
+    let turn = points.len().saturating_sub(row.last_turn.max(1));
+    let before = &points[..(turn + 1).min(points.len())];
+    for (part, paint) in [(before, EARLIER), (&points[turn..], LAST)] {
+        // A loop visits a column of pixels again and again, so nothing is thinned.
+        let line = part
+            .iter()
+            .step_by(part.len().div_ceil(MOST).max(1))
+            .map(|(x, y)| (chart.x.at(*x), chart.y.at(*y)))
+            .collect::<Vec<_>>();
+        if line.len() > 1 {
+            chart.picture.path(&line, paint);
+        }
+    }
+    if let Some(c) = seen {
+        let circle: Vec<(f64, f64)> = (0..=120)
+            .map(|k| (f64::from(k) * 3.0).to_radians().sin_cos())
+            .map(|(sin, cos)| (chart.x.at(c * cos), chart.y.at(c * sin)))
+            .collect();
+        chart.picture.path(&circle, land());
+    }
+    (chart, tall)
 }
 
 /// The page's section.

@@ -53,7 +53,7 @@ pub(crate) struct Paint {
 }
 
 impl Paint {
-    pub(crate) fn line(stroke: &'static str, width: f64) -> Self {
+    pub(crate) const fn line(stroke: &'static str, width: f64) -> Self {
         Self {
             stroke,
             width,

@@ -15,215 +15,21 @@ const TALLEST: f64 = 440.0;
 /// the load zone. Of a roller the whole circumference, with both lines of contact.
 pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
-    let positive = |x: f64, or: f64| if x.is_finite() && x > 0.0 { x } else { or };
-    let length = positive(view.roller_length_mm, 1.0).min(1e6);
-    let radius = 0.5 * positive(view.roller_diameter_mm, length).min(1e6);
-    let extent = extent(view).unwrap_or([0.0, 0.0, 0.0, 0.0]);
-    let [first, last, lowest, highest] = extent;
-    let tall = 1.08 * length.max(2.0 * lowest.abs()).max(2.0 * highest.abs());
-    let half_turn = view.half_turn_mm.filter(|x| x.is_finite() && *x > 0.0);
-    let wanted = match half_turn {
-        Some(half) => 1.04 * (2.0 * half).max(last - first),
-        None => 1.04 * (last - first + 2.0 * radius),
-    };
-    let middle = half_turn.map_or(0.5 * (first + last), |_| 0.0);
-    let along = if half_turn.is_some() {
-        "Around the roller, rolling direction".to_owned()
-    } else if view.surface.is_empty() {
-        "Along the raceway, rolling direction".to_owned()
-    } else {
-        format!("Along the {}, rolling direction", view.surface)
-    };
-    // From the room between the margins follows the scale, from the scale the height.
-    let spec = |height: f64, left: f64, half: f64| Spec {
-        name: format!("damage-{}", index + 1),
-        title: if view.plan_title.is_empty() {
-            view.title.clone()
-        } else {
-            view.plan_title.clone()
-        },
-        size: Size {
-            width,
-            height,
-            font,
-        },
-        x: Domain::exact(middle - half, middle + half),
-        y: Domain::exact(-0.5 * tall, 0.5 * tall),
-        x_label: along.clone(),
-        x_unit: "mm".into(),
-        y_label: "Across".into(),
-        y_unit: "mm".into(),
-        lanes: vec![],
-        left,
-        right: 0.0,
-        x_axis: true,
-    };
-    let around = 8.0 + 3.4 * font;
-    let draft = spec(TALLEST + around, 0.0, wanted);
-    let left = left_margin(&draft).max(4.8 * font);
-    let room = width - left - right_margin(&draft);
-    let scale = (room / wanted).min(TALLEST / tall);
-    let height = (scale * tall).max(30.0) + around;
-    let mut chart = Chart::new(spec(height, left, 0.5 * room / scale));
-    let frame = chart.frame;
-    let (x, y) = (chart.x, chart.y);
-    let clipped = |lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint| Shape::Path {
-        lines,
-        close,
-        paint,
-        clip: Some(frame),
-    };
-    let track = [0.5 * length, -0.5 * length].map(|z| y.at(z));
-    let ends = match half_turn {
-        Some(half) => [x.at(-half), x.at(half)],
-        None => [frame.left, frame.right],
-    };
-    // Under the grid, so that it stays visible.
-    chart.picture.shapes.insert(
-        0,
-        clipped(
-            vec![vec![
-                (ends[0], track[0]),
-                (ends[1], track[0]),
-                (ends[1], track[1]),
-                (ends[0], track[1]),
-            ]],
-            true,
-            Paint::fill(TRACK, 1.0),
-        ),
-    );
-    let deepest = view.depths.as_ref().map(|patch| {
-        shade(&mut chart, patch, extent, clipped)
-            .into_iter()
-            .fold(0.0, f64::max)
-    });
-    if deepest.is_none() {
-        let lines: Vec<Vec<(f64, f64)>> = wound(&view.polygons_mm)
-            .iter()
-            .map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1])))))
-            .collect();
-        let paint = Paint::line(SHADES[6], 1.4).filled(SHADES[2], 1.0);
-        if lines.is_empty() {
-            chart.say("No damage");
-        } else {
-            chart.picture.shapes.push(clipped(lines, true, paint));
-        }
-    }
-    let against = Paint::line(ink::VERMILLION, 1.8).dashed(&[6.0, 3.0]);
+    let mut plan = Plan::new(view, index, layout);
+    plan.draw_track();
+    let deepest = plan.draw_damage();
+    plan.draw_against();
+    plan.draw_rims();
+    let mut entries = plan.draw_rollers();
     if !view.against_mm.is_empty() {
-        let known = view
-            .against_mm
-            .iter()
-            .filter(|q| q.iter().all(|v| v.is_finite()));
-        let line = drawn(known.map(|q| (x.at(q[0]), y.at(q[1]))));
-        chart
-            .picture
-            .shapes
-            .push(clipped(vec![line], true, against));
+        entries.push((&view.against, against()));
     }
-    for z in track {
-        chart.picture.shapes.push(clipped(
-            vec![vec![(ends[0], z), (ends[1], z)]],
-            false,
-            Paint::line(ink::FRAME, 1.0),
-        ));
+    if let Some(words) = plan.draw_load_zone() {
+        entries.push((words, Paint::line(ink::GREEN, 5.0)));
     }
-    if half_turn.is_some() {
-        chart.picture.shapes.push(clipped(
-            ends.iter()
-                .map(|&end| vec![(end, track[0]), (end, track[1])])
-                .collect(),
-            false,
-            Paint::line(ink::FRAME, 1.0),
-        ));
-    }
-    let line = Paint::line(ink::BLUE, 2.4);
-    let hint = match half_turn {
-        Some(_) => Paint::line(ink::BLUE, 2.0).dashed(&[5.0, 4.0]),
-        None => Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]),
-    };
-    let zone_paint = Paint::line(ink::GREEN, 5.0);
-    let mut upright = |s: f64, paint: Paint| {
-        let at = x.at(s);
-        chart.picture.shapes.push(clipped(
-            vec![vec![(at, track[0]), (at, track[1])]],
-            false,
-            paint,
-        ));
-    };
-    let mut entries = match half_turn {
-        Some(half) => {
-            upright(
-                if first > 0.0 {
-                    first - half
-                } else {
-                    first + half
-                },
-                hint,
-            );
-            upright(first, line);
-            vec![
-                ("line of contact as the damage comes to it", line),
-                ("the contact with the other raceway then", hint),
-            ]
-        }
-        None => {
-            let (from, to) = (x.at(first - radius), x.at(first + radius));
-            upright(first, line);
-            chart.picture.shapes.push(clipped(
-                vec![vec![
-                    (from, track[0]),
-                    (to, track[0]),
-                    (to, track[1]),
-                    (from, track[1]),
-                ]],
-                true,
-                hint,
-            ));
-            vec![
-                ("line of contact as the roller comes on", line),
-                ("the roller above it", hint),
-            ]
-        }
-    };
-    if !view.against_mm.is_empty() {
-        entries.push((&view.against, against));
-    }
-    let mut zone_words = String::new();
-    if let Some([from, to]) = view
-        .load_zone_mm
-        .filter(|z| z.iter().all(|x| x.is_finite()))
-    {
-        let (lo, hi) = (x.at(from).max(frame.left), x.at(to).min(frame.right));
-        let base = frame.bottom - 2.5;
-        if hi > lo {
-            chart.picture.shapes.push(clipped(
-                vec![vec![(lo, base), (hi, base)]],
-                false,
-                zone_paint,
-            ));
-            for end in [from, to].map(|s| x.at(s)) {
-                if end > frame.left && end < frame.right {
-                    chart.picture.shapes.push(clipped(
-                        vec![vec![(end, frame.top), (end, frame.bottom)]],
-                        false,
-                        Paint::line(ink::GREEN, 1.4).dashed(&[2.0, 3.0]),
-                    ));
-                }
-            }
-            zone_words = if lo <= frame.left && hi >= frame.right {
-                "load zone (reaches beyond the picture)".into()
-            } else {
-                "load zone".into()
-            };
-        } else {
-            zone_words = "load zone: not in the picture".into();
-        }
-    }
-    if !zone_words.is_empty() {
-        entries.push((&zone_words, zone_paint));
-    }
-    let plan = chart.finish();
+    let left = plan.left;
+    let height = plan.height;
+    let plan = plan.chart.finish();
     let mut picture = Picture::new(&plan.name, &plan.title, width, 0.0);
     let mut top = heading(&mut picture, &view.plan_title, left, width, font);
     top += legend(&mut picture, &entries, left, width, top, font);
@@ -234,6 +40,237 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     picture.place(plan, 0.0, top);
     picture.height = top + height;
     picture
+}
+
+/// Another shape, to hold the damage against.
+fn against() -> Paint {
+    Paint::line(ink::VERMILLION, 1.8).dashed(&[6.0, 3.0])
+}
+
+/// The plan as it is drawn.
+struct Plan<'a> {
+    view: &'a DamageView,
+    chart: Chart,
+    /// First s, last s, lowest and highest z, mm.
+    extent: [f64; 4],
+    /// Of the roller, mm.
+    radius: f64,
+    /// Of a roller that is damaged, mm.
+    half_turn: Option<f64>,
+    /// Upper and lower edge of the track, px.
+    track: [f64; 2],
+    /// Its ends, px.
+    ends: [f64; 2],
+    left: f64,
+    height: f64,
+}
+
+impl<'a> Plan<'a> {
+    fn new(view: &'a DamageView, index: usize, layout: Layout) -> Self {
+        let Size { width, font, .. } = layout.size(0.0);
+        let positive = |x: f64, or: f64| if x.is_finite() && x > 0.0 { x } else { or };
+        let length = positive(view.roller_length_mm, 1.0).min(1e6);
+        let radius = 0.5 * positive(view.roller_diameter_mm, length).min(1e6);
+        let extent = extent(view).unwrap_or([0.0, 0.0, 0.0, 0.0]);
+        let [first, last, lowest, highest] = extent;
+        let tall = 1.08 * length.max(2.0 * lowest.abs()).max(2.0 * highest.abs());
+        let half_turn = view.half_turn_mm.filter(|x| x.is_finite() && *x > 0.0);
+        let wanted = match half_turn {
+            Some(half) => 1.04 * (2.0 * half).max(last - first),
+            None => 1.04 * (last - first + 2.0 * radius),
+        };
+        let middle = half_turn.map_or(0.5 * (first + last), |_| 0.0);
+        // From the room between the margins follows the scale, from the scale the height.
+        let spec = |height: f64, left: f64, half: f64| Spec {
+            name: format!("damage-{}", index + 1),
+            title: match view.plan_title.is_empty() {
+                true => view.title.clone(),
+                false => view.plan_title.clone(),
+            },
+            size: Size {
+                width,
+                height,
+                font,
+            },
+            x: Domain::exact(middle - half, middle + half),
+            y: Domain::exact(-0.5 * tall, 0.5 * tall),
+            x_label: along(view, half_turn.is_some()),
+            x_unit: "mm".into(),
+            y_label: "Across".into(),
+            y_unit: "mm".into(),
+            lanes: vec![],
+            left,
+            right: 0.0,
+            x_axis: true,
+        };
+        let around = 8.0 + 3.4 * font;
+        let draft = spec(TALLEST + around, 0.0, wanted);
+        let left = left_margin(&draft).max(4.8 * font);
+        let room = width - left - right_margin(&draft);
+        let scale = (room / wanted).min(TALLEST / tall);
+        let height = (scale * tall).max(30.0) + around;
+        let chart = Chart::new(spec(height, left, 0.5 * room / scale));
+        let track = [0.5 * length, -0.5 * length].map(|z| chart.y.at(z));
+        let ends = match half_turn {
+            Some(half) => [chart.x.at(-half), chart.x.at(half)],
+            None => [chart.frame.left, chart.frame.right],
+        };
+        Self {
+            view,
+            chart,
+            extent,
+            radius,
+            half_turn,
+            track,
+            ends,
+            left,
+            height,
+        }
+    }
+
+    fn clipped(&self, lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint) -> Shape {
+        Shape::Path {
+            lines,
+            close,
+            paint,
+            clip: Some(self.chart.frame),
+        }
+    }
+
+    fn draw(&mut self, lines: Vec<Vec<(f64, f64)>>, close: bool, paint: Paint) {
+        let shape = self.clipped(lines, close, paint);
+        self.chart.picture.shapes.push(shape);
+    }
+
+    /// The track between two x, px.
+    fn band(&self, [from, to]: [f64; 2]) -> Vec<Vec<(f64, f64)>> {
+        let [upper, lower] = self.track;
+        vec![vec![(from, upper), (to, upper), (to, lower), (from, lower)]]
+    }
+
+    fn draw_track(&mut self) {
+        let track = self.clipped(self.band(self.ends), true, Paint::fill(TRACK, 1.0));
+        // Under the grid, so that it stays visible.
+        self.chart.picture.shapes.insert(0, track);
+    }
+
+    /// Depths or outlines; the deepest depth, um, where there are depths.
+    fn draw_damage(&mut self) -> Option<f64> {
+        if let Some(patch) = &self.view.depths {
+            let clip = Some(self.chart.frame);
+            let clipped = |lines, close, paint| Shape::Path {
+                lines,
+                close,
+                paint,
+                clip,
+            };
+            let depths = shade(&mut self.chart, patch, self.extent, clipped);
+            return Some(depths.into_iter().fold(0.0, f64::max));
+        }
+        let (x, y) = (&self.chart.x, &self.chart.y);
+        let lines: Vec<Vec<(f64, f64)>> = wound(&self.view.polygons_mm)
+            .iter()
+            .map(|p| drawn(p.iter().map(|q| (x.at(q[0]), y.at(q[1])))))
+            .collect();
+        if lines.is_empty() {
+            self.chart.say("No damage");
+        } else {
+            let paint = Paint::line(SHADES[6], 1.4).filled(SHADES[2], 1.0);
+            self.draw(lines, true, paint);
+        }
+        None
+    }
+
+    fn draw_against(&mut self) {
+        if self.view.against_mm.is_empty() {
+            return;
+        }
+        let (x, y) = (&self.chart.x, &self.chart.y);
+        let finite = |q: &&[f64; 2]| q.iter().all(|v| v.is_finite());
+        let known = self.view.against_mm.iter().filter(finite);
+        let line = drawn(known.map(|q| (x.at(q[0]), y.at(q[1]))));
+        self.draw(vec![line], true, against());
+    }
+
+    fn draw_rims(&mut self) {
+        let (ends, track) = (self.ends, self.track);
+        let rim = Paint::line(ink::FRAME, 1.0);
+        for z in track {
+            self.draw(vec![vec![(ends[0], z), (ends[1], z)]], false, rim);
+        }
+        if self.half_turn.is_some() {
+            let upright = |end: f64| vec![(end, track[0]), (end, track[1])];
+            self.draw(ends.map(upright).to_vec(), false, rim);
+        }
+    }
+
+    /// Lines of contact as the damage and a roller meet; words of the legend.
+    fn draw_rollers(&mut self) -> Vec<(&'a str, Paint)> {
+        let first = self.extent[0];
+        let line = Paint::line(ink::BLUE, 2.4);
+        let Some(half) = self.half_turn else {
+            let hint = Paint::line(ink::BLUE, 1.2).dashed(&[5.0, 4.0]);
+            let above = [first - self.radius, first + self.radius].map(|s| self.chart.x.at(s));
+            self.draw_line_of_contact(first, line);
+            self.draw(self.band(above), true, hint);
+            return vec![
+                ("line of contact as the roller comes on", line),
+                ("the roller above it", hint),
+            ];
+        };
+        let hint = Paint::line(ink::BLUE, 2.0).dashed(&[5.0, 4.0]);
+        let other = match first > 0.0 {
+            true => first - half,
+            false => first + half,
+        };
+        self.draw_line_of_contact(other, hint);
+        self.draw_line_of_contact(first, line);
+        vec![
+            ("line of contact as the damage comes to it", line),
+            ("the contact with the other raceway then", hint),
+        ]
+    }
+
+    fn draw_line_of_contact(&mut self, s: f64, paint: Paint) {
+        let (at, track) = (self.chart.x.at(s), self.track);
+        self.draw(vec![vec![(at, track[0]), (at, track[1])]], false, paint);
+    }
+
+    /// Words of the legend, where the load zone is known.
+    fn draw_load_zone(&mut self) -> Option<&'static str> {
+        let finite = |z: &[f64; 2]| z.iter().all(|x| x.is_finite());
+        let zone = self.view.load_zone_mm.filter(finite)?;
+        let frame = self.chart.frame;
+        let [from, to] = zone.map(|s| self.chart.x.at(s));
+        let (lo, hi) = (from.max(frame.left), to.min(frame.right));
+        if hi <= lo {
+            return Some("load zone: not in the picture");
+        }
+        let base = frame.bottom - 2.5;
+        let zone = Paint::line(ink::GREEN, 5.0);
+        self.draw(vec![vec![(lo, base), (hi, base)]], false, zone);
+        for end in [from, to] {
+            if end > frame.left && end < frame.right {
+                let upright = vec![(end, frame.top), (end, frame.bottom)];
+                let paint = Paint::line(ink::GREEN, 1.4).dashed(&[2.0, 3.0]);
+                self.draw(vec![upright], false, paint);
+            }
+        }
+        match lo <= frame.left && hi >= frame.right {
+            true => Some("load zone (reaches beyond the picture)"),
+            false => Some("load zone"),
+        }
+    }
+}
+
+fn along(view: &DamageView, around_a_roller: bool) -> String {
+    if around_a_roller {
+        "Around the roller, rolling direction".to_owned()
+    } else if view.surface.is_empty() {
+        "Along the raceway, rolling direction".to_owned()
+    } else {
+        format!("Along the {}, rolling direction", view.surface)
+    }
 }
 
 /// First s, last s, lowest and highest z of what is drawn.

@@ -47,44 +47,82 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
             )));
         }
     };
-    let listed = sidecar["files"].as_array();
     let mut found = Verified {
-        of: listed.map_or(about["files"].as_u64().unwrap_or(0) as usize, Vec::len),
+        of: match sidecar["files"].as_array() {
+            Some(listed) => listed.len(),
+            None => about["files"].as_u64().unwrap_or(0) as usize,
+        },
         ..Verified::default()
     };
-    if !sidecar.is_object() {
-        found
-            .problems
-            .push("dataset.json is missing: the data set is not finished".into());
-    } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"] {
-        found
-            .problems
-            .push("dataset.json is of another campaign or version than work/campaign.json".into());
-    } else if is_whole(&sidecar) != Some(true) {
-        found
-            .problems
-            .push("dataset.json: its checksum is another than when it was written".into());
+    let set = Set {
+        folder: &folder,
+        sidecar: &sidecar,
+        about: &about,
+    };
+    set.sidecar(&mut found);
+    set.files(&mut found)?;
+    set.strangers(&mut found)?;
+    set.card(&mut found)?;
+    set.labels(&mut found)?;
+    Ok(found)
+}
+
+/// A data set's folder and what it says of itself.
+struct Set<'a> {
+    folder: &'a Folder,
+    /// `dataset.json`, null where it is missing.
+    sidecar: &'a Value,
+    /// The campaign.
+    about: &'a Value,
+}
+
+impl Set<'_> {
+    fn sidecar(&self, found: &mut Verified) {
+        let (sidecar, about) = (self.sidecar, self.about);
+        let problem = if !sidecar.is_object() {
+            "dataset.json is missing: the data set is not finished"
+        } else if about["campaign"] != sidecar["campaign"] || about["brinell"] != sidecar["brinell"]
+        {
+            "dataset.json is of another campaign or version than work/campaign.json"
+        } else if is_whole(sidecar) != Some(true) {
+            "dataset.json: its checksum is another than when it was written"
+        } else {
+            return;
+        };
+        found.problems.push(problem.into());
     }
-    let columns: Vec<&str> = about["columns"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .filter_map(|c| c["name"].as_str())
-        .collect();
-    let parts = files_of(&about);
-    for part in 0..found.of {
-        let path = folder.part(part);
+
+    fn files(&self, found: &mut Verified) -> Result<(), DatasetError> {
+        let columns = self.about["columns"].as_array().into_iter().flatten();
+        let columns: Vec<&str> = columns.filter_map(|c| c["name"].as_str()).collect();
+        let parts = files_of(self.about);
+        for part in 0..found.of {
+            let rows = parts.get(part).map_or(0, |(_, rows)| *rows);
+            self.file(part, &columns, rows, found)?;
+        }
+        Ok(())
+    }
+
+    /// One file, which should hold `columns` and so many `rows`.
+    fn file(
+        &self,
+        part: usize,
+        columns: &[&str],
+        rows: u64,
+        found: &mut Verified,
+    ) -> Result<(), DatasetError> {
+        let path = self.folder.part(part);
         let name = format!("runs/{}", file_name(part));
         if !path.exists() {
             found.problems.push(format!("{name} is missing"));
-            continue;
+            return Ok(());
         }
         let before = found.problems.len();
         let facts = match record_facts(&path) {
             Ok(facts) => facts,
             Err(error) => {
                 found.problems.push(error.to_string());
-                continue;
+                return Ok(());
             }
         };
         let mut say = |wrong: bool, what: &str| {
@@ -93,112 +131,119 @@ pub fn verify(path: impl AsRef<Path>) -> Result<Verified, DatasetError> {
             }
         };
         let get = |key: &str| facts.metadata.get(key);
-        let version = about["brinell"].as_str();
-        say(
-            get(CAMPAIGN) != about["campaign"].as_str(),
-            "of another campaign",
+        let ours = self.about["campaign"].as_str();
+        say(get(CAMPAIGN) != ours, "of another campaign");
+        let (version, theirs) = (self.about["brinell"].as_str(), get(keys::VERSION));
+        let word = |version: Option<&str>| version.unwrap_or("?").to_owned();
+        let other = format!(
+            "of brinell {}, the others of {}",
+            word(theirs),
+            word(version)
         );
-        let theirs = get(keys::VERSION);
-        say(
-            theirs != version,
-            &format!(
-                "of brinell {}, the others of {}",
-                theirs.unwrap_or("?"),
-                version.unwrap_or("?")
-            ),
-        );
-        say(
-            get(PART) != Some(part.to_string().as_str()),
-            "another file under this name",
-        );
+        say(theirs != version, &other);
+        let other_part = get(PART) != Some(part.to_string().as_str());
+        say(other_part, "another file under this name");
         say(
             facts.columns != columns,
             "other columns than the data set's",
         );
-        let expected = parts.get(part).map_or(0, |(_, rows)| *rows);
-        say(
-            facts.rows != expected,
-            &format!("{} rows instead of {expected}", facts.rows),
-        );
-        let told = match listed {
-            Some(files) => files.get(part).cloned(),
-            None => std::fs::read(folder.facts(part))
-                .ok()
-                .and_then(|b| serde_json::from_slice::<Value>(&b).ok())
-                .map(|f| f["runs"].clone()),
-        };
-        if let Some(told) = told {
-            say(
-                Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str(),
-                "its checksum is another than when it was written",
-            );
+        let count = format!("{} rows instead of {rows}", facts.rows);
+        say(facts.rows != rows, &count);
+        if let Some(told) = self.told(part) {
+            let changed = Some(sha256_of(&path)?.as_str()) != told["sha256"].as_str();
+            say(changed, "its checksum is another than when it was written");
             found.failed += told["failed"].as_u64().unwrap_or(0);
         }
         found.rows += facts.rows;
         found.files += usize::from(found.problems.len() == before);
+        Ok(())
     }
-    for path in folder.all_there()? {
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        // A file that another process is about to finish is none yet.
-        let whole = name.strip_suffix(".partial").unwrap_or(&name);
-        if !(0..found.of).any(|part| whole == file_name(part)) {
-            found
-                .problems
-                .push(format!("runs/{name}: no file of this data set"));
+
+    /// What is written down of a file.
+    fn told(&self, part: usize) -> Option<Value> {
+        if let Some(files) = self.sidecar["files"].as_array() {
+            return files.get(part).cloned();
         }
+        let bytes = std::fs::read(self.folder.facts(part)).ok()?;
+        let facts: Value = serde_json::from_slice(&bytes).ok()?;
+        Some(facts["runs"].clone())
     }
-    if let (Some(path), Some(told)) = (
-        sidecar[CARD]["path"]
-            .as_str()
-            .filter(|path| *path == CROISSANT),
-        sidecar[CARD]["sha256"].as_str(),
-    ) {
-        let card = folder.root.join(path);
-        if !card.exists() {
-            found.absent.push(format!("{path} is not here"));
-        } else if sha256_of(&card)? != told {
-            found.problems.push(format!(
-                "{path}: its checksum is another than when it was written"
-            ));
+
+    fn strangers(&self, found: &mut Verified) -> Result<(), DatasetError> {
+        for path in self.folder.all_there()? {
+            let name = path.file_name().unwrap_or_default();
+            let name = name.to_string_lossy().into_owned();
+            // A file that another process is about to finish is none yet.
+            let whole = name.strip_suffix(".partial").unwrap_or(&name);
+            if !(0..found.of).any(|part| whole == file_name(part)) {
+                let stranger = format!("runs/{name}: no file of this data set");
+                found.problems.push(stranger);
+            }
         }
+        Ok(())
     }
-    // The labels may have been taken elsewhere, all of them: those that are here are checked, and what they are made from.
-    let plan = &sidecar["held_out"]["plan"];
-    let secret: Value = std::fs::read(folder.secret())
-        .ok()
-        .and_then(|bytes| serde_json::from_slice(&bytes).ok())
-        .unwrap_or_default();
-    let files = secret["files"].as_array().into_iter().flatten();
-    let apart: Vec<(&str, &Value)> = files
-        .chain([plan])
-        .filter_map(|entry| Some((entry["path"].as_str()?, &entry["sha256"])))
-        .collect();
-    let there = |path: &str| folder.root.join(path).exists();
-    let mut labels = (0..parts.len()).map(|part| folder.held_out(part));
-    let are_here = labels.any(|path| path.exists()) || there(SECRET_PATH);
-    if plan.is_object() && !are_here {
-        found.absent.push("labels are not here".into());
-    }
-    for (path, told) in apart.into_iter().filter(|_| are_here) {
-        if !there(path) {
-            let labels = path != SECRET_PATH;
-            let remedy = if labels {
-                "remove the file of that name in runs/ as well, and both are made again"
+
+    fn card(&self, found: &mut Verified) -> Result<(), DatasetError> {
+        let card = &self.sidecar[CARD];
+        let path = card["path"].as_str().filter(|path| *path == CROISSANT);
+        if let (Some(path), Some(told)) = (path, card["sha256"].as_str()) {
+            if !self.folder.root.join(path).exists() {
+                found.absent.push(format!("{path} is not here"));
             } else {
-                "the plan's own command writes it again"
+                self.unchanged(path, Some(told), found)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Held-out labels may have been taken elsewhere, all of them: those that are here are checked, and what they are made from.
+    fn labels(&self, found: &mut Verified) -> Result<(), DatasetError> {
+        let plan = &self.sidecar["held_out"]["plan"];
+        let secret: Value = std::fs::read(self.folder.secret())
+            .ok()
+            .and_then(|bytes| serde_json::from_slice(&bytes).ok())
+            .unwrap_or_default();
+        let there = |path: &str| self.folder.root.join(path).exists();
+        let parts = files_of(self.about).len();
+        let mut labels = (0..parts).map(|part| self.folder.held_out(part));
+        let are_here = labels.any(|path| path.exists()) || there(SECRET_PATH);
+        if plan.is_object() && !are_here {
+            found.absent.push("labels are not here".into());
+        }
+        if !are_here {
+            return Ok(());
+        }
+        let files = secret["files"].as_array().into_iter().flatten();
+        for entry in files.chain([plan]) {
+            let Some(path) = entry["path"].as_str() else {
+                continue;
+            };
+            if there(path) {
+                self.unchanged(path, entry["sha256"].as_str(), found)?;
+                continue;
+            }
+            let remedy = match path == SECRET_PATH {
+                false => "remove the file of that name in runs/ as well, and both are made again",
+                true => "the plan's own command writes it again",
             };
             found
                 .problems
                 .push(format!("{path} is missing, and others are here: {remedy}"));
-        } else if Some(sha256_of(folder.root.join(path))?.as_str()) != told.as_str() {
+        }
+        Ok(())
+    }
+
+    fn unchanged(
+        &self,
+        path: &str,
+        told: Option<&str>,
+        found: &mut Verified,
+    ) -> Result<(), DatasetError> {
+        if Some(sha256_of(self.folder.root.join(path))?.as_str()) != told {
             found.problems.push(format!(
                 "{path}: its checksum is another than when it was written"
             ));
         }
+        Ok(())
     }
-    Ok(found)
 }
