@@ -113,7 +113,12 @@ pub(crate) struct RunArgs {
     pub(crate) plots: Vec<PlotFormat>,
     /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these instants (s); of scenarios with
     /// simulation.model = "tilting" or a bearing.profile
-    #[arg(long, value_delimiter = ',', value_name = "T")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "T",
+        allow_negative_numbers = true
+    )]
     pub(crate) line_loads: Vec<f64>,
     /// Skip report.html
     #[arg(long)]

@@ -2,7 +2,7 @@
 
 use crate::accuracy::settings;
 use crate::bearing::Kinematics;
-use crate::defect::Defect;
+use crate::defect::{Defect, SIDES};
 use crate::model::Model;
 use crate::scenario::{Accuracy, LoadOn, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
@@ -70,8 +70,7 @@ impl Derived {
             .as_ref()
             .map_or(0.0, |z| z.largest)
             .max(centrifugal_force);
-        let contact_stiffness = [&model.inner_contact, &model.outer_contact]
-            .map(|law| law.tangent(law.deflection(contact_force), None));
+        let contact_stiffness = SIDES.map(|side| model.stiffness_at(side, contact_force));
         let between = contact_stiffness[0] + contact_stiffness[1];
         let roller_angular = (between / m.roller).sqrt();
         let damping = model.inner_contact.damping + model.outer_contact.damping;

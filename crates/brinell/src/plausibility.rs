@@ -5,6 +5,7 @@
 //! [`crate::document`].
 
 mod slices;
+mod tilting;
 
 use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
@@ -63,13 +64,20 @@ pub fn before(
     let mut warnings = Vec::new();
     warnings.extend(no_load(scenario, model));
     warnings.extend(weight_left_out(scenario, model));
-    if let Ok(zone) = statics {
-        warnings.extend(overload(scenario, zone));
+    match statics {
+        Ok(zone) => warnings.extend(overload(scenario, zone)),
+        Err(error) => warnings.push(warning(
+            LOAD,
+            list(scenario.operation.load_n),
+            error.to_string(),
+            "",
+        )),
     }
     warnings.extend(outside_the_load_zone(scenario, model));
     let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
     warnings.extend(deformation.and_then(|delta| coarse_slices(scenario, model, delta)));
+    warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)
 }
@@ -274,7 +282,7 @@ fn outside_the_load_zone(scenario: &Scenario, model: &Model) -> Vec<Problem> {
 
 /// Static deformation of the heaviest contact on the softer raceway, m.
 fn deformation(model: &Model, zone: &StaticLoadZone) -> f64 {
-    let on = |side| model.contact(side).deflection(zone.largest);
+    let on = |side| model.deflection(side, zone.largest);
     SIDES.into_iter().map(on).fold(0.0, f64::max)
 }
 

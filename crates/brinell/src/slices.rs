@@ -91,6 +91,16 @@ pub struct Approach {
     pub tilt_rate: f64,
 }
 
+impl Approach {
+    /// At rest, all along the roller alike.
+    pub fn pressed(deformation: f64) -> Self {
+        Self {
+            deformation,
+            ..Self::default()
+        }
+    }
+}
+
 /// What the slices of a moving contact carry together.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Pressed {
@@ -218,6 +228,35 @@ impl Slices {
             }
         }
         sum
+    }
+
+    /// Deformation at the roller's middle under `force` (N) without tilt and damage, m; at least `least`, that of a straight roller.
+    pub fn deflection(&self, law: &Hertz, force: f64, least: f64) -> f64 {
+        let carried = |delta: f64| self.carry(law, &Approach::pressed(delta), None).force;
+        let (mut low, mut high) = (least, least);
+        while carried(high) < force {
+            (low, high) = (high, 2.0 * high + 1e-9);
+        }
+        // To the last bit.
+        for _ in 0..64 {
+            let middle = 0.5 * (low + high);
+            match carried(middle) < force {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        high
+    }
+
+    /// Share of the roller's length that touches at a deformation without tilt.
+    pub fn touching(&self, deformation: f64, cover: Option<&Cover>) -> f64 {
+        let of = |k: usize| {
+            let delta = deformation - self.drop[k];
+            let (fraction, depth) = cover.map_or((0.0, 0.0), |c| (c.fraction[k], c.depth[k]));
+            let touches = |delta: f64, share: f64| if delta > 0.0 { share } else { 0.0 };
+            self.weight[k] * (touches(delta, 1.0 - fraction) + touches(delta - depth, fraction))
+        };
+        (0..self.count).map(of).sum()
     }
 }
 

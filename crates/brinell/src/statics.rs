@@ -94,7 +94,8 @@ pub struct Tilted {
 /// No balance was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "no static balance: {} left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against the load",
+    "no static balance: {} left on a ring after {iterations} iterations; a free ring needs a support or a loaded contact against \
+     the load, and where it tilts against its moment (support.*_tilt_stiffness_nm_per_rad)",
     newton(*.residual)
 )]
 pub struct NoBalance {

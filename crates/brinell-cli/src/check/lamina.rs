@@ -30,25 +30,39 @@ pub(super) fn print(s: &Scenario, top_speed: f64) -> Result<(), Failure> {
     }
     let shown = rating.damaged.as_ref().unwrap_or(&rating.healthy);
     if let Some(k) = shown.stiffness {
-        let [x, y] = shown.tilt.map(|tau| 1e6 * tau);
-        let size = x.hypot(y);
-        say!(
-            "  inner ring from outer   tilted by ({}, {}) urad; rollers by up to {} urad",
-            significant(x, size, 3),
-            significant(y, size, 3),
-            short(1e6 * shown.roller_tilt, 3)
-        );
-        say!(
-            "  tilt stiffness          xx {}, yy {}, xy {} N m/rad; with shift {} N/rad; along the axis 0",
-            short(k[2][2], 4),
-            short(k[3][3], 4),
-            significant(k[2][3], k[2][2], 2),
-            significant(k[0][2], (k[0][0] * k[2][2]).sqrt(), 3)
-        );
+        tilts(shown, &k);
     }
-    life(&rating, top_speed);
+    life(
+        &rating,
+        s.bearing.profile == RollerProfile::Straight,
+        top_speed,
+    );
     say!("");
     Ok(())
+}
+
+/// Tilts below this are what the search leaves over, rad.
+const NO_TILT: f64 = 1e-9;
+
+fn tilts(d: &Distribution, stiffness: &[[f64; 4]; 4]) {
+    let [x, y] = d
+        .tilt
+        .map(|tau| if tau.abs() < NO_TILT { 0.0 } else { 1e6 * tau });
+    say!(
+        "  inner ring from outer   tilted by ({}, {}) urad; rollers by up to {} urad",
+        significant(x, x.hypot(y), 3),
+        significant(y, x.hypot(y), 3),
+        short(1e6 * d.roller_tilt, 3)
+    );
+    say!(
+        "  bearing stiffness       over (x, y, tau_x, tau_y) in N/m, N/rad and N m/rad; along the axis and about it cylindrical rollers hold nothing"
+    );
+    for (i, row) in stiffness.iter().enumerate() {
+        let own = |j: usize| stiffness[j][j].abs().max(1e-6);
+        let cells = (0..4).map(|j| significant(row[j], (own(i) * own(j)).sqrt(), 4));
+        let cells: Vec<String> = cells.map(|cell| format!("{cell:>11}")).collect();
+        say!("                       {}", cells.join(""));
+    }
 }
 
 fn pressures(of: &str, d: &Distribution) {
@@ -79,22 +93,28 @@ fn place(peak: &Peak) -> String {
     )
 }
 
-fn life(rating: &Rating, top_speed: f64) {
+fn life(rating: &Rating, straight: bool, top_speed: f64) {
     let Some(life) = rating.life else {
+        say!("  life L10r               none: no roller carries load from ring to ring");
         return;
     };
     let hours = TAU * life / (3600.0 * top_speed);
-    let loss = match rating.damaged_life {
-        Some(damaged) => format!(
-            "; the damaged bearing's load distribution alone makes it {} %, without fatigue from the damage itself",
-            short(100.0 * damaged / life, 3)
-        ),
-        None => String::new(),
-    };
     say!(
-        "  life L10r               {} million revolutions, {} h at {} r/min{loss}",
+        "  life L10r               {} million revolutions, {} h at {} r/min{}",
         short(1e-6 * life, 3),
         short(hours, 3),
-        short(60.0 * top_speed / TAU, 4)
+        short(60.0 * top_speed / TAU, 4),
+        match straight {
+            true =>
+                "; of straight rollers it falls with wider slices: compare at one number of them",
+            false => "",
+        }
     );
+    match rating.damaged_life {
+        Some(damaged) => say!(
+            "                          the damaged bearing's load distribution alone makes it {} %, without fatigue from the damage itself",
+            short(100.0 * damaged / life, 3)
+        ),
+        None => {}
+    }
 }

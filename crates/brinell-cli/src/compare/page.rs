@@ -240,7 +240,12 @@ fn differing(sides: &[Side]) -> Table {
     }
 }
 
+/// A value as it is shown: numbers without the round-off of a change of unit, long texts cut.
 fn cut(text: &str) -> String {
+    if let Ok(x) = text.parse::<f64>() {
+        let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+        return format!("{rounded}");
+    }
     if text.chars().count() <= LONGEST {
         return text.to_owned();
     }

@@ -30,7 +30,9 @@ pub(super) fn asked(
     }
     match LineLoads::new(simulation.model(), instants, simulation.sample_rate()) {
         None => Err(Failure::Usage(
-            "--line-loads: contacts have no slices of their own here; they have with simulation.model = \"tilting\" or a bearing.profile".into(),
+            "--line-loads: the load along straight rollers in the plane is even, so there is nothing to write; it needs simulation.model = \"tilting\" or a \
+             bearing.profile other than \"straight\""
+                .into(),
         )),
         some => Ok(some),
     }
@@ -85,6 +87,11 @@ pub(super) fn ready(loads: &LineLoads, folder: &Path) -> Result<Complete, Failur
     let z = numbers(&|row| row.z);
     push("z", "m", "middle of the slice along the roller", z);
     let load = numbers(&|row| row.line_load);
-    push("line_load", "N/m", "load along the roller", load);
+    push(
+        "line_load",
+        "N/m",
+        "load along the roller, with its damping",
+        load,
+    );
     Ok(table.prepare_csv(folder.join(FILE))?)
 }

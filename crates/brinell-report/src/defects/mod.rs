@@ -3,6 +3,7 @@
 mod along;
 mod curves;
 mod measures;
+mod passage;
 
 use crate::DamageView;
 use crate::number::short;
@@ -15,9 +16,10 @@ use brinell::observe::passes::place;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell::statics::static_load_zone;
 use brinell_damage::plan::{CORNERS, polygons_mm};
-use curves::{depths, passage, section};
+use curves::{depths, section};
 pub use measures::Measures;
 use measures::{deepest, facts, widest};
+use passage::Passage;
 use std::f64::consts::TAU;
 
 /// Thickness of a ring that nobody stated, over the roller's diameter.
@@ -56,8 +58,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             _ => Side::Outer,
         };
         let force = statics.as_ref().map(|z| z.largest).filter(|f| *f > 0.0);
-        let delta_on =
-            |side: Side| force.map_or(FALLBACK_APPROACH, |f| model.contact(side).deflection(f));
+        let delta_on = |side: Side| force.map_or(FALLBACK_APPROACH, |f| model.deflection(side, f));
         let delta = delta_on(side);
         let (first, last) = defect.shape.arc();
         let extent = Extent::of(&defect.shape, defect.depth);
@@ -89,7 +90,14 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
         } else {
             vec![(side, delta)]
         };
-        let (angle_deg, passage) = passage(s, &s.defects[k], defect, &model, &sides);
+        let (angle_deg, passage) = Passage {
+            scenario: s,
+            of: &s.defects[k],
+            defect,
+            model: &model,
+            sides: &sides,
+        }
+        .panels();
         let thickness =
             1e-3 * thickness_mm.unwrap_or(THICKNESS_SHARE * s.bearing.roller_diameter_mm);
         let through = deepest >= thickness;
@@ -168,7 +176,11 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             angle_deg,
             passage,
             passage_note: format!(
-                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side"
+                "stiffness Q/δⁿ at a deformation of {deformation} ({by_force}); this defect alone, the paths and laws side by side{}",
+                match model.profiled() {
+                    Some(_) => "; along the profile, the roller does not tilt",
+                    None => "",
+                }
             ),
             along: along_roller(s, Some(k)),
             section_s_mm,

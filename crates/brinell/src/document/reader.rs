@@ -166,14 +166,18 @@ impl<'a> Reader<'a> {
         } else {
             ""
         };
-        let path = match misfit.under.as_str() {
-            "" => path,
-            under => join(&path, under),
+        let (path, unit) = match misfit.under.as_str() {
+            "" => (path, spec.unit),
+            under => {
+                let path = join(&path, under);
+                let unit = unit_of_key(&path);
+                (path, unit)
+            }
         };
         let problem = Problem::error(path, misfit.message + source)
             .value(element.brief())
             .allowed(misfit.allowed)
-            .unit(spec.unit);
+            .unit(unit);
         self.problems.add(problem, span);
     }
 

@@ -36,11 +36,18 @@ pub fn lamina_ratings(bearing: &Bearing, slices: usize) -> [f64; 2] {
         .map(|(j, power)| share * roller / j * (1.0 + g.powf(power)).powf(2.0 / 9.0))
 }
 
-/// L10r, revolutions; `None` where nothing is loaded.
+/// L10r, revolutions; `None` where no roller presses the inner raceway: the rollers' own centrifugal force is no load of the bearing.
 ///
 /// A distribution at several positions of the cage counts as one with so many times the rollers. The forces are those of the contacts:
 /// what a support holds is not among them, and the rollers' centrifugal force is.
 pub fn reference_life(bearing: &Bearing, distribution: &Distribution) -> Option<f64> {
+    if distribution
+        .contacts
+        .iter()
+        .all(|[inner, _]| inner.force <= 0.0)
+    {
+        return None;
+    }
     let slices = distribution.z.len();
     let width = 1e-3 * bearing.roller_length_mm / slices as f64;
     let ratings = lamina_ratings(bearing, slices);

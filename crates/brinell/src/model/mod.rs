@@ -3,6 +3,7 @@
 //! Planar; X right, Y up, angles counter-clockwise from +X, origin at the bearing's centre. Rows, rollers and cages count
 //! from 0 in code and from 1 in names and scenarios.
 
+mod at_rest;
 mod broad_phase;
 mod check;
 pub(crate) mod energy;

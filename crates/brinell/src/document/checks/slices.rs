@@ -64,6 +64,10 @@ impl Checker<'_> {
         let b = &self.s.bearing;
         let (length, diameter) = (1e-3 * b.roller_length_mm, 1e-3 * b.roller_diameter_mm);
         let count = self.s.contact.slices;
+        // Said of them.
+        if count == 0 {
+            return;
+        }
         let least = (0..count)
             .map(|k| {
                 let [low, high] = borders(k, count, length);
