@@ -211,7 +211,7 @@ fn rounded(value: &str) -> String {
 
 fn static_balance(s: &Scenario, model: &Model, zone: &StaticLoadZone) {
     let size = zone.shift[0].hypot(zone.shift[1]);
-    say!("Static balance under the full load (mean over a pitch of the cage)");
+    say!("Static balance under the full load, over a pitch of the cage");
     say!("  heaviest contact        {} N", short(zone.largest, 4));
     // Where the load along a roller is not even, its slices say more.
     if s.has_even_contacts() {

@@ -6,24 +6,25 @@
 
 mod along;
 mod life;
+mod positions;
 
 use crate::defect::{Angles, SIDES, Side, cover_slices, relative_radius, wrap};
 use crate::error::Error;
 use crate::model::Model;
 use crate::pressure::line_pressure;
-use crate::scenario::{Bearing, Element, Law, Scenario, Surface};
+use crate::scenario::{Bearing, Element, Law, Scenario};
 use crate::slices::{Approach, Cover, Slices};
 use crate::statics::{Balance, NoBalance, Problem, solve};
 pub use along::LoadAlong;
+use along::over_damage;
+use life::life_error;
 pub use life::{lamina_ratings, reference_life, stress_riser};
-use std::f64::consts::TAU;
+use positions::Positions;
 
 /// Slices that the life needs: ISO/TS 16281 divides a roller in at least so many.
 pub const FEWEST_SLICES: usize = 30;
-/// Positions of the cage over one pitch, where nothing that is damaged turns.
-const OVER_A_PITCH: usize = 16;
-/// Positions of the bearing where damage turns.
-const ALL_AROUND: usize = 96;
+/// Most slices: beyond, pressures and lives no longer change and time does.
+const MOST_SLICES: usize = 200;
 
 /// What one contact carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,8 +69,12 @@ pub struct Distribution {
     pub z: Vec<f64>,
     /// Profile's drop there, m.
     pub drop: Vec<f64>,
-    /// Inner and outer contact of every roller at every position.
+    /// Inner and outer contact of every roller at every position, position after position.
     pub contacts: Vec<[ContactLine; 2]>,
+    /// Groups of positions that each cover all there are, to tell how sure a mean over them is: position k belongs to group k modulo this number.
+    pub groups: usize,
+    /// The roller over damage, at places across each defect (of the first 32), in the middle of the load zone where the damage turns.
+    pub over_damage: Vec<[ContactLine; 2]>,
     /// Tilt of the inner ring in the outer one, mean over the positions, rad; 0 in the plane.
     pub tilt: [f64; 2],
     /// Largest tilt of a roller, rad.
@@ -100,7 +105,7 @@ impl Distribution {
     }
 
     fn peak_among(&self, slices: impl IntoIterator<Item = usize> + Clone) -> Option<Peak> {
-        let lines = self.contacts.iter().flatten();
+        let lines = self.contacts.iter().chain(&self.over_damage).flatten();
         let all = lines.flat_map(|line| slices.clone().into_iter().map(move |k| (line, k)));
         let (line, k) = all
             .filter(|(line, k)| line.pressure[*k] > 0.0)
@@ -122,7 +127,7 @@ impl Distribution {
     }
 }
 
-/// Load distribution and life, healthy and damaged, with the scenario's slices, but at least [`FEWEST_SLICES`].
+/// Load distribution and life, healthy and damaged, with the scenario's slices, but 30 to 200 of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rating {
     /// Of the bearing without its damage.
@@ -134,6 +139,8 @@ pub struct Rating {
     /// The same formula over the load distribution of the damaged bearing: what the redistribution of load takes. Fatigue that starts at the
     /// damage, its stress concentration and its impacts are not in it: it is no forecast of the damaged bearing's life.
     pub damaged_life: Option<f64>,
+    /// Its standard error from the positions of turning damage, revolutions.
+    pub damaged_life_error: Option<f64>,
 }
 
 impl Rating {
@@ -167,37 +174,22 @@ impl Rating {
         Ok(Some(Self {
             life: reference_life(b, &healthy),
             damaged_life: damaged.as_ref().and_then(|d| reference_life(b, d)),
+            damaged_life_error: damaged.as_ref().and_then(|d| life_error(b, d)),
             healthy,
             damaged,
         }))
     }
 }
 
-/// The scenario with at least [`FEWEST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
+/// The scenario with [`FEWEST_SLICES`] to [`MOST_SLICES`]; `None` where its rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
 fn in_slices(s: &Scenario) -> Option<Scenario> {
     let rollers = s.bearing.element == Element::Roller;
     if !rollers || s.contact.law != Law::Sliced || !s.simulation.model.moves_every_part() {
         return None;
     }
     let mut s = s.clone();
-    s.contact.slices = s.contact.slices.max(FEWEST_SLICES);
+    s.contact.slices = s.contact.slices.clamp(FEWEST_SLICES, MOST_SLICES);
     Some(s)
-}
-
-/// Turns of the cage, the inner ring and the rollers over which the distribution is taken, rad.
-fn positions(model: &Model) -> Vec<[f64; 3]> {
-    let pitch = TAU / model.layout.rollers_per_row as f64;
-    let rests = |surface: Surface| surface == Surface::OuterRaceway;
-    if model.defects.iter().all(|d| rests(d.surface)) {
-        let at = |k: usize| [pitch * k as f64 / OVER_A_PITCH as f64, 0.0, 0.0];
-        return (0..OVER_A_PITCH).map(at).collect();
-    }
-    // Every combination of angles comes; these fill the cube of turns evenly (Roberts's sequence, from the root of g^4 = g + 1).
-    const G: f64 = 1.220_744_084_605_759_5;
-    let share = |k: usize, power: i32| (k as f64 * G.powi(-power)).fract();
-    (0..ALL_AROUND)
-        .map(|k| [1, 2, 3].map(|power| TAU * share(k, power)))
-        .collect()
 }
 
 /// In the plane a straight roller's are not kept in the model.
@@ -210,13 +202,16 @@ fn slices_of(model: &Model, bearing: &Bearing) -> Slices {
 fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBalance> {
     let l = &model.layout;
     let slices = slices_of(model, bearing);
-    let positions = positions(model);
+    let Positions { places, groups } = Positions::of(model);
+    let positions = places;
     let share = 1.0 / positions.len() as f64;
     let mut problem = Problem::at_start(model);
     let mut all = Distribution {
         z: slices.z[..slices.count].to_vec(),
         drop: slices.drop[..slices.count].to_vec(),
         contacts: Vec::with_capacity(positions.len() * l.rollers()),
+        groups,
+        over_damage: Vec::new(),
         tilt: [0.0; 2],
         roller_tilt: 0.0,
         stiffness: model.tilt.is_some().then_some([[0.0; 4]; 4]),
@@ -246,6 +241,7 @@ fn distribution(model: &Model, bearing: &Bearing) -> Result<Distribution, NoBala
                 .for_each(|(k, own)| *k += share * own);
         }
     }
+    all.over_damage = over_damage(model, bearing, &slices)?;
     Ok(all)
 }
 

@@ -76,7 +76,12 @@ pub fn before(
     warnings.extend(outside_the_load_zone(scenario, model));
     let deformation = statics.as_ref().ok().map(|zone| deformation(model, zone));
     warnings.extend(felt_by_a_point(scenario, model, deformation));
-    warnings.extend(deformation.and_then(|delta| coarse_slices(scenario, model, delta)));
+    warnings.extend(
+        statics
+            .as_ref()
+            .ok()
+            .and_then(|zone| coarse_slices(scenario, model, zone)),
+    );
     warnings.extend(tilting::warnings(scenario, model));
     warnings.extend(too_short(scenario, model));
     few_of_a_kind(warnings)

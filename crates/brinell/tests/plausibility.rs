@@ -293,7 +293,7 @@ fn analytic_slices_follow_the_slant_of_an_edge_along_an_envelope() {
         number.split_whitespace().next().unwrap().parse().unwrap()
     };
     // Each half of a circle's edge runs its radius over a half of its width: 45 degrees on average. NN3007's L = 6 mm, R_eq of the outer contact.
-    let way = told.split("within ").nth(1).expect("a way");
+    let way = told.split("less than ").nth(1).expect("a way");
     let way: f64 = way.split_whitespace().next().unwrap().parse().unwrap();
     let needed = 6.0 / way;
     assert!(
@@ -309,6 +309,15 @@ fn analytic_slices_follow_the_slant_of_an_edge_along_an_envelope() {
     );
     let longer = warning(&[long, sliced, envelope]);
     assert!((asked(&longer) / needed - 2.0).abs() < 0.3, "{longer}");
+    // The same circle as strips of rectangles is the same surface, and too shallow a one, or one that no roller is pressed onto, is none.
+    let shallow = ("defects.0.depth_um", "0.5");
+    silent(&[circle, sliced, envelope, shallow]);
+    let steps = "{ outline = { polygons_mm = [[[-2, -0.5], [-1, -0.5], [-1, -1.5], [1, -1.5], [1, -0.5], [2, -0.5], [2, 0.5], [1, 0.5], \
+                 [1, 1.5], [-1, 1.5], [-1, 0.5], [-2, 0.5]]] } }";
+    let steps = ("defects.0.shape", steps);
+    let wide = warning(&[steps, sliced, envelope, ("contact.slices", "3")]);
+    assert!(wide.contains("contact.slices = 3"), "{wide}");
+    silent(&[steps, sliced, envelope, ("contact.slices", "60")]);
     let tilting = warning(&[circle, envelope, ("simulation.model", "tilting")]);
     assert!(tilting.contains("contact.slices"), "{tilting}");
     silent(&[sliced, envelope]);

@@ -74,7 +74,7 @@ fn pressures(of: &str, d: &Distribution) {
         format!("{} MPa", short(1e-6 * end.pressure, 4))
     });
     say!(
-        "  {:<23} {} MPa at {}; at the rollers' ends {end}",
+        "  {:<23} {} MPa at {}; in the end slices {end}",
         format!("{of}, largest"),
         short(1e-6 * peak.pressure, 4),
         place(&peak)
@@ -110,11 +110,18 @@ fn life(rating: &Rating, straight: bool, top_speed: f64) {
             false => "",
         }
     );
-    match rating.damaged_life {
-        Some(damaged) => say!(
-            "                          the damaged bearing's load distribution alone makes it {} %, without fatigue from the damage itself",
-            short(100.0 * damaged / life, 3)
-        ),
-        None => {}
-    }
+    let Some(damaged) = rating.damaged_life else {
+        return;
+    };
+    let error = rating.damaged_life_error.map_or(String::new(), |error| {
+        format!(" (standard error {} %)", short(100.0 * error / life, 2))
+    });
+    let longer = match damaged > life {
+        true => ": what lies over damage carries nothing and no longer counts",
+        false => "",
+    };
+    say!(
+        "                          the damaged bearing's load distribution alone makes it {} %{error}{longer}; fatigue that starts at the damage is not in it",
+        short(100.0 * damaged / life, 3)
+    );
 }

@@ -61,7 +61,7 @@ pub(crate) fn along_roller(s: &Scenario, defect: Option<usize>) -> Option<AlongR
     };
     let said: Vec<String> = conditions().map(says).collect();
     let place = match defect {
-        Some(_) => "over the damage where it is widest",
+        Some(_) => "over the damage where it carries least",
         None => "in the middle of the load zone",
     };
     Some(AlongRoller {

@@ -1,16 +1,21 @@
 //! The load along one roller at rest over damage, beside that of the healthy bearing.
 
 use super::{ContactLine, in_slices, lines, slices_of};
-use crate::defect::{Defect, Side};
+use crate::defect::{Defect, Side, cover_slices};
 use crate::error::Error;
 use crate::model::Model;
-use crate::scenario::{Scenario, Surface};
-use crate::statics::{Problem, solve, static_load_zone};
+use crate::scenario::{Bearing, Scenario, Surface};
+use crate::slices::{Approach, Cover, Slices};
+use crate::statics::{NoBalance, Problem, solve, static_load_zone};
 
-/// Places along damage among which the widest is looked for.
+/// Places along damage among which the weakest is looked for.
 const PLACES: usize = 401;
+/// Places across defects at which their pressures are looked at, of all defects together.
+const ACROSS: usize = 64;
+/// Defects that are looked at one by one: thousands can be alike.
+const MOST_DEFECTS: usize = 32;
 
-/// One roller under the full load, every part at rest: over the damage where that is widest, or in the middle of the load zone.
+/// One roller under the full load, every part at rest: over the damage where the contact carries least, or in the middle of the load zone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadAlong {
     /// Middles of the slices, m from the roller's middle.
@@ -40,9 +45,12 @@ impl LoadAlong {
         })?;
         let zone = static_load_zone(&healthy)?;
         let model = Model::new(&s)?;
-        let over = defect.and_then(|k| model.defects.get(k));
-        let (problem, slot) = at_rest(&model, over, zone.middle);
         let slices = slices_of(&model, &s.bearing);
+        let over = defect.and_then(|k| model.defects.get(k)).map(|defect| {
+            let pressed = model.deflection(Side::Outer, zone.largest);
+            (defect, weakest(&model, &slices, defect, pressed))
+        });
+        let (problem, slot) = at_rest(&model, over, zone.middle);
         let contacts = |model: &Model| -> Result<_, Error> {
             let balance = solve(model, &problem)?;
             Ok(lines(
@@ -66,15 +74,41 @@ impl LoadAlong {
     }
 }
 
-/// Where every part stands, and the slot that is looked at; `middle` is that of the load zone, rad.
-fn at_rest(model: &Model, over: Option<&Defect>, middle: f64) -> (Problem, usize) {
+/// The roller over each defect, at places across it from edge to edge.
+pub(super) fn over_damage(
+    model: &Model,
+    bearing: &Bearing,
+    slices: &Slices,
+) -> Result<Vec<[ContactLine; 2]>, NoBalance> {
+    if model.defects.is_empty() {
+        return Ok(Vec::new());
+    }
+    let middle = static_load_zone(model)?.middle;
+    let looked_at = model.defects.len().min(MOST_DEFECTS);
+    let across = (ACROSS / looked_at).max(1);
+    let mut all = Vec::new();
+    for defect in &model.defects[..looked_at] {
+        let (first, last) = defect.shape.arc();
+        for k in 0..across {
+            // The middles of equal parts: an edge itself is on one side or the other by round-off.
+            let s = first + (last - first) * (k as f64 + 0.5) / across as f64;
+            let (problem, slot) = at_rest(model, Some((defect, s)), middle);
+            let balance = solve(model, &problem)?;
+            all.push(lines(model, bearing, slices, (&problem, &balance), slot));
+        }
+    }
+    Ok(all)
+}
+
+/// Where every part stands with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot that is looked at.
+fn at_rest(model: &Model, over: Option<(&Defect, f64)>, middle: f64) -> (Problem, usize) {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);
     let (slot, orbit) = match over {
         None => (0, middle),
-        Some(defect) => {
+        Some((defect, s)) => {
             // With spin and inner ring at 0.
-            let met = |side| defect.met_at(side, widest(defect) / defect.radius).orbit;
+            let met = |side| defect.met_at(side, s / defect.radius).orbit;
             match defect.surface {
                 Surface::OuterRaceway => (l.slot(defect.row, 0), met(Side::Outer)),
                 Surface::InnerRaceway => {
@@ -95,14 +129,26 @@ fn at_rest(model: &Model, over: Option<&Defect>, middle: f64) -> (Problem, usize
     (problem, slot)
 }
 
-/// s (m) in the middle of where the damage is widest.
-fn widest(defect: &Defect) -> f64 {
+/// s (m) in the middle of where a contact that is pressed by `deformation` (m) without tilt carries least.
+fn weakest(model: &Model, slices: &Slices, defect: &Defect, deformation: f64) -> f64 {
+    let side = match defect.surface {
+        Surface::InnerRaceway => Side::Inner,
+        _ => Side::Outer,
+    };
+    let (law, at) = (model.contact(side), Approach::pressed(deformation));
     let (first, last) = defect.shape.arc();
-    let at = |k: usize| first + (last - first) * k as f64 / (PLACES - 1) as f64;
-    let widths: Vec<f64> = (0..PLACES).map(|k| defect.damaged_length(at(k))).collect();
-    let most = widths.iter().fold(0.0_f64, |m, w| m.max(*w));
-    let wide = |k: &usize| widths[*k] >= (1.0 - 1e-9) * most;
-    let first = (0..PLACES).find(wide).unwrap_or(0);
-    let run = (first..PLACES).take_while(wide).count();
-    at(first + run.saturating_sub(1) / 2)
+    let place = |k: usize| first + (last - first) * (k as f64 + 0.5) / PLACES as f64;
+    let mut cover = Cover::new(slices.count);
+    let carried: Vec<f64> = (0..PLACES)
+        .map(|k| {
+            let met = defect.met_at(side, place(k) / defect.radius);
+            let on = cover_slices(std::iter::once(defect), &met, side, &mut cover);
+            slices.carry(law, &at, on.then_some(&cover)).force
+        })
+        .collect();
+    let least = carried.iter().copied().fold(f64::INFINITY, f64::min);
+    let weak = |k: &usize| carried[*k] <= least * (1.0 + 1e-9);
+    let first = (0..PLACES).find(weak).unwrap_or(0);
+    let run = (first..PLACES).take_while(weak).count();
+    place(first + run.saturating_sub(1) / 2)
 }

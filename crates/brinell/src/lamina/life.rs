@@ -5,7 +5,7 @@
 //! The formulas and their constants were checked against a public implementation that names the standard's equations (38 to 65), and
 //! against the derivation: 0.378, 0.364 and 1.038 are J_r/J_1, J_r/J_2 and J_2/J_1 of a load zone of half a turn.
 
-use super::Distribution;
+use super::{ContactLine, Distribution};
 use crate::bearing::rating::{LAMBDA_NU, dynamic_rating};
 use crate::scenario::Bearing;
 
@@ -41,11 +41,34 @@ pub fn lamina_ratings(bearing: &Bearing, slices: usize) -> [f64; 2] {
 /// A distribution at several positions of the cage counts as one with so many times the rollers. The forces are those of the contacts:
 /// what a support holds is not among them, and the rollers' centrifugal force is.
 pub fn reference_life(bearing: &Bearing, distribution: &Distribution) -> Option<f64> {
-    if distribution
-        .contacts
-        .iter()
-        .all(|[inner, _]| inner.force <= 0.0)
-    {
+    life_over(
+        bearing,
+        distribution,
+        &distribution.contacts.iter().collect::<Vec<_>>(),
+    )
+}
+
+/// Standard error of [`reference_life`] by the scatter of the groups of positions, revolutions; `None` where there is one.
+pub(super) fn life_error(bearing: &Bearing, distribution: &Distribution) -> Option<f64> {
+    let (groups, rollers) = (distribution.groups, bearing.rows * bearing.rollers_per_row);
+    let of_group = |group: usize| {
+        let positions = distribution.contacts.chunks(rollers);
+        let own = positions.skip(group).step_by(groups).flatten();
+        life_over(bearing, distribution, &own.collect::<Vec<_>>())
+    };
+    let lives: Vec<f64> = (0..groups).map(of_group).collect::<Option<_>>()?;
+    let n = groups as f64;
+    let mean = lives.iter().sum::<f64>() / n;
+    let scatter = lives.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+    (groups > 1).then(|| (scatter / (n * (n - 1.0))).sqrt())
+}
+
+fn life_over(
+    bearing: &Bearing,
+    distribution: &Distribution,
+    contacts: &[&[ContactLine; 2]],
+) -> Option<f64> {
+    if contacts.iter().all(|[inner, _]| inner.force <= 0.0) {
         return None;
     }
     let slices = distribution.z.len();
@@ -53,13 +76,12 @@ pub fn reference_life(bearing: &Bearing, distribution: &Distribution) -> Option<
     let ratings = lamina_ratings(bearing, slices);
     let mut sum = 0.0;
     for row in 0..bearing.rows {
-        let pairs = distribution.contacts.iter().filter(|p| p[0].row == row);
+        let pairs = contacts.iter().filter(|p| p[0].row == row);
         let count = pairs.clone().count() as f64;
         for k in 0..slices {
             for (side, order) in [(0, 4.0), (1, 4.5)] {
-                let power = |p: &[_; 2]| {
-                    let line: &super::ContactLine = &p[side];
-                    (line.line_load[k] * width / ratings[side]).powf(order)
+                let power = |p: &&[ContactLine; 2]| {
+                    (p[side].line_load[k] * width / ratings[side]).powf(order)
                 };
                 let mean = pairs.clone().map(power).sum::<f64>() / count;
                 let equivalent = stress_riser(k, slices) * mean.powf(1.0 / order);

@@ -65,7 +65,7 @@ impl Checker<'_> {
         let (length, diameter) = (1e-3 * b.roller_length_mm, 1e-3 * b.roller_diameter_mm);
         let count = self.s.contact.slices;
         // Said of them.
-        if count == 0 {
+        if !(1..=10_000).contains(&count) {
             return;
         }
         let least = (0..count)
