@@ -4,11 +4,16 @@
 """
 
 import csv
+import fractions
 import shlex
 from pathlib import Path
 
 import numpy as np
+import pandas
 from scipy import ndimage, signal
+from sklearn.linear_model import LogisticRegression
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
 
 import brinell
 
@@ -16,8 +21,8 @@ RATE = 12_000.0
 """All signals are brought to this rate, so that it does not tell a class."""
 TURNS = 27
 """Of the shaft in a segment: what a second holds at the lowest speed of the plan, less a start."""
-SLIP = 0.012
-"""How far a family of lines may lie from pure rolling: what the simulated cages slip by."""
+SLIP = 0.02
+"""How far a family of lines may lie from pure rolling. Simulated cages slip by up to 1.7 %, in both directions."""
 PARTS = ("bpfo", "bpfi", "2bsf")
 WORDS = {"IR": "inner", "OR": "outer", "B": "ball", "N": "healthy"}
 
@@ -109,7 +114,7 @@ def envelope_orders(x, shaft_hz):
     """Envelope spectra of bands of 1 kHz, of `x` over TURNS turns of the shaft.
 
     Returns ln(power of a line over the floor about it), averaged over the bands as powers, and the depth of modulation (amplitude over mean), a
-    row a band; both by bins of 1 / TURNS orders, from 0 to 30.
+    row a band; both by bins of 1 / TURNS orders, from 0 to 30, without the lines of the shaft; and the first of the two at orders 1 and 2.
     """
     n, count = len(x), 30 * TURNS
     spectrum = np.fft.rfft(x - x.mean())
@@ -125,8 +130,12 @@ def envelope_orders(x, shaft_hz):
     depth = np.array(depth)
     floor = ndimage.median_filter(depth**2, (1, 3 * TURNS), mode="nearest")
     over = np.log(np.mean(depth**2 / floor, axis=0))
+    shaft = over[[TURNS, 2 * TURNS]]
+    # Slip may move a line of the bearing onto one of the shaft, which every machine has: what lies there says nothing.
+    of_shaft = abs(np.arange(count) - TURNS * np.round(np.arange(count) / TURNS)) <= 1
+    over[of_shaft], depth[:, of_shaft] = 0.0, np.sqrt(floor[:, of_shaft])
     # A line may lie between two bins.
-    return ndimage.maximum_filter1d(over, 3), ndimage.maximum_filter1d(depth, 3, axis=1)
+    return ndimage.maximum_filter1d(over, 3), ndimage.maximum_filter1d(depth, 3, axis=1), shaft
 
 
 def at(values, orders):
@@ -141,7 +150,7 @@ def family(over, order):
 
 def features(x, shaft_hz, orders):
     """Of one segment of TURNS turns at RATE: how high and how deep the families of lines of the bearing's parts are, and what else is there."""
-    over, depth = envelope_orders(np.asarray(x[: int(round(TURNS * RATE / shaft_hz))], float), shaft_hz)
+    over, depth, shaft = envelope_orders(np.asarray(x[: int(round(TURNS * RATE / shaft_hz))], float), shaft_hz)
     values = {}
     for part in PARTS:
         # One slip for all harmonics of a part.
@@ -153,9 +162,114 @@ def features(x, shaft_hz, orders):
         side = orders["ftf"] if part == "2bsf" else 1.0
         values[f"{part} sidebands"] = at(over, [h * slipped[best] + k * side for h in (1, 2) for k in (-1, 1)]).mean()
         values[f"{part} depth"] = np.log((at(depth, np.arange(1, 4) * slipped[best]) ** 2).sum(axis=1).max())
-    values.update(ftf=at(over, orders["ftf"]), shaft=at(over, 1.0), twice_shaft=at(over, 2.0))
+    values.update(ftf=at(over, orders["ftf"]), shaft=shaft[0], twice_shaft=shaft[1])
     # The strongest comb at none of the bearing's orders, nor at the shaft's.
     others = np.arange(1.5, 7.0, 0.5 / TURNS)
     apart = np.min([abs(others / orders[part] - 1) for part in PARTS], axis=0) > 0.02
     values["elsewhere"] = family(over, others[apart & (abs(others - np.round(others)) > 0.05)])[0].max()
     return values
+
+
+# Tables of features. --------------------------------------------------------------------------------------------------------------------------
+
+
+def simulated(data, copies=3, seed=1, noise=True, lines=True, keep=None):
+    """Features of a data set's runs, each in several machines: a pandas frame with `class`, `run`, `force_n`, `cage_slip` and `kind` beside them.
+
+    `force_n` is the largest force under which a ball entered the damage: below a few newtons it does nothing, and the run says nothing of it.
+    """
+    columns = ["run", "status", "class", "bearing", "speed_rpm", "sample_rate_hz", "sensor_ay", "entry_force_n", "cage_slip"]
+    rows = []
+    for row in data.to_polars(columns).iter_rows(named=True):
+        if row["status"] != "complete" or (keep and not keep(row)):
+            continue
+        assert row["sample_rate_hz"] == RATE
+        orders, shaft_hz = brinell.frequencies(row["bearing"], 60.0), row["speed_rpm"] / 60.0
+        label = {"class": row["class"].split("-")[0], "kind": row["class"], "run": row["run"]}
+        label |= {"force_n": max(row["entry_force_n"], default=0.0), "cage_slip": row["cage_slip"][0]}
+        start = np.asarray(row["sensor_ay"], float)[int(0.05 * RATE) :]
+        for copy in range(copies):
+            rng = np.random.default_rng([seed, row["run"], copy])
+            rows.append(label | features(machine(rng, start, shaft_hz, orders, noise, lines), shaft_hz, orders))
+    return pandas.DataFrame(rows)
+
+
+def records(folder):
+    """Measured records that `folder`/records.csv lists: id, file, damaged (IR, OR, B, N), set, and options of `brinell analyze`."""
+    for row in csv.DictReader(open(Path(folder) / "records.csv")):
+        words = shlex.split(row["options"])
+        options = {words[k].removeprefix("--"): words[k + 1] for k in range(0, len(words), 2)}
+        if "bearing" in options:
+            orders = brinell.frequencies(options["bearing"].removesuffix("-2RS"), 60.0)
+        else:
+            z, gamma = int(options["rollers"]), float(options["diameter"]) / float(options["pitch"])
+            orders = {"ftf": (1 - gamma) / 2, "bpfo": z * (1 - gamma) / 2, "bpfi": z * (1 + gamma) / 2, "2bsf": (1 - gamma**2) / gamma}
+        rate = float(options["rate"])
+        x = brinell.read_signal(Path(folder) / row["file"], options.get("channel")).values[: int(4 * rate)]
+        yield {
+            "id": row["id"], "set": row["set"], "class": WORDS[row["damaged"]], "shaft_hz": float(options["speed"]) / 60.0, "orders": orders,
+            "x": x, "rate": rate, "unit": options["unit"], "bearing": options.get("bearing"),
+        }
+
+
+def measured(folder):
+    """Features of measured records in segments of TURNS turns, one after the other: a frame with `class`, `id`, `set` beside them."""
+    rows = []
+    for record in records(folder):
+        up = fractions.Fraction(RATE / record["rate"]).limit_denominator(1000)
+        x = signal.resample_poly(record["x"], up.numerator, up.denominator)
+        length = int(round(TURNS * RATE / record["shaft_hz"]))
+        for start in range(0, len(x) - length + 1, length):
+            values = features(x[start : start + length], record["shaft_hz"], record["orders"])
+            rows.append({k: record[k] for k in ("id", "set", "class")} | values)
+    return pandas.DataFrame(rows)
+
+
+LABELS = ["id", "set", "class", "kind", "run", "force_n", "cage_slip"]
+
+
+def numbers(frame):
+    return frame.drop(columns=[c for c in LABELS if c in frame])
+
+
+# Model and scores. ----------------------------------------------------------------------------------------------------------------------------
+
+
+def train(frame, least_force_n=5.0):
+    """Logistic regression on standardised features. Of simulated runs, only those whose damage a loaded ball enters."""
+    if "force_n" in frame:
+        frame = frame[(frame["class"] == "healthy") | (frame["force_n"] > least_force_n)]
+    model = make_pipeline(StandardScaler(), LogisticRegression(C=0.1, max_iter=3000, class_weight="balanced"))
+    return model.fit(numbers(frame), frame["class"])
+
+
+def verdicts(model, frame):
+    """One class a record: the segments' probabilities multiplied."""
+    log = pandas.DataFrame(model.predict_log_proba(numbers(frame)), columns=model.classes_, index=frame["id"])
+    named = log.groupby(level=0, sort=False).mean().idxmax(axis=1)
+    truth = frame.drop_duplicates("id").set_index("id")[["set", "class"]]
+    return truth.assign(named=named)
+
+
+def score(table, classes=("healthy", "outer", "inner"), draws=20_000):
+    """Balanced accuracy over records, and its 95 % interval: each class's recall from its Jeffreys posterior, Beta(right + 1/2, wrong + 1/2)."""
+    rng = np.random.default_rng(1)
+    counts = {c: ((table["named"] == c) & (table["class"] == c)).sum() for c in classes}
+    total = {c: (table["class"] == c).sum() for c in classes}
+    drawn = np.mean([rng.beta(counts[c] + 0.5, total[c] - counts[c] + 0.5, draws) for c in classes], axis=0)
+    return {
+        "balanced accuracy": np.mean([counts[c] / total[c] for c in classes]),
+        "low": np.quantile(drawn, 0.025), "high": np.quantile(drawn, 0.975),
+        **{c: f"{counts[c]} of {total[c]}" for c in classes},
+    }
+
+
+def analyzed(folder, chosen):
+    """What `brinell analyze` says of the records `chosen` (ids): the part that leads, or healthy where it calls no damage."""
+    parts = {"inner_race": "inner", "outer_race": "outer", "rolling_element": "ball", "cage": "cage"}
+    rows = []
+    for r in records(folder):
+        if r["id"] in chosen:
+            found = brinell.analyze(r["x"], rate_hz=r["rate"], unit=r["unit"], speed_rpm=60 * r["shaft_hz"], bearing=r["bearing"])
+            rows.append({"id": r["id"], "class": r["class"], "named": parts[found.damage[0]] if found.damage else "healthy"})
+    return pandas.DataFrame(rows).set_index("id")
