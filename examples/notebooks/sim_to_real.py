@@ -111,69 +111,50 @@ def machine(rng, x, shaft_hz, orders, noise=True, lines=True):
 
 
 def envelope_orders(x, shaft_hz):
-    """Envelope spectra of bands of 1 kHz, of `x` over TURNS turns of the shaft.
+    """ln(power of a line of the envelope over the floor about it), the power over its floor averaged over bands of 1 kHz: by bins of 1 / TURNS orders of the shaft, from 0 to 30.
 
-    Returns ln(power of a line over the floor about it), averaged over the bands as powers, and the depth of modulation (amplitude over mean), a
-    row a band; both by bins of 1 / TURNS orders, from 0 to 30, without the lines of the shaft; and the first of the two at orders 1 and 2.
+    Lines of the shaft are taken out. `x` holds TURNS turns. After the integrated cyclic coherence (Antoni, Mech. Syst. Signal Process. 21, 2007).
     """
     n, count = len(x), 30 * TURNS
     spectrum = np.fft.rfft(x - x.mean())
     f = np.fft.rfftfreq(n, 1.0 / RATE)
     window = signal.windows.hann(n, sym=False)
-    depth = []
+    power = []
     for low in range(500, 5001, 500):
         inside = (f >= low) & (f < low + 1000)
         band = np.zeros(n, complex)
         band[: len(f)][inside] = 2 * spectrum[inside] * signal.windows.tukey(inside.sum(), 0.2)
         envelope = np.abs(np.fft.ifft(band))
-        depth.append(np.abs(np.fft.rfft(window * (envelope / envelope.mean() - 1)))[:count] * 2 / window.sum())
-    depth = np.array(depth)
-    floor = ndimage.median_filter(depth**2, (1, 3 * TURNS), mode="nearest")
-    over = np.log(np.mean(depth**2 / floor, axis=0))
-    shaft = over[[TURNS, 2 * TURNS]]
+        power.append(np.abs(np.fft.rfft(window * (envelope - envelope.mean()))[:count]) ** 2)
+    # The floor is the median of three orders, anew every third of an order.
+    padded = np.pad(power, ((0, 0), (3 * TURNS // 2, 3 * TURNS // 2)), mode="reflect")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, 3 * TURNS, axis=1)[:, :: TURNS // 3]
+    over = np.log(np.mean(power / np.repeat(np.median(windows, axis=2), TURNS // 3, axis=1), axis=0))
     # Slip may move a line of the bearing onto one of the shaft, which every machine has: what lies there says nothing.
-    of_shaft = abs(np.arange(count) - TURNS * np.round(np.arange(count) / TURNS)) <= 1
-    over[of_shaft], depth[:, of_shaft] = 0.0, np.sqrt(floor[:, of_shaft])
+    bins = np.arange(count)
+    over[abs(bins - TURNS * np.round(bins / TURNS)) <= 1] = 0.0
     # A line may lie between two bins.
-    return ndimage.maximum_filter1d(over, 3), ndimage.maximum_filter1d(depth, 3, axis=1), shaft
-
-
-def at(values, orders):
-    return values[..., np.round(np.asarray(orders) * TURNS).astype(int)]
-
-
-def family(over, order):
-    """Levels of the first four harmonics of each order, a row an order, and their sum with none counted higher than any below it."""
-    levels = at(over, np.outer(order, np.arange(1, 5)))
-    return np.minimum.accumulate(levels, axis=1).sum(axis=1), levels
+    return ndimage.maximum_filter1d(over, 3)
 
 
 def features(x, shaft_hz, orders):
-    """Of one segment of TURNS turns at RATE: how high and how deep the families of lines of the bearing's parts are, and what else is there."""
-    over, depth, shaft = envelope_orders(np.asarray(x[: int(round(TURNS * RATE / shaft_hz))], float), shaft_hz)
+    """One number a part of the bearing, of one segment of TURNS turns at RATE: the score of its family of lines.
+
+    The score is the sum of ln(power over floor) over the first four harmonics, none counted higher than any below it, at the slip where it is highest.
+    """
+    over = envelope_orders(np.asarray(x[: int(round(TURNS * RATE / shaft_hz))], float), shaft_hz)
     values = {}
     for part in PARTS:
-        # One slip for all harmonics of a part.
         slipped = orders[part] * (1 + np.linspace(-SLIP, SLIP, 13))
-        scores, levels = family(over, slipped)
-        best = scores.argmax()
-        values[f"{part} score"] = scores[best]
-        values.update({f"{part} {h}": level for h, level in enumerate(levels[best], 1)})
-        side = orders["ftf"] if part == "2bsf" else 1.0
-        values[f"{part} sidebands"] = at(over, [h * slipped[best] + k * side for h in (1, 2) for k in (-1, 1)]).mean()
-        values[f"{part} depth"] = np.log((at(depth, np.arange(1, 4) * slipped[best]) ** 2).sum(axis=1).max())
-    values.update(ftf=at(over, orders["ftf"]), shaft=shaft[0], twice_shaft=shaft[1])
-    # The strongest comb at none of the bearing's orders, nor at the shaft's.
-    others = np.arange(1.5, 7.0, 0.5 / TURNS)
-    apart = np.min([abs(others / orders[part] - 1) for part in PARTS], axis=0) > 0.02
-    values["elsewhere"] = family(over, others[apart & (abs(others - np.round(others)) > 0.05)])[0].max()
+        levels = over[np.round(np.outer(slipped, np.arange(1, 5)) * TURNS).astype(int)]
+        values[part] = np.minimum.accumulate(levels, axis=1).sum(axis=1).max()
     return values
 
 
 # Tables of features. --------------------------------------------------------------------------------------------------------------------------
 
 
-def simulated(data, copies=3, seed=1, noise=True, lines=True, keep=None):
+def simulated(data, copies=4, seed=1, noise=True, lines=True):
     """Features of a data set's runs, each in several machines: a pandas frame with `class`, `run`, `force_n`, `cage_slip` and `kind` beside them.
 
     `force_n` is the largest force under which a ball entered the damage: below a few newtons it does nothing, and the run says nothing of it.
@@ -181,7 +162,7 @@ def simulated(data, copies=3, seed=1, noise=True, lines=True, keep=None):
     columns = ["run", "status", "class", "bearing", "speed_rpm", "sample_rate_hz", "sensor_ay", "entry_force_n", "cage_slip"]
     rows = []
     for row in data.to_polars(columns).iter_rows(named=True):
-        if row["status"] != "complete" or (keep and not keep(row)):
+        if row["status"] != "complete":
             continue
         assert row["sample_rate_hz"] == RATE
         orders, shaft_hz = brinell.frequencies(row["bearing"], 60.0), row["speed_rpm"] / 60.0
@@ -225,27 +206,20 @@ def measured(folder):
     return pandas.DataFrame(rows)
 
 
-LABELS = ["id", "set", "class", "kind", "run", "force_n", "cage_slip"]
-
-
-def numbers(frame):
-    return frame.drop(columns=[c for c in LABELS if c in frame])
-
-
 # Model and scores. ----------------------------------------------------------------------------------------------------------------------------
 
 
 def train(frame, least_force_n=5.0):
-    """Logistic regression on standardised features. Of simulated runs, only those whose damage a loaded ball enters."""
+    """Logistic regression on the scores. Of simulated runs, only those whose damage a loaded ball enters."""
     if "force_n" in frame:
         frame = frame[(frame["class"] == "healthy") | (frame["force_n"] > least_force_n)]
     model = make_pipeline(StandardScaler(), LogisticRegression(C=0.1, max_iter=3000, class_weight="balanced"))
-    return model.fit(numbers(frame), frame["class"])
+    return model.fit(frame[list(PARTS)], frame["class"])
 
 
 def verdicts(model, frame):
     """One class a record: the segments' probabilities multiplied."""
-    log = pandas.DataFrame(model.predict_log_proba(numbers(frame)), columns=model.classes_, index=frame["id"])
+    log = pandas.DataFrame(model.predict_log_proba(frame[list(PARTS)]), columns=model.classes_, index=frame["id"])
     named = log.groupby(level=0, sort=False).mean().idxmax(axis=1)
     truth = frame.drop_duplicates("id").set_index("id")[["set", "class"]]
     return truth.assign(named=named)

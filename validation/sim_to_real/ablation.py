@@ -77,7 +77,7 @@ def main():
         for name, rows, options in variants(sets, seed):
             score = sim_to_real.score(sim_to_real.verdicts(sim_to_real.train(rows, **options), measured))
             told = rows[(rows["class"] == "healthy") | (rows["force_n"] > 5.0)]
-            guessed = cross_val_predict(sim_to_real.train(told), sim_to_real.numbers(told), told["class"], groups=told["run"], cv=GroupKFold(5))
+            guessed = cross_val_predict(sim_to_real.train(told), told[list(sim_to_real.PARTS)], told["class"], groups=told["run"], cv=GroupKFold(5))
             found.setdefault(name, []).append((score, balanced_accuracy_score(told["class"], guessed)))
             print(seed, name, score["balanced accuracy"], file=sys.stderr, flush=True)
     print("| trained on | measured: balanced accuracy | healthy, outer, inner right | simulated runs left out |\n| --- | --- | --- | --- |")
