@@ -1,6 +1,6 @@
 """From simulated to measured signals: a machine around a simulated bearing, features that do not know the rig, and measured records.
 
-`sim_to_real.ipynb` uses it. Needs NumPy and SciPy. Signals are accelerations of any scale; rates and frequencies in Hz, orders in turns of the shaft.
+`sim_to_real.ipynb` and `validation/sim_to_real/` use it. Needs polars, pandas, SciPy and scikit-learn. Signals are accelerations of any scale; rates and frequencies in Hz, orders in turns of the shaft.
 """
 
 import csv
@@ -177,7 +177,7 @@ def simulated(data, copies=4, seed=1, noise=True, lines=True):
 
 def records(folder):
     """Measured records that `folder`/records.csv lists: id, file, damaged (IR, OR, B, N), set, and options of `brinell analyze`."""
-    for row in csv.DictReader(open(Path(folder) / "records.csv")):
+    for row in csv.DictReader((Path(folder) / "records.csv").read_text().splitlines()):
         words = shlex.split(row["options"])
         options = {words[k].removeprefix("--"): words[k + 1] for k in range(0, len(words), 2)}
         if "bearing" in options:

@@ -1,6 +1,6 @@
 """Simulated and measured envelopes of a 6205 with pits, beside each other.
 
-    python3 validation/measured/compare.py RECORDS BRINELL [-o FOLDER]
+    python3 validation/measured/compare.py RECORDS BRINELL [-o FOLDER] [--set KEY=NUMBER]
 
 RECORDS is a folder with records.csv (docs/src/measured.md says which records), BRINELL the command. `brinell calibrate` fits the sensor of `drive-end.toml` to one record; all others are predicted with what it
 found, by the size, depth and place of their pits and by their speed alone. Prints two Markdown tables and writes measured.png to FOLDER (out/measured). Needs the brinell package, NumPy, SciPy and matplotlib.
@@ -40,7 +40,7 @@ FITS = {
 
 def records(folder):
     """Each record of the drive end's inner and outer race, and the healthy one: name, part, place, mil, r/min, signal in m/s^2."""
-    for row in csv.DictReader(open(folder / "records.csv")):
+    for row in csv.DictReader((folder / "records.csv").read_text().splitlines()):
         words = shlex.split(row["options"])
         if (row["set"], row["damaged"]) not in (("cwru-DE12", "IR"), ("cwru-DE12", "OR")) and row["id"] != "1797_Normal:DE":
             continue
@@ -208,10 +208,12 @@ def main():
     parser.add_argument("records", type=Path)
     parser.add_argument("brinell")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/measured"))
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=NUMBER", help="a key of the predicted runs that differs from the fitted one's")
     args = parser.parse_args()
     args.output.mkdir(parents=True, exist_ok=True)
     all_records = sorted(records(args.records), key=lambda r: (r["part"], r["place"].zfill(2), r["mil"], r["rpm"]))
     base = calibrated(next(r for r in all_records if r["id"] == FITTED), args.brinell, args.output)
+    base = base.replace({key: float(value) for key, _, value in (text.partition("=") for text in args.set)})
     simulated = brinell.simulate_many([predicted(base, r) for r in all_records], reduce=lambda result: result["sensor_ay"])
     rows = [(r, numbers(r["x"], r), numbers(x, r)) for r, x in zip(all_records, simulated)]
     statement_table(rows)
