@@ -323,3 +323,75 @@ def test_prop_examples_of_the_book_run(plan, tmp_path, monkeypatch):
     seen: dict = {}
     exec(compile(blocks("docs/src/datasets.md"), "datasets.md", "exec"), seen)
     assert len(seen["x"]) == 0.05 * seen["fs"] and str(seen["y"]) in ("healthy", "photo", "None", "nan")
+
+
+LEAKS = """
+name = "leaks"
+base = "base.toml"
+runs = 480
+seed = 5
+design = "random"
+runs_per_file = 60
+held_out = 0.3
+secret = "9f86d081884c7d659a2feaa0c55ad015"
+signals = ["sensor_ax"]
+
+[split]
+test = 0.3
+
+[vary]
+simulation.duration_s = 0.003
+operation.speed_rpm = { uniform = [900, 3000] }
+operation.load_n = [{ uniform = [200, 400] }, 0.0]
+
+[[classes]]
+name = "healthy"
+defects = []
+
+[[classes]]
+name = "outer"
+[[classes.defects]]
+on = "outer-raceway"
+depth_um = { log = [3, 40] }
+shape.rectangle = { length_mm = 2.0, width_mm = 4.0 }
+
+[[classes]]
+name = "inner"
+[[classes.defects]]
+on = "inner-raceway"
+depth_um = { log = [3, 40] }
+shape.rectangle = { length_mm = 2.0, width_mm = 4.0 }
+"""
+
+
+def test_prop_nothing_but_the_signal_tells_a_label(tmp_path, examples):
+    """A forest is trained on all that is published beside the signal of a run without a label, and guesses."""
+    ensemble = pytest.importorskip("sklearn.ensemble")
+    pandas = pytest.importorskip("pandas")
+    (tmp_path / "base.toml").write_bytes((examples / "rectangle.toml").read_bytes())
+    (tmp_path / "plan.toml").write_text(LEAKS)
+    brinell.Plan(tmp_path / "plan.toml").run(tmp_path / "data")
+    rows = pandas.concat([pandas.read_parquet(file).assign(place=lambda r: range(len(r))) for file in sorted((tmp_path / "data/runs").glob("*.parquet"))], ignore_index=True)
+    held = rows["split"] == "held-out"
+    beside = [c for c in rows if rows.loc[held, c].notna().all() and c not in ("sensor_ax", "split")]
+    assert "class" not in beside and {"run", "speed_rpm", "operation.load_n.0"} <= set(beside)
+
+    def number(value):
+        value = value[0] if isinstance(value, (list, np.ndarray)) else value
+        return float(int(hashlib.sha256(value.encode()).hexdigest()[:6], 16)) if isinstance(value, str) else float(value)
+
+    known = pandas.DataFrame({c: rows[c].map(number) for c in beside})
+    # A class takes its share of the open runs in turn: their numbers do tell, and are no feature (docs/src/datasets.md). A held-out run has no turn.
+    order = (~held)[rows["run"].argsort()].cumsum()
+    turns = pandas.DataFrame({f"turn {k}": order % k for k in range(2, 8)})
+    labels = pandas.read_parquet(tmp_path / "data/held_out").set_index("run")["class"]
+    train, test = rows["split"] == "train", rows["split"] == "test"
+    for what, features, where, truth, tells in (
+        ("held out", known.join(turns), held, rows.loc[held, "run"].map(labels), False),
+        ("test", known.drop(columns=["run", "place"]), test, rows.loc[test, "class"], False),
+        ("turns", known.join(turns), test, rows.loc[test, "class"], True),
+    ):
+        forest = ensemble.RandomForestClassifier(200, random_state=1).fit(features[train], rows.loc[train, "class"])
+        right, chance = (forest.predict(features[where]) == truth).mean(), truth.value_counts(normalize=True).max()
+        # Three standard deviations of guessing; the draws are the plan's, and so the same every time.
+        assert len(truth) > 80 and (right > chance + 3 * (chance * (1 - chance) / len(truth)) ** 0.5) == tells, (what, right, chance)

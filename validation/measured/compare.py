@@ -1,0 +1,226 @@
+"""Simulated and measured envelopes of a 6205 with pits, beside each other.
+
+    python3 validation/measured/compare.py RECORDS BRINELL [-o FOLDER] [--set KEY=NUMBER]
+
+RECORDS is a folder with records.csv (docs/src/measured.md says which records), BRINELL the command. `brinell calibrate` fits the sensor of `drive-end.toml` to one record; all others are predicted with what it
+found, by the size, depth and place of their pits and by their speed alone. Prints two Markdown tables and writes measured.png to FOLDER (out/measured). Needs the brinell package, NumPy, SciPy and matplotlib.
+
+Intervals of a record's numbers are 95 %, from resampling its eight segments of half a second; those of a statement from resampling its records (or pairs of
+records). Records of one bearing at two speeds are not independent: the second kind is too narrow.
+"""
+
+import argparse
+import csv
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import numpy as np
+from scipy import signal
+
+import brinell
+
+HERE = Path(__file__).resolve().parent
+FITTED = "1797_OR@6_7_DE12"
+RATE = 12_000.0
+G = 9.80665
+BAND_HZ = (2000.0, 5500.0)
+SEGMENTS, SECONDS = 8, 0.5
+# Diameter in thousandths of an inch to depth in inches, as the publisher states.
+DEPTH_IN = {7: 0.011, 14: 0.011, 21: 0.011, 28: 0.050}
+PLACE_DEG = {"6": -90.0, "3": 0.0, "12": 90.0}
+FITS = {
+    "sensor.path.0.frequency_hz": "500:1500", "sensor.path.0.gain": "-3:3",
+    "sensor.path.1.frequency_hz": "2200:3200", "sensor.path.1.gain": "-6:6",
+    "sensor.path.2.frequency_hz": "3000:4200", "sensor.path.2.gain": "-6:6",
+    "sensor.noise_rms_m_per_s2": "0.05:3:log",
+}
+
+
+def records(folder):
+    """Each record of the drive end's inner and outer race, and the healthy one: name, part, place, mil, r/min, signal in m/s^2."""
+    for row in csv.DictReader((folder / "records.csv").read_text().splitlines()):
+        words = shlex.split(row["options"])
+        if (row["set"], row["damaged"]) not in (("cwru-DE12", "IR"), ("cwru-DE12", "OR")) and row["id"] != "1797_Normal:DE":
+            continue
+        rate = float(words[words.index("--rate") + 1])
+        x = brinell.read_signal(folder / row["file"], "DE").values[: int(4 * rate)] * G
+        if rate != RATE:
+            x = signal.resample_poly(x, 1, int(rate / RATE))
+        speed, part, mil = re.match(r"(\d+)_(Normal|IR|OR@\d+)_?(\d*)", row["id"]).groups()
+        part, _, place = part.partition("@")
+        yield {"id": row["id"], "file": folder / row["file"], "part": part, "place": place, "mil": int(mil or 0), "rpm": float(speed), "x": x}
+
+
+def calibrated(record, command, folder):
+    fits = [word for key, bounds in FITS.items() for word in ("--fit", f"{key}={bounds}")]
+    source = ["--measured", record["file"], "--channel", "DE", "--rate", "12000", "--unit", "g", "--model-uncertainty", "30"]
+    subprocess.run([command, "calibrate", HERE / "drive-end.toml", *fits, *source, "-o", folder / "calibrate", "-q"], check=True)
+    return brinell.Scenario.from_file(folder / "calibrate/best.toml")
+
+
+def predicted(base, record):
+    defect = {"row": 1, "depth_um": 25_400.0 * DEPTH_IN.get(record["mil"], 0), "shape": {"circle": {"diameter_mm": 0.0254 * record["mil"]}}}
+    if record["part"] == "OR":
+        defect |= {"on": "outer-raceway", "center_deg": PLACE_DEG[record["place"]]}
+    else:
+        defect |= {"on": "inner-raceway", "center_deg": 0.0}
+    changes = {"operation.speed_rpm": record["rpm"], "simulation.duration_s": SEGMENTS * SECONDS + 0.1}
+    return base.replace(changes | {"defects": [] if record["part"] == "Normal" else [defect]})
+
+
+def envelope(x):
+    """Envelope in BAND_HZ over its mean, less 1, in segments: a row a segment."""
+    spectrum = np.fft.fft(x)
+    f = np.fft.fftfreq(len(x), 1.0 / RATE)
+    spectrum[(f < BAND_HZ[0]) | (f > BAND_HZ[1])] = 0
+    e = np.abs(np.fft.ifft(2 * spectrum))
+    e = e[: int(SEGMENTS * SECONDS * RATE)].reshape(SEGMENTS, -1)
+    return e / e.mean(axis=1, keepdims=True) - 1
+
+
+def numbers(x, record):
+    """By segment: RMS (dB), depth of the first five harmonics (dB), sidebands over their harmonics (dB); harmonics present; slip."""
+    part = {"IR": "bpfi", "OR": "bpfo", "Normal": "bpfo"}[record["part"]]
+    orders = brinell.frequencies("6205", 60.0)
+    x = np.asarray(x, float)[-int(SEGMENTS * SECONDS * RATE) :]
+    e = envelope(x - x.mean())
+    window = signal.windows.hann(e.shape[1], sym=False)
+    lines = np.abs(np.fft.rfft(e * window)) * 2 / window.sum()
+    whole = e.ravel() * signal.windows.hann(e.size, sym=False)
+    fine, f = np.abs(np.fft.rfft(whole)) * 4 / e.size, np.fft.rfftfreq(e.size, 1 / RATE)
+    expected = orders[part] * record["rpm"] / 60.0
+    about = np.linspace(0.98, 1.02, 401) * expected
+    nearest = lambda where: np.round(np.asarray(where) * e.size / RATE).astype(int)
+    found = about[np.argmax(sum(np.log(fine[nearest(h * about)] + 1e-9) for h in (1, 2, 3)))]
+
+    def level(where):
+        bins = np.round(where * SECONDS).astype(int)
+        return np.max([lines[:, bins + k] for k in (-1, 0, 1)], axis=0)
+
+    shaft = record["rpm"] / 60.0
+    harmonics = np.array([level(h * found) for h in range(1, 6)]).T
+    sides = np.array([np.hypot(level(h * found - shaft), level(h * found + shaft)) / 2**0.5 for h in (1, 2, 3)]).T
+    floor = [np.median(fine[abs(f - h * found) < 1.5 * shaft]) for h in range(1, 6)]
+    tall = [fine[np.abs(f - h * found) < 1.0].max() for h in range(1, 6)]
+    segments = x.reshape(SEGMENTS, -1)
+    return {
+        "rms": 20 * np.log10(segments.std(axis=1)), "harmonics": 20 * np.log10(harmonics), "sides": 20 * np.log10(sides / harmonics[:, :3]).mean(axis=1),
+        "depth": 20 * np.log10(np.sqrt((harmonics[:, :3] ** 2).sum(axis=1))), "present": int(sum(np.array(tall) > 5 * np.array(floor))), "slip": found / expected - 1,
+        "kurtosis": np.mean((segments - segments.mean()) ** 4, axis=1) / segments.var(axis=1) ** 2, "spectrum": (f, fine),
+    }
+
+
+def interval(values, rng=np.random.default_rng(1), draws=4000):
+    """Mean and its 95 % interval from resampling."""
+    values = np.asarray(values, float)
+    means = values[rng.integers(0, len(values), (draws, len(values)))].mean(axis=1)
+    return values.mean(), *np.quantile(means, [0.025, 0.975])
+
+
+def said(values, digits=0):
+    if len(values) == 1:
+        return f"{values[0]:.{digits}f}"
+    mean, low, high = interval(values)
+    return f"{mean:.{digits}f} ({low:.{digits}f} to {high:.{digits}f})"
+
+
+def record_table(rows):
+    print("| record | RMS, m/s², measured | predicted | harmonics, of 5 | modulation, dB, measured | predicted | sidebands over harmonics, dB, measured | predicted |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+    for record, m, s in rows:
+        rms = [f"{10 ** (interval(v['rms'])[0] / 20):.2f} ({10 ** (interval(v['rms'])[1] / 20):.2f} to {10 ** (interval(v['rms'])[2] / 20):.2f})" for v in (m, s)]
+        name = record["id"].removesuffix("_DE12") + (" (fitted)" if record["id"] == FITTED else "")
+        print(f"| {name} | {rms[0]} | {rms[1]} | {m['present']}, {s['present']} | {said(m['depth'])} | {said(s['depth'])} | {said(m['sides'])} | {said(s['sides'])} |")
+
+
+def statements(rows):
+    """What is said, and a number a record or a pair of records, measured and predicted. The fitted record is not among them, except to refer others to."""
+    at = {(r["part"], r["place"], r["mil"], r["rpm"]): (m, s) for r, m, s in rows}
+    of = lambda part, what, **where: [
+        tuple(np.mean(what(v)) for v in (m, s)) for r, m, s in rows if r["part"] == part and r["id"] != FITTED and all(r[k] == w for k, w in where.items())
+    ]
+    rms = lambda v: v["rms"]
+    ladder = lambda v: (v["harmonics"][:, 2] - v["harmonics"][:, 0])
+    speeds = (1730.0, 1797.0)
+    over = lambda a, b: [tuple(np.mean(x["rms"]) - np.mean(y["rms"]) for x, y in zip(at[*a, n], at[*b, n])) for n in speeds]
+    yield "outer race: harmonics of BPFO present, of 5", of("OR", lambda v: v["present"])
+    yield "inner race: harmonics of BPFI present, of 5", of("IR", lambda v: v["present"])
+    yield "outer race: third harmonic over first, dB", of("OR", ladder)
+    yield "inner race: third harmonic over first, dB", of("IR", ladder)
+    yield "outer race: sidebands at the shaft's speed over harmonics, dB", of("OR", lambda v: v["sides"])
+    yield "inner race: sidebands at the shaft's speed over harmonics, dB", of("IR", lambda v: v["sides"])
+    yield "outer race: modulation, dB", of("OR", lambda v: v["depth"])
+    yield "inner race: modulation, dB", of("IR", lambda v: v["depth"])
+    yield "healthy: modulation at BPFO, dB", of("Normal", lambda v: v["depth"])
+    yield "healthy: RMS, dB re 1 m/s²", of("Normal", rms)
+    yield "inner race, 7 mil: RMS, dB re 1 m/s²", of("IR", rms, mil=7)
+    for mil in (7, 21):
+        for place in ("3", "12"):
+            yield f"outer race, {mil} mil: RMS at {place} over 6 o'clock, dB", over(("OR", place, mil), ("OR", "6", mil))
+    for mil in (14, 21, 28):
+        yield f"inner race: RMS of {mil} over 7 mil, dB", over(("IR", "", mil), ("IR", "", 7))
+    for mil in (14, 21):
+        yield f"outer race, 6 o'clock: RMS of {mil} over 7 mil, dB", over(("OR", "6", mil), ("OR", "6", 7))
+    yield "outer race: BPFO over pure rolling, %", of("OR", lambda v: 100 * v["slip"])
+
+
+def verdict(measured, simulated, text):
+    """Holds: the means differ by less than 3 dB (or 1 harmonic, 1 %). Direction alone, of a ratio: both are beyond 3 dB on the same side."""
+    m, s = np.mean(measured), np.mean(simulated)
+    if abs(m - s) < (3.0 if "dB" in text else 1.0):
+        return "holds"
+    return "direction alone" if " over " in text and m * s > 0 and min(abs(m), abs(s)) > 3 else "does not hold"
+
+
+def statement_table(rows):
+    print("| statement | records or pairs | measured | predicted | |\n| --- | --- | --- | --- | --- |")
+    for text, pairs in statements(rows):
+        m, s = np.array(pairs).T
+        digits = 2 if text.endswith("%") else 1
+        print(f"| {text} | {len(m)} | {said(m, digits)} | {said(s, digits)} | {verdict(m, s, text)} |")
+
+
+def figure(rows, path):
+    import matplotlib
+
+    matplotlib.use("agg")
+    import matplotlib.pyplot as plt
+
+    chosen = [FITTED, "1797_OR@12_21_DE12", "1797_IR_7_DE12", "1797_IR_21_DE12"]
+    _, axes = plt.subplots(len(chosen), 1, figsize=(9, 9), sharex=True, layout="constrained")
+    for axis, name in zip(axes, chosen):
+        record, m, s = next(row for row in rows if row[0]["id"] == name)
+        for values, sign, label in ((m, 1, "measured"), (s, -1, "predicted")):
+            f, lines = values["spectrum"]
+            # The highest line in each 2 Hz: what is seen at this width.
+            top = lines[: int(600 * len(lines) / f[-1]) // 8 * 8].reshape(-1, 8).max(axis=1)
+            axis.fill_between(np.arange(len(top)) * 8 * f[1], 0, sign * top, step="mid", label=label)
+        axis.set(title=name.removesuffix("_DE12") + (": the fitted record" if name == FITTED else ""), ylabel="modulation")
+    axes[0].legend()
+    axes[-1].set(xlabel="Hz", xlim=(0, 600))
+    plt.savefig(path, dpi=80)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("records", type=Path)
+    parser.add_argument("brinell")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/measured"))
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=NUMBER", help="a key of the predicted runs that differs from the fitted one's")
+    args = parser.parse_args()
+    args.output.mkdir(parents=True, exist_ok=True)
+    all_records = sorted(records(args.records), key=lambda r: (r["part"], r["place"].zfill(2), r["mil"], r["rpm"]))
+    base = calibrated(next(r for r in all_records if r["id"] == FITTED), args.brinell, args.output)
+    base = base.replace({key: float(value) for key, _, value in (text.partition("=") for text in args.set)})
+    simulated = brinell.simulate_many([predicted(base, r) for r in all_records], reduce=lambda result: result["sensor_ay"])
+    rows = [(r, numbers(r["x"], r), numbers(x, r)) for r, x in zip(all_records, simulated)]
+    statement_table(rows)
+    print()
+    record_table(rows)
+    figure(rows, args.output / "measured.png")
+
+
+if __name__ == "__main__":
+    main()
