@@ -74,9 +74,10 @@ fn report(of: &Findings) -> AnalysisReport {
         of.unit.name
     ));
     let mut page = AnalysisReport {
-        title: m.name.into(),
+        title: headline(a),
         subtitle: format!(
-            "{:.2} s at {} Hz, shaft {:.1} r/min",
+            "{}, {:.2} s at {} Hz, shaft {:.1} r/min",
+            m.name,
             a.duration(),
             m.rate,
             60.0 * a.shaft
@@ -177,14 +178,20 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     }
 }
 
-/// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
-fn badge(a: &Analysis) -> (String, Badge) {
-    let badge = match a.conclusion() {
+fn headline(a: &Analysis) -> String {
+    match a.conclusion() {
+        Verdict::Damage => format!("Damage: {}", called(a)),
+        _ => capital(&called(a)),
+    }
+}
+
+/// Whether the verdict is good, bad or neither.
+fn badge(a: &Analysis) -> Badge {
+    match a.conclusion() {
         Verdict::Damage => Badge::Bad,
         Verdict::CannotTell => Badge::Open,
         Verdict::NothingFound => Badge::Good,
-    };
-    (called(a), badge)
+    }
 }
 
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.

@@ -7,7 +7,7 @@ use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
-/// Multiples of shaft and cage about the first's harmonics that are taken out before a second one is sought.
+/// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one is sought.
 const SIDES: i32 = 3;
 /// So many times the tolerance off, a comb may be the bearing's at another speed.
 const FARTHER: f64 = 3.0;
@@ -272,15 +272,17 @@ impl Record {
             })
     }
 
-    /// Harmonics of a frequency and their sidebands are nobody's from now on.
+    /// Harmonics of a frequency and their sidebands are nobody's from now on. Sums of shaft and cage are not taken: nine elements pass the inner
+    /// race at nine times the shaft's frequency less that at which they pass the outer one, and the cage turns at two fifths of it or so, so that
+    /// their places are those of the other race's lines.
     fn take_out(&mut self, frequency: f64) {
-        let cage = cage(self.shaft, &self.options);
+        let sides = [self.shaft, cage(self.shaft, &self.options)];
         let most = self.together.top();
         let mut k = 0.0;
-        while k * frequency < most + f64::from(SIDES) * (self.shaft + cage) {
-            for a in -SIDES..=SIDES {
-                for b in -SIDES..=SIDES {
-                    let at = k * frequency + f64::from(a) * self.shaft + f64::from(b) * cage;
+        while k * frequency < most + f64::from(SIDES) * self.shaft {
+            for side in sides {
+                for a in -SIDES..=SIDES {
+                    let at = k * frequency + f64::from(a) * side;
                     if (0.0..most).contains(&at) {
                         self.together.hide(at);
                     }
