@@ -1,6 +1,7 @@
 //! Families in words.
 
 use super::family::{Family, Standing};
+use super::frequencies::Component;
 use super::{Analysis, Elsewhere, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
@@ -15,6 +16,8 @@ pub const COLUMNS: [&str; 8] = [
     "Says",
 ];
 
+/// Slip of a loaded induction motor, at most.
+const MOST_SLIP: f64 = 0.05;
 /// What else may strike the resting race.
 const PASSING: &str = "Rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much where \
                        nothing else is heard: compare with a run of the healthy bearing.";
@@ -39,6 +42,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 if analysis.may_be_passing(family) {
                     text.push(PASSING.into());
                 }
+                text.extend(inverter(analysis, family));
             }
         }
         Verdict::CannotTell => {
@@ -103,6 +107,22 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         ));
     }
     text.join(" ")
+}
+
+/// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above those of the shaft's frequency
+/// by the slip.
+fn inverter(analysis: &Analysis, family: &Family) -> Option<String> {
+    let options = &analysis.options;
+    let turns = matches!(family.component, Component::Element | Component::Cage);
+    let order = family.frequency / analysis.shaft;
+    let slip = 1.0 - order.floor() / order;
+    let may_be = !turns && !options.exact && options.supply.is_none() && slip <= MOST_SLIP;
+    may_be.then(|| {
+        format!(
+            "A motor with a slip of {:.1} % has lines there too where an inverter feeds it: the inverter's frequency would tell.",
+            100.0 * slip
+        )
+    })
 }
 
 /// Lines that are nobody's of this bearing.
