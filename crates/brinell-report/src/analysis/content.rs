@@ -73,8 +73,9 @@ fn report(of: &Findings) -> AnalysisReport {
         short(a.mean, 4),
         of.unit.name
     ));
+    let (title, badge) = headline(a);
     let mut page = AnalysisReport {
-        title: headline(a),
+        title,
         subtitle: format!(
             "{}, {:.2} s at {} Hz, shaft {:.1} r/min",
             m.name,
@@ -84,7 +85,7 @@ fn report(of: &Findings) -> AnalysisReport {
         ),
         version: brinell::VERSION.into(),
         verdict: of.verdict.into(),
-        badge: badge(a),
+        badge,
         warnings: of.warnings.to_vec(),
         notes: notes_shown,
         facts: facts(of),
@@ -178,19 +179,13 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
     }
 }
 
-fn headline(a: &Analysis) -> String {
+/// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
+fn headline(a: &Analysis) -> (String, Badge) {
+    let called = called(a);
     match a.conclusion() {
-        Verdict::Damage => format!("Damage: {}", called(a)),
-        _ => capital(&called(a)),
-    }
-}
-
-/// Whether the verdict is good, bad or neither.
-fn badge(a: &Analysis) -> Badge {
-    match a.conclusion() {
-        Verdict::Damage => Badge::Bad,
-        Verdict::CannotTell => Badge::Open,
-        Verdict::NothingFound => Badge::Good,
+        Verdict::Damage => (format!("Damage: {called}"), Badge::Bad),
+        Verdict::CannotTell => (capital(&called), Badge::Open),
+        Verdict::NothingFound => (capital(&called), Badge::Good),
     }
 }
 
@@ -208,7 +203,7 @@ fn facts(of: &Findings) -> Vec<Fact> {
         facts.push(Fact::new(f.name, f.frequency, "Hz", note));
     }
     for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
-        if let Some((_, e)) = a.indicators.iter().find(|(k, _)| *k == i) {
+        if let Some(e) = a.indicator(i) {
             let unit = i.unit(&of.unit.name);
             let label = i.name().replace('_', " ");
             let note = match i {

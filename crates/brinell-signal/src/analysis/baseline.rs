@@ -21,7 +21,8 @@ impl Analysis {
     /// As [`analyze()`].
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
-        let louder = (rms(self) / rms(healthy.analysis).max(f64::MIN_POSITIVE)).max(1.0);
+        let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
+        let louder = (rms(self) / rms(healthy.analysis)).max(1.0);
         let own = families_up_to(top, Side { x, analysis: self })?;
         let healthy = families_up_to(top, healthy)?;
         let of = |families: &[Family], name| families.iter().find(|f| f.name == name).cloned();
@@ -44,12 +45,6 @@ impl Analysis {
         }
         Ok(())
     }
-}
-
-/// Of the signal less its mean.
-fn rms(analysis: &Analysis) -> f64 {
-    let found = (analysis.indicators.iter()).find(|(i, _)| *i == Indicator::Rms);
-    found.map_or(0.0, |(_, e)| e.value)
 }
 
 /// Families in the range up to `top` (Hz): what was found, where the signal holds no more.

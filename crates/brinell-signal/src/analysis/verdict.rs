@@ -101,15 +101,10 @@ impl Record {
 
     /// Score of the family that leads or, where none is damage, of the highest: the first is more.
     pub(super) fn evidence(&self) -> (bool, f64) {
-        let highest = |damage: bool| {
-            let these =
-                (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
-            these.map(|f| f.score).reduce(f64::max)
-        };
-        match highest(true) {
-            Some(score) => (true, score),
-            None => (false, highest(false).unwrap_or(0.0)),
-        }
+        let damage = self.is_damage();
+        let these = (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
+        let highest = these.map(|f| f.score).reduce(f64::max);
+        (damage, highest.unwrap_or(0.0))
     }
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
@@ -121,12 +116,10 @@ impl Record {
         }
         let lead = leading(&all);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
-        if elsewhere.is_some() {
+        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
                 family.standing = Standing::Open;
             }
-        }
-        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return (all, elsewhere);
         };

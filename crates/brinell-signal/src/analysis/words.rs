@@ -1,7 +1,6 @@
 //! Families in words.
 
 use super::family::{Family, Standing};
-use super::frequencies::Component;
 use super::{Analysis, Elsewhere, Verdict};
 
 /// What a row of [`Analysis::rows`] holds; a column of numbers begins with `#`.
@@ -86,14 +85,11 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         }
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
-    let faint: Vec<&str> = (analysis.families.iter())
-        .filter(|f| f.standing == Standing::Faint)
-        .map(|f| f.name)
-        .collect();
-    let before: Vec<&str> = (analysis.families.iter())
-        .filter(|f| f.standing == Standing::AsBefore)
-        .map(|f| f.name)
-        .collect();
+    let those = |standing| -> Vec<&str> {
+        let families = analysis.families.iter().filter(|f| f.standing == standing);
+        families.map(|f| f.name).collect()
+    };
+    let (faint, before) = (those(Standing::Faint), those(Standing::AsBefore));
     if !before.is_empty() {
         text.push(format!(
             "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
@@ -112,17 +108,12 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
 /// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above those of the shaft's frequency
 /// by the slip.
 fn inverter(analysis: &Analysis, family: &Family) -> Option<String> {
-    let options = &analysis.options;
-    let turns = matches!(family.component, Component::Element | Component::Cage);
-    let order = family.frequency / analysis.shaft;
+    let (options, order) = (&analysis.options, family.frequency / analysis.shaft);
     let slip = 1.0 - order.floor() / order;
-    let may_be = !turns && !options.exact && options.supply.is_none() && slip <= MOST_SLIP;
-    may_be.then(|| {
-        format!(
-            "A motor with a slip of {:.1} % has lines there too where an inverter feeds it: the inverter's frequency would tell.",
-            100.0 * slip
-        )
-    })
+    let is_race = family.name.starts_with("BPF");
+    let may_be = is_race && !options.exact && options.supply.is_none() && slip <= MOST_SLIP;
+    let told = "has lines there too where an inverter feeds it: its frequency would tell";
+    may_be.then(|| format!("A motor with a slip of {:.1} % {told}.", 100.0 * slip))
 }
 
 /// Lines that are nobody's of this bearing.
