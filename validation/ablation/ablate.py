@@ -46,8 +46,8 @@ variant("no score limit: 14 % suffices beyond noise", ("family.rs", "let limit =
 variant("a high score is no way to damage", ("family.rs", "(high || deep) && self", "deep && self"))
 variant("deep modulation is no way to damage", ("family.rs", "(high || deep) && self", "high && self"))
 variant("a comb elsewhere not sought", ("verdict.rs", "let elsewhere = self.elsewhere(lead.map(|k| &all[k]));", "let elsewhere: Option<Elsewhere> = None;"))
-variant("speed as given not tried", ("mod.rs", "if !shaft_lines.is_empty() && !options.exact && !record.is_damage()", "if false"))
-variant("lower parts of the range not tried", ("mod.rs", "if options.band.is_none() && !options.exact && !record.is_damage()", "if false"))
+variant("speed as given not tried", ("hypotheses.rs", "if !best.shaft_lines.is_empty() && !options.exact && !best.record.is_damage()", "if false"))
+variant("lower parts of the range not tried", ("hypotheses.rs", "if options.band.is_none() && !options.exact && !best.record.is_damage()", "if false"))
 variant("no least score", ("family.rs", "const LEAST_SCORE: f64 = 5.0;", "const LEAST_SCORE: f64 = 0.0;"))
 variant("sidebands not counted in modulation", ("family.rs", "depth += line.depth.min(carrier.depth);", ""))
 variant("sidebands not capped by their carrier", ("family.rs", "depth += line.depth.min(carrier.depth);", "depth += line.depth;"))
@@ -57,13 +57,18 @@ variant(
     "only three bins hidden, skirts not followed",
     ("together.rs", "|to: f64, from: f64| to >= standing && to < from;", "|_: f64, _: f64| false;"),
 )
-variant("shaft's comb not placed anew", ("together.rs", ".chain(highest.filter(|_| shaft.tolerance > 0.0))", ".chain(highest.filter(|_| false))"))
+variant("shaft's comb not placed anew", ("together.rs", "let of_shaft = (shaft.tolerance > 0.0)", "let of_shaft = false"))
 variant("speed as given", ("known_lines.rs", "best.filter(|f| own(*f))", "best.filter(|_| false)"))
 variant("an element needs no sidebands", ("family.rs", "            && !self.lacks_sidebands()\n", ""))
 variant("an element needs no lead", ("verdict.rs", "const LEAD: f64 = 2.0;", "const LEAD: f64 = 0.0;"))
-variant("an element may run ahead", ("family.rs", "AHEAD.min(tolerance)", "tolerance"))
+variant("an element may run ahead", ("family.rs", "Component::Element => (tolerance, AHEAD.min(tolerance)),", "Component::Element => (tolerance, tolerance),"))
+variant("the cage may run ahead", ("family.rs", "Component::Cage => (slips, AHEAD.min(tolerance)),", "Component::Cage => (slips, tolerance),"))
 variant("no least number of lines", ("family.rs", "const FEWEST: (usize, usize) = (3, 2);", "const FEWEST: (usize, usize) = (0, 0);"))
 variant("skirts of what lies beyond the tolerance not refused", ("family.rs", "is_skirt: outside &&", "is_skirt: false && outside &&"))
+variant(
+    "cepstral pre-whitening",
+    ("../transformed.rs", "*bin += Complex::new(part(), part());", "*bin += Complex::new(part(), part()); *bin /= bin.norm().max(1e-300);"),
+)
 for turns in (60, 30):
     variant(
         f"segments of {turns} revolutions",

@@ -78,11 +78,11 @@ fn regress_words_and_json_of_outer_race_damage() {
     );
     assert!(family["score"].as_f64().unwrap() > family["limit"].as_f64().unwrap());
     let page = fs::read_to_string(folder.path().join("look/report.html")).unwrap();
-    let badge = format!(
-        ">outer race, {}</span>",
+    let headline = format!(
+        "<h1>Damage: outer race, {}</h1>",
         found["verdict"]["clarity"].as_str().unwrap()
     );
-    for part in [badge.as_str(), "id=\"kurtogram\"", "id=\"envelope\""] {
+    for part in [headline.as_str(), "id=\"kurtogram\"", "id=\"envelope\""] {
         assert!(page.contains(part), "{part}");
     }
     assert!(folder.path().join("look/plots/kurtogram.svg").is_file());

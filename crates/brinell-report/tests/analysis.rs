@@ -22,7 +22,7 @@ fn report(text: &str, values: &[f64]) -> AnalysisReport {
         subtitle: text.into(),
         version: text.into(),
         verdict: text.into(),
-        badge: (text.into(), Badge::Bad),
+        badge: Badge::Bad,
         warnings: vec![text.into()],
         notes: vec![text.into()],
         facts: vec![Fact::new(text, at(2), text, text)],
@@ -121,16 +121,17 @@ fn prop_the_page_holds_every_part_and_escapes_all_of_it() {
 }
 
 #[test]
-fn regress_the_tag_says_what_the_verdict_says() {
+fn regress_the_verdict_is_the_headline_and_has_its_colour() {
     let mut r = plain();
     for (badge, class) in [
         (Badge::Bad, "bad"),
         (Badge::Good, "good"),
         (Badge::Open, "open"),
     ] {
-        r.badge = ("outer race".into(), badge);
-        let tag = format!("<span class=\"tag {class}\">outer race</span>");
-        assert!(analysis_html(&r).contains(&tag), "{tag}");
+        (r.title, r.badge) = ("Damage: outer race".into(), badge);
+        let page = analysis_html(&r);
+        assert!(page.contains("<h1>Damage: outer race</h1>"));
+        assert!(page.contains(&format!("<p class=\"verdict {class}\">")));
     }
 }
 

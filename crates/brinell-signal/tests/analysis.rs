@@ -330,6 +330,8 @@ fn prop_lines_of_the_supply_are_set_aside() {
         "{}",
         told.verdict()
     );
+    let doubt = "has lines there too where an inverter feeds it";
+    assert!(told.verdict().contains(doubt), "{}", told.verdict());
     options.supply = Some(1.002 * supply);
     let told = analyze(&x, fs, &options).unwrap();
     assert_eq!(
@@ -383,9 +385,13 @@ fn prop_a_healthy_record_tells_what_has_grown() {
         (verdict, outer.standing),
         (Verdict::Damage, Standing::Damage)
     );
-    let (verdict, outer) = beside(&plain, &damaged(before_fs, 4.0, 4, &at(0.0)));
+    let before = damaged(before_fs, 4.0, 4, &at(0.0));
+    let (verdict, outer) = beside(&plain, &before);
     assert_eq!(outer.standing, Standing::AsBefore);
     assert_ne!(verdict, Verdict::Damage);
+    // As deep, and four times as high.
+    let louder: Vec<f64> = plain.iter().map(|v| 4.0 * v).collect();
+    assert_eq!(beside(&louder, &before).0, Verdict::Damage);
     let (verdict, _) = beside(&healthy(fs, 4.0, 5), &sound);
     assert_eq!(verdict, Verdict::NothingFound);
 }

@@ -164,11 +164,6 @@ impl Found {
         let lead = ends::lead(results);
         let result = &results[lead.unwrap_or(0)];
         let (m, a) = (&result.measured, &result.analysis);
-        let indicator = |wanted| {
-            (a.indicators.iter())
-                .find(|(i, _)| *i == wanted)
-                .map(|i| i.1)
-        };
         let prefix = |r: &Result_| match results.len() {
             1 => String::new(),
             _ => format!("{} ", r.name),
@@ -195,9 +190,9 @@ impl Found {
             verdict: verdicts.collect::<Vec<_>>().join("; "),
             damage: lead.is_some(),
             unit: m.unit.clone(),
-            rms: indicator(Indicator::Rms),
-            peak: indicator(Indicator::Peak),
-            kurtosis: indicator(Indicator::Kurtosis),
+            rms: a.indicator(Indicator::Rms),
+            peak: a.indicator(Indicator::Peak),
+            kurtosis: a.indicator(Indicator::Kurtosis),
             velocity: result.levels.velocity.as_ref().ok().map(|v| scaled(v, 1e3)),
             zone: result.levels.letter(),
             said: format!("{}; bearing: {}", result.speed, said_of_bearings(results)),

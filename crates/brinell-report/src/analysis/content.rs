@@ -73,17 +73,19 @@ fn report(of: &Findings) -> AnalysisReport {
         short(a.mean, 4),
         of.unit.name
     ));
+    let (title, badge) = headline(a);
     let mut page = AnalysisReport {
-        title: m.name.into(),
+        title,
         subtitle: format!(
-            "{:.2} s at {} Hz, shaft {:.1} r/min",
+            "{}, {:.2} s at {} Hz, shaft {:.1} r/min",
+            m.name,
             a.duration(),
             m.rate,
             60.0 * a.shaft
         ),
         version: brinell::VERSION.into(),
         verdict: of.verdict.into(),
-        badge: badge(a),
+        badge,
         warnings: of.warnings.to_vec(),
         notes: notes_shown,
         facts: facts(of),
@@ -178,13 +180,13 @@ fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {
 }
 
 /// The parts that are damaged, or what is said instead; and whether that is good, bad or neither.
-fn badge(a: &Analysis) -> (String, Badge) {
-    let badge = match a.conclusion() {
-        Verdict::Damage => Badge::Bad,
-        Verdict::CannotTell => Badge::Open,
-        Verdict::NothingFound => Badge::Good,
-    };
-    (called(a), badge)
+fn headline(a: &Analysis) -> (String, Badge) {
+    let called = called(a);
+    match a.conclusion() {
+        Verdict::Damage => (format!("Damage: {called}"), Badge::Bad),
+        Verdict::CannotTell => (capital(&called), Badge::Open),
+        Verdict::NothingFound => (capital(&called), Badge::Good),
+    }
 }
 
 /// The frequency that matters most: the first cause's, or the outer race's, or the shaft's.
@@ -201,7 +203,7 @@ fn facts(of: &Findings) -> Vec<Fact> {
         facts.push(Fact::new(f.name, f.frequency, "Hz", note));
     }
     for i in [Indicator::Rms, Indicator::Peak, Indicator::Kurtosis] {
-        if let Some((_, e)) = a.indicators.iter().find(|(k, _)| *k == i) {
+        if let Some(e) = a.indicator(i) {
             let unit = i.unit(&of.unit.name);
             let label = i.name().replace('_', " ");
             let note = match i {

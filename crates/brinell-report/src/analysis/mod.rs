@@ -35,16 +35,16 @@ pub enum Badge {
 /// Everything the page of an analysis shows. Curves come in the order of `names`, one or two of each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnalysisReport {
-    /// File and channel.
+    /// The verdict in a few words.
     pub title: String,
-    /// Bearing, speed, length.
+    /// File and channel, length, speed.
     pub subtitle: String,
     /// The version of the program.
     pub version: String,
     /// The verdict in a paragraph.
     pub verdict: String,
-    /// The verdict in a word or two, and what colour it has.
-    pub badge: (String, Badge),
+    /// What colour it has.
+    pub badge: Badge,
     /// What deserves attention.
     pub warnings: Vec<String>,
     /// Where rate, unit, speed and bearing come from.
@@ -342,17 +342,12 @@ fn unit_of(spectra: &[Spectrum]) -> &str {
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {
-    let (word, badge) = &report.badge;
-    let class = match badge {
+    let class = match report.badge {
         Badge::Good => "good",
         Badge::Bad => "bad",
         Badge::Open => "open",
     };
-    let word = escape(word);
-    let _ = writeln!(
-        page,
-        "<p><span class=\"tag {class}\">{word}</span></p>\n<p>{}</p>",
-        escape(&report.verdict)
-    );
+    let verdict = escape(&report.verdict);
+    let _ = writeln!(page, "<p class=\"verdict {class}\">{verdict}</p>");
     facts(page, &report.facts);
 }

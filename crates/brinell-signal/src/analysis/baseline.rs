@@ -2,23 +2,27 @@
 
 use super::family::{Family, Standing};
 use super::{Analysis, AnalysisError, Options, Side, analyze, bands};
-use crate::Band;
+use crate::{Band, Indicator};
 
 /// Growth of the modulation from which lines that are no damage by themselves are told.
 const GROWN: f64 = 2.0;
-/// Part of the modulation that the healthy record shows already, from which lines say nothing of damage.
+/// Part of the modulation, and of the lines' level, that the healthy record shows already, from which lines say nothing of damage.
 const BEFORE: f64 = 0.5;
 
 impl Analysis {
-    /// Judges again what was found in `x`, in view of a record of the `healthy` machine: damage whose lines modulate half as deep there is none
-    /// ([`Standing::AsBefore`]), and lines that have at least doubled their modulation have grown ([`Standing::Grown`]).
+    /// Judges again what was found in `x`, in view of a record of the `healthy` machine in the same unit: damage whose lines modulate half as deep
+    /// there, and are half as high, is none ([`Standing::AsBefore`]); lines that have at least doubled their modulation have grown
+    /// ([`Standing::Grown`]).
     ///
-    /// Families are compared in the range that both sample rates hold.
+    /// Families are compared in the range that both sample rates hold. How high their lines are goes by modulation times the signal's RMS. A level
+    /// that has merely risen says nothing of the part: load, speed and other parts raise it.
     ///
     /// # Errors
     /// As [`analyze()`].
     pub fn beside_healthy(&mut self, x: &[f64], healthy: Side) -> Result<(), AnalysisError> {
         let top = 0.5 * self.sample_rate.min(healthy.analysis.sample_rate);
+        let rms = |a: &Analysis| a.indicator(Indicator::Rms).map_or(1.0, |e| e.value);
+        let louder = (rms(self) / rms(healthy.analysis)).max(1.0);
         let own = families_up_to(top, Side { x, analysis: self })?;
         let healthy = families_up_to(top, healthy)?;
         let of = |families: &[Family], name| families.iter().find(|f| f.name == name).cloned();
@@ -30,7 +34,7 @@ impl Analysis {
             let ratio = own.modulation / healthy.modulation.max(f64::MIN_POSITIVE);
             family.growth = Some(ratio);
             family.standing = match family.standing {
-                Standing::Damage if healthy.is_damage() && ratio * BEFORE < 1.0 => {
+                Standing::Damage if healthy.is_damage() && BEFORE * louder * ratio < 1.0 => {
                     Standing::AsBefore
                 }
                 Standing::Faint | Standing::Open if family.is_whole() && ratio >= GROWN => {

@@ -124,13 +124,10 @@ fn one(
 }
 
 fn indicators(sides: &[Side; 2]) -> Vec<Difference> {
-    let of = |side: &Side, i: Indicator| {
-        let found = side.analysis.indicators.iter().find(|(k, _)| *k == i);
-        found.map(|(_, e)| *e)
-    };
+    let [first, second] = sides.map(|s| s.analysis);
     (Indicator::ALL.into_iter())
         .filter_map(|i| {
-            let (a, b) = (of(&sides[0], i)?, of(&sides[1], i)?);
+            let (a, b) = (first.indicator(i)?, second.indicator(i)?);
             let apart = (a.interval.zip(b.interval)).map(|(a, b)| a.high < b.low || b.high < a.low);
             Some(Difference {
                 indicator: i,

@@ -204,6 +204,12 @@ impl Analysis {
         (self.families.iter()).filter(|f| f.standing == Standing::Damage)
     }
 
+    /// One of the indicators.
+    pub fn indicator(&self, wanted: Indicator) -> Option<Estimate> {
+        let found = self.indicators.iter().find(|(i, _)| *i == wanted);
+        found.map(|(_, estimate)| *estimate)
+    }
+
     /// What it amounts to.
     pub fn conclusion(&self) -> Verdict {
         let open = (self.families.iter()).any(|f| {
@@ -223,12 +229,10 @@ impl Analysis {
 
     /// `very clear`, `clear` or `weak`: how much the evidence of a family that is damage says.
     pub fn clarity(&self, family: &Family) -> &'static str {
-        if self.may_be_passing(family) {
-            return "weak";
-        }
-        match family.is_very_clear() {
-            true => "very clear",
-            false => "clear",
+        match (self.may_be_passing(family), family.is_very_clear()) {
+            (true, _) => "weak",
+            (_, true) => "very clear",
+            _ => "clear",
         }
     }
 

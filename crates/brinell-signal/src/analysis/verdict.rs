@@ -7,7 +7,7 @@ use super::{AnalysisError, Options};
 
 /// Lead in score that an element needs over the races: its sidebands at the cage's frequency reach most lines.
 const LEAD: f64 = 2.0;
-/// Multiples of shaft and cage about the first's harmonics that are taken out before a second one is sought.
+/// Multiples of the shaft's or the cage's frequency about the first's harmonics that are taken out before a second one is sought.
 const SIDES: i32 = 3;
 /// So many times the tolerance off, a comb may be the bearing's at another speed.
 const FARTHER: f64 = 3.0;
@@ -101,15 +101,10 @@ impl Record {
 
     /// Score of the family that leads or, where none is damage, of the highest: the first is more.
     pub(super) fn evidence(&self) -> (bool, f64) {
-        let highest = |damage: bool| {
-            let these =
-                (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
-            these.map(|f| f.score).reduce(f64::max)
-        };
-        match highest(true) {
-            Some(score) => (true, score),
-            None => (false, highest(false).unwrap_or(0.0)),
-        }
+        let damage = self.is_damage();
+        let these = (self.families.iter()).filter(|f| !damage || f.standing == Standing::Damage);
+        let highest = these.map(|f| f.score).reduce(f64::max);
+        (damage, highest.unwrap_or(0.0))
     }
 
     fn judge(&mut self) -> (Vec<Family>, Option<Elsewhere>) {
@@ -121,12 +116,10 @@ impl Record {
         }
         let lead = leading(&all);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
-        if elsewhere.is_some() {
+        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             for family in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
                 family.standing = Standing::Open;
             }
-        }
-        let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
             all.sort_by(|a, b| b.score.total_cmp(&a.score));
             return (all, elsewhere);
         };
@@ -272,15 +265,17 @@ impl Record {
             })
     }
 
-    /// Harmonics of a frequency and their sidebands are nobody's from now on.
+    /// Harmonics of a frequency and their sidebands are nobody's from now on. Sums of shaft and cage are not taken: nine elements pass the inner
+    /// race at nine times the shaft's frequency less that at which they pass the outer one, and the cage turns at two fifths of it or so, so that
+    /// their places are those of the other race's lines.
     fn take_out(&mut self, frequency: f64) {
-        let cage = cage(self.shaft, &self.options);
+        let sides = [self.shaft, cage(self.shaft, &self.options)];
         let most = self.together.top();
         let mut k = 0.0;
-        while k * frequency < most + f64::from(SIDES) * (self.shaft + cage) {
-            for a in -SIDES..=SIDES {
-                for b in -SIDES..=SIDES {
-                    let at = k * frequency + f64::from(a) * self.shaft + f64::from(b) * cage;
+        while k * frequency < most + f64::from(SIDES) * self.shaft {
+            for side in sides {
+                for a in -SIDES..=SIDES {
+                    let at = k * frequency + f64::from(a) * side;
                     if (0.0..most).contains(&at) {
                         self.together.hide(at);
                     }

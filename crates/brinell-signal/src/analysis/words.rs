@@ -15,6 +15,8 @@ pub const COLUMNS: [&str; 8] = [
     "Says",
 ];
 
+/// Slip of a loaded induction motor, at most.
+const MOST_SLIP: f64 = 0.05;
 /// What else may strike the resting race.
 const PASSING: &str = "Rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much where \
                        nothing else is heard: compare with a run of the healthy bearing.";
@@ -39,6 +41,7 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
                 if analysis.may_be_passing(family) {
                     text.push(PASSING.into());
                 }
+                text.extend(inverter(analysis, family));
             }
         }
         Verdict::CannotTell => {
@@ -82,14 +85,11 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         }
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
-    let faint: Vec<&str> = (analysis.families.iter())
-        .filter(|f| f.standing == Standing::Faint)
-        .map(|f| f.name)
-        .collect();
-    let before: Vec<&str> = (analysis.families.iter())
-        .filter(|f| f.standing == Standing::AsBefore)
-        .map(|f| f.name)
-        .collect();
+    let those = |standing| -> Vec<&str> {
+        let families = analysis.families.iter().filter(|f| f.standing == standing);
+        families.map(|f| f.name).collect()
+    };
+    let (faint, before) = (those(Standing::Faint), those(Standing::AsBefore));
     if !before.is_empty() {
         text.push(format!(
             "Cannot tell: lines of {} would be damage, and the record given as healthy has them as well. Was the machine healthy then? An older record would decide.",
@@ -103,6 +103,17 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         ));
     }
     text.join(" ")
+}
+
+/// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above those of the shaft's frequency
+/// by the slip.
+fn inverter(analysis: &Analysis, family: &Family) -> Option<String> {
+    let (options, order) = (&analysis.options, family.frequency / analysis.shaft);
+    let slip = 1.0 - order.floor() / order;
+    let is_race = family.name.starts_with("BPF");
+    let may_be = is_race && !options.exact && options.supply.is_none() && slip <= MOST_SLIP;
+    let told = "has lines there too where an inverter feeds it: its frequency would tell";
+    may_be.then(|| format!("A motor with a slip of {:.1} % {told}.", 100.0 * slip))
 }
 
 /// Lines that are nobody's of this bearing.
