@@ -166,6 +166,9 @@ pub(crate) struct CheckArgs {
     /// Also list every assumed value and its reason
     #[arg(short, long)]
     pub(crate) assumptions: bool,
+    /// Print JSON: the numbers, with their units in the names, and the warnings
+    #[arg(long, conflicts_with = "assumptions")]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

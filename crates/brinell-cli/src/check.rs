@@ -5,7 +5,7 @@ mod lamina;
 use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
-use crate::say::{one_line, say, short, significant};
+use crate::say::{document, one_line, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
@@ -24,6 +24,11 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let s = &loaded.scenario;
     let model = Model::new(s)?;
     let d = Derived::new(&model, s.simulation.accuracy);
+    if args.json {
+        let text = serde_json::to_string_pretty(&brinell::derived::to_json(s, &model, &d));
+        document(&text.unwrap_or_default());
+        return Ok(ExitCode::SUCCESS);
+    }
     let b = &s.bearing;
     let warnings = plausibility::before(s, &model, &d.statics);
     print_problems("", "", &warnings);

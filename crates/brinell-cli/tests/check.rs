@@ -78,6 +78,43 @@ fn prop_check_shows_slices_where_the_load_along_a_roller_is_uneven() {
 }
 
 #[test]
+fn prop_check_as_json_has_the_numbers_of_the_text() {
+    let settings = [
+        "contact.law=sliced",
+        "simulation.model=tilting",
+        "bearing.profile=logarithmic",
+    ];
+    let text = check(&settings).exits(0);
+    let folder = tempdir().unwrap();
+    fs::write(
+        folder.path().join("s.toml"),
+        SHORT.replace("duration_s = 0.02", "duration_s = 0.2"),
+    )
+    .unwrap();
+    let mut args = vec!["check", "s.toml", "--json"];
+    settings.iter().for_each(|s| args.extend(["--set", s]));
+    let call = brinell(folder.path(), &args).exits(0);
+    let json: serde_json::Value = serde_json::from_str(&call.out).unwrap();
+    let slices = &json["slices"];
+    let largest = slices["damaged"]["largest"]["pressure_mpa"]
+        .as_f64()
+        .unwrap();
+    let line = text
+        .out
+        .lines()
+        .find(|l| l.contains("damaged, largest"))
+        .unwrap();
+    let printed: f64 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
+    assert!(
+        (printed / largest - 1.0).abs() < 1e-3,
+        "{printed} {largest}"
+    );
+    assert_eq!(slices["healthy"]["stiffness"].as_array().unwrap().len(), 4);
+    assert!(slices["life_revolutions"].as_f64().unwrap() > 1e6);
+    assert!(json["frequencies_hz"]["bpfo"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
 fn regress_check_prints_numbers_that_can_be_read() {
     let call = check(&[
         "operation.load_n=[0, -2500]",

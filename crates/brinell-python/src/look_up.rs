@@ -11,8 +11,6 @@ use brinell::scenario::Speed;
 use brinell::statics::static_load_zone;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::json;
-use std::f64::consts::TAU;
 
 fn model(py: Python<'_>, scenario: &Scenario) -> PyResult<Model> {
     let model = py.detach(|| Model::new(&scenario.loaded.scenario));
@@ -50,40 +48,9 @@ pub(crate) fn derived<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bou
     let model = model(py, scenario)?;
     let accuracy = scenario.loaded.scenario.simulation.accuracy;
     let d = py.detach(|| Derived::new(&model, accuracy));
-    let (carried, load) = d.support_share;
     let s = &scenario.loaded.scenario;
-    let pressures = brinell::pressure::pressures(s, d.contact_force);
-    let warnings = py.detach(|| brinell::plausibility::before(s, &model, &d.statics));
-    let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
-    let value = json!({
-        "top_speed_rpm": d.top_speed * 60.0 / TAU,
-        "frequencies_hz": table(d.kinematics.table(d.top_speed / TAU)),
-        "contact_force_n": d.contact_force,
-        "inner_contact_stiffness_n_per_m": d.contact_stiffness[0],
-        "outer_contact_stiffness_n_per_m": d.contact_stiffness[1],
-        "roller_frequency_hz": d.roller_frequency,
-        "roller_damping_ratio": d.roller_damping_ratio,
-        "inner_support_frequency_hz": d.support_frequencies[0],
-        "outer_support_frequency_hz": d.support_frequencies[1],
-        "centrifugal_force_n": d.centrifugal_force,
-        "roller_period_s": d.roller_period,
-        "defect_passes_s": d.defect_passes,
-        "longest_step_s": d.longest_step,
-        "support_over_clearance_n": carried,
-        "load_n": load,
-        "inner_contact_pressure_mpa": 1e-6 * pressures[0],
-        "outer_contact_pressure_mpa": 1e-6 * pressures[1],
-        "static_load_rating_n": brinell::bearing::rating::static_rating(&s.bearing).load,
-        "warnings": warnings,
-    });
+    let value = py.detach(|| brinell::derived::to_json(s, &model, &d));
     json_to_python(py, &value)
-}
-
-/// Names in lower case without spaces: `bpfo`, `2bsf`.
-fn table(rows: [(&str, f64, &str); 6]) -> serde_json::Map<String, serde_json::Value> {
-    let rows = rows.into_iter();
-    rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into()))
-        .collect()
 }
 
 /// Whose frequencies.
@@ -128,5 +95,5 @@ pub(crate) fn frequencies<'py>(
         Which::Known(known) => known.frequencies(rpm).map_err(bad_value)?,
         Which::Geometry(geometry) => geometry.frequencies(rpm),
     };
-    json_to_python(py, &table(rows).into())
+    json_to_python(py, &brinell::derived::frequencies(rows).into())
 }

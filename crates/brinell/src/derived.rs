@@ -1,11 +1,14 @@
 //! What follows from a scenario before anything moves: stiffnesses, time scales, the static load zone. SI.
 
+mod json;
+
 use crate::accuracy::settings;
 use crate::bearing::Kinematics;
 use crate::defect::{Defect, SIDES};
 use crate::model::Model;
 use crate::scenario::{Accuracy, LoadOn, Surface};
 use crate::statics::{NoBalance, StaticLoadZone, static_load_zone};
+pub use json::{frequencies, to_json};
 use std::f64::consts::TAU;
 
 /// Derived quantities, as `brinell check` prints them.

@@ -1,0 +1,92 @@
+//! What follows from a scenario, as JSON: `brinell check --json` and Python's `derived`.
+
+use super::Derived;
+use crate::bearing::rating::static_rating;
+use crate::defect::Side;
+use crate::lamina::{Distribution, Peak, Rating};
+use crate::model::Model;
+use crate::plausibility::before;
+use crate::pressure::{pressures, static_limit};
+use crate::scenario::Scenario;
+use serde_json::{Map, Value, json};
+use std::f64::consts::TAU;
+
+/// Units are in the names. `slices` is `null` where contacts have none; of a static balance that does not exist the warnings tell.
+pub fn to_json(s: &Scenario, model: &Model, d: &Derived) -> Value {
+    let (carried, load) = d.support_share;
+    let pressures = pressures(s, d.contact_force);
+    let warnings = before(s, model, &d.statics);
+    let warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    let rating = match &d.statics {
+        Ok(_) => Rating::of(s).ok().flatten(),
+        Err(_) => None,
+    };
+    json!({
+        "top_speed_rpm": d.top_speed * 60.0 / TAU,
+        "frequencies_hz": frequencies(d.kinematics.table(d.top_speed / TAU)),
+        "contact_force_n": d.contact_force,
+        "inner_contact_stiffness_n_per_m": d.contact_stiffness[0],
+        "outer_contact_stiffness_n_per_m": d.contact_stiffness[1],
+        "roller_frequency_hz": d.roller_frequency,
+        "roller_damping_ratio": d.roller_damping_ratio,
+        "inner_support_frequency_hz": d.support_frequencies[0],
+        "outer_support_frequency_hz": d.support_frequencies[1],
+        "centrifugal_force_n": d.centrifugal_force,
+        "roller_period_s": d.roller_period,
+        "defect_passes_s": d.defect_passes,
+        "longest_step_s": d.longest_step,
+        "support_over_clearance_n": carried,
+        "load_n": load,
+        "inner_contact_pressure_mpa": 1e-6 * pressures[0],
+        "outer_contact_pressure_mpa": 1e-6 * pressures[1],
+        "static_limit_mpa": 1e-6 * static_limit(&s.bearing),
+        "static_load_rating_n": static_rating(&s.bearing).load,
+        "slices": rating.map(|rating| in_slices(&rating)),
+        "warnings": warnings,
+    })
+}
+
+/// Frequencies by names in lower case without spaces: `bpfo`, `2bsf`.
+pub fn frequencies(rows: [(&str, f64, &str); 6]) -> Map<String, Value> {
+    let rows = rows.into_iter();
+    rows.map(|(name, hz, _)| (name.to_lowercase().replace(' ', ""), hz.into()))
+        .collect()
+}
+
+/// Load, stiffness and life by ISO/TS 16281.
+fn in_slices(rating: &Rating) -> Value {
+    let scaled = |by: f64, values: &[f64]| values.iter().map(|x| by * x).collect::<Vec<f64>>();
+    json!({
+        "z_mm": scaled(1e3, &rating.healthy.z),
+        "profile_drop_um": scaled(1e6, &rating.healthy.drop),
+        "healthy": distribution(&rating.healthy),
+        "damaged": rating.damaged.as_ref().map(distribution),
+        "life_revolutions": rating.life,
+        "damaged_load_life_revolutions": rating.damaged_life,
+        "damaged_load_life_standard_error_revolutions": rating.damaged_life_error,
+    })
+}
+
+/// The stiffness is over (x, y, tau_x, tau_y): N/m, N/rad, N m/rad.
+fn distribution(d: &Distribution) -> Value {
+    json!({
+        "largest": d.peak().map(peak),
+        "end_slices": d.end_peak().map(peak),
+        "inner_from_outer_tilt_urad": d.tilt.map(|tau| 1e6 * tau),
+        "largest_roller_tilt_urad": 1e6 * d.roller_tilt,
+        "stiffness": d.stiffness,
+    })
+}
+
+fn peak(peak: Peak) -> Value {
+    json!({
+        "pressure_mpa": 1e-6 * peak.pressure,
+        "raceway": match peak.side {
+            Side::Inner => "inner",
+            Side::Outer => "outer",
+        },
+        "row": peak.row + 1,
+        "angle_deg": peak.angle.to_degrees(),
+        "z_mm": 1e3 * peak.z,
+    })
+}
