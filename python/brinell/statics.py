@@ -76,7 +76,8 @@ def static_analysis(scenario: Runnable) -> LoadZone:
 
 
 def derived(scenario: Runnable) -> dict[str, Any]:
-    """What ``brinell check`` prints: frequencies, stiffnesses, contact pressure, time scales, the longest step; ``warnings`` about what may not be meant.
+    """What ``brinell check`` prints: frequencies, stiffnesses, contact pressure, time scales, the longest step; ``slices`` (where
+    contacts have them) with load, stiffness and life by ISO/TS 16281; ``warnings`` about what may not be meant.
 
     Examples
     --------

@@ -255,7 +255,7 @@ fn between_raceways(
     Roller {
         r,
         beta,
-        tangent: in_series(&i.stiffness, &o.stiffness),
+        tangent: in_series(&i.stiffness, &o.stiffness, g.roller_length),
         energy: i.energy + o.energy - own * r,
         contacts: [i, o],
         failed,
@@ -263,9 +263,18 @@ fn between_raceways(
 }
 
 /// K_in (K_in + K_out)^-1 K_out of two contacts in series, over (approach, slope); 0 where the roller is free of one.
-fn in_series(inner: &[f64; 3], outer: &[f64; 3]) -> [[f64; 2]; 2] {
+///
+/// One slice alone leaves the roller free to turn about it. It is held by next to nothing there, or its stiffness would be lost to the search.
+fn in_series(inner: &[f64; 3], outer: &[f64; 3], length: f64) -> [[f64; 2]; 2] {
+    const NEXT_TO_NOTHING: f64 = 1e-9;
     let matrix = |k: &[f64; 3]| [[k[0], k[1]], [k[1], k[2]]];
-    let sum = matrix(&[0, 1, 2].map(|k| inner[k] + outer[k]));
+    let sum = [0, 1, 2].map(|k| inner[k] + outer[k]);
+    let free =
+        sum[0] * sum[2] - sum[1] * sum[1] <= NEXT_TO_NOTHING * sum[0] * sum[0] * length * length;
+    let mut sum = matrix(&sum);
+    if free {
+        sum[1][1] += NEXT_TO_NOTHING * sum[0][0] * length * length;
+    }
     let (inner, outer) = (matrix(inner), matrix(outer));
     let mut series = [[0.0; 2]; 2];
     for j in 0..2 {
