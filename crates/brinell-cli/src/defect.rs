@@ -1,13 +1,13 @@
 //! `brinell defect`: damage before it is simulated.
 
+mod preview;
+
 use crate::args::{
-    ConvertArgs, DefectCommand, FitArgs, PlotFormat, PreviewArgs, RandomArgs, ScenarioArgs,
-    SimpleShape, SimplifyArgs, Written,
+    ConvertArgs, DefectCommand, FitArgs, RandomArgs, ScenarioArgs, SimpleShape, SimplifyArgs,
+    Written,
 };
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::results::{PREVIEW, Place, Results, names_below};
-use crate::run::{make_folder, safe_name};
 use crate::say::{complain, document, one_line, say, short};
 use brinell::defect::Shape;
 use brinell::defect::fit::{Fit, FitSettings};
@@ -15,10 +15,7 @@ use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell_damage::plan::{self, Contour};
-use brinell_io::{Complete, atomic_prepare};
-use brinell_report::{Damage, DamagePanel, Picture, damage_of};
-use serde_json::json;
-use std::path::{Path, PathBuf};
+use preview::preview;
 use std::process::ExitCode;
 
 /// Most points a shape is written with.
@@ -61,209 +58,6 @@ fn to_print_of(args: &ScenarioArgs) -> Result<Loaded, Failure> {
     let loaded = source.load(&[], false)?;
     source.inputs().spare_standard_output()?;
     Ok(loaded)
-}
-
-fn preview(args: &PreviewArgs) -> Result<(), Failure> {
-    let source = Source::open(&args.scenario)?;
-    let loaded = source.load(&[], false)?;
-    let s = &loaded.scenario;
-    chosen(s, args.defect.unwrap_or(1))?;
-    if let Some(x) = args
-        .ring_thickness_mm
-        .filter(|x| !(x.is_finite() && *x > 0.0))
-    {
-        return Err(Failure::Usage(format!(
-            "--ring-thickness-mm {x}: expected a thickness above 0, in mm"
-        )));
-    }
-    let all = damage_of(s, args.ring_thickness_mm)?;
-    let previewed = |index: usize| args.defect.is_none_or(|n| n == index + 1);
-    for (index, damage) in all.iter().enumerate().filter(|(k, _)| previewed(*k)) {
-        let deepest_mm = 1e-3 * damage.measures.deepest_um;
-        if let Some(x) = args.ring_thickness_mm.filter(|x| *x <= deepest_mm) {
-            return Err(Failure::Usage(format!(
-                "--ring-thickness-mm {x}: defect {} is {} mm deep; expected a thicker ring, in mm",
-                index + 1,
-                short(deepest_mm, 4)
-            )));
-        }
-    }
-    let folder = args
-        .output
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(safe_name(&s.name)).join("damage"));
-    let place = Place {
-        kind: Results::Preview,
-        folder: &folder,
-        inputs: &source.inputs(),
-    };
-    // Any scenario's preview gives way to the next: it takes a moment to make.
-    let earlier = place.earlier(args.overwrite, &[PREVIEW.into()], |_| true)?;
-    make_folder(&folder)?;
-    let mut ready = Vec::new();
-    let mut entries = Vec::new();
-    for (index, damage) in all.iter().enumerate() {
-        if !previewed(index) {
-            continue;
-        }
-        tell(damage);
-        let wide = brinell_report::Layout::Wide;
-        let view = &damage.view;
-        let mut pictures = vec![
-            brinell_report::damage_plan(view, index, wide),
-            brinell_report::damage_passage(view, index, wide),
-        ];
-        if !view.section.is_empty() {
-            pictures.push(brinell_report::damage_section(view, index, wide));
-        }
-        if let Some(along) = &view.along {
-            let name = format!("damage-{}-along", index + 1);
-            pictures.push(brinell_report::load_along(along, &name, wide));
-        }
-        for picture in &pictures {
-            save(picture, &args.formats, &folder, &mut ready)?;
-        }
-        let along = view.along.clone().unwrap_or_default();
-        for (name, axis, xs, panels) in [
-            ("passage", "angle_deg", &view.angle_deg, &view.passage),
-            ("section", "s_mm", &view.section_s_mm, &view.section),
-            ("along", "z_mm", &along.z_mm, &along.panels),
-        ] {
-            if !panels.is_empty() {
-                let path = folder.join(format!("damage-{}-{name}.csv", index + 1));
-                ready.push(atomic_prepare(path, csv(axis, xs, panels))?);
-            }
-        }
-        entries.push(entry(index, damage));
-    }
-    let path = folder.join(PREVIEW);
-    let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
-    files.push(path.clone());
-    let files = names_below(&folder, &files);
-    let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": files, "defects": entries });
-    let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(path, text)?);
-    for path in earlier.give_way(ready)? {
-        say!("  wrote {}", path.display());
-    }
-    Ok(())
-}
-
-fn tell(damage: &Damage) {
-    let view = &damage.view;
-    say!("{}", view.title);
-    for fact in &view.facts {
-        let brinell_report::Value::Text(value) = &fact.value else {
-            continue;
-        };
-        let unit = fact.unit.replace('μ', "u").replace('°', "deg");
-        say!(
-            "  {:<24} {value:>9} {unit:<5} {}",
-            fact.label,
-            fact.note.replace('μ', "u")
-        );
-    }
-    let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
-    say!("  Passage: {plain}");
-    if let Some(along) = &view.along {
-        say!("  {}, {}", along.title, along.note);
-    }
-    say!("  Section: {}", view.section_note);
-    say!("");
-}
-
-fn save(
-    picture: &Picture,
-    formats: &[PlotFormat],
-    folder: &Path,
-    ready: &mut Vec<Complete>,
-) -> Result<(), Failure> {
-    for format in formats {
-        let (ending, bytes) = match format {
-            PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
-            PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
-        };
-        let path = folder.join(format!("{}.{ending}", picture.name));
-        ready.push(atomic_prepare(path, bytes)?);
-    }
-    Ok(())
-}
-
-/// "stiffness_k_ecl_point".
-fn slug(words: &[&str]) -> String {
-    let mut slug = String::new();
-    for c in words.join(" ").replace('μ', "u").chars() {
-        if c.is_ascii_alphanumeric() {
-            slug.push(c.to_ascii_lowercase());
-        } else if !slug.is_empty() && !slug.ends_with('_') {
-            slug.push('_');
-        }
-    }
-    slug.trim_end_matches('_').to_owned()
-}
-
-/// Name and values of each curve.
-fn columns(panels: &[DamagePanel]) -> Vec<(String, &[f64])> {
-    panels
-        .iter()
-        .flat_map(|p| {
-            p.curves
-                .iter()
-                .map(|c| (slug(&[&p.label, &c.name, &p.unit]), c.values.as_slice()))
-        })
-        .collect()
-}
-
-fn csv(axis: &str, xs: &[f64], panels: &[DamagePanel]) -> String {
-    let columns = columns(panels);
-    let mut text = axis.to_owned();
-    for (name, _) in &columns {
-        text += ",";
-        text += name;
-    }
-    for (k, x) in xs.iter().enumerate() {
-        text += &format!("\n{x}");
-        for (_, values) in &columns {
-            text += &format!(",{}", values[k]);
-        }
-    }
-    text + "\n"
-}
-
-fn entry(index: usize, damage: &Damage) -> serde_json::Value {
-    let (m, view) = (&damage.measures, &damage.view);
-    let curves = |axis: &str, xs: &[f64], panels: &[DamagePanel]| {
-        let mut all = serde_json::Map::new();
-        all.insert(axis.into(), json!(xs));
-        for (name, values) in columns(panels) {
-            all.insert(name, json!(values));
-        }
-        all
-    };
-    json!({
-        "defect": index + 1,
-        "title": view.title,
-        "length_mm": m.length_mm,
-        "arc_deg": m.arc_deg,
-        "widest_mm": m.widest_mm,
-        "area_mm2": m.area_mm2,
-        "mean_depth_um": m.mean_depth_um,
-        "deepest_um": m.deepest_um,
-        "raised_um": m.raised_um,
-        "time_to_pass_ms": m.pass_ms,
-        "speed_rpm": m.speed_rpm,
-        "load_zone_share": m.load_zone_share,
-        "load_zone_mm": view.load_zone_mm,
-        "approach_um": m.approach_um,
-        "heaviest_contact_n": m.force_n,
-        "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n"),
-        "passage": curves("angle_deg", &view.angle_deg, &view.passage),
-        "along_note": view.along.as_ref().map(|along| &along.note),
-        "along": view.along.as_ref().map(|along| curves("z_mm", &along.z_mm, &along.panels)),
-        "section_note": view.section_note,
-        "section": curves("s_mm", &view.section_s_mm, &view.section),
-    })
 }
 
 /// One `[[defects]]` entry as TOML; what the scenario's checks say of it goes to standard error.

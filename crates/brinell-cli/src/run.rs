@@ -14,7 +14,7 @@ use crate::results::{
 };
 use crate::say::{complain, one_line, say, short};
 use brinell::document::Loaded;
-use brinell::observe::Kind;
+use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{self, Beforehand};
 use brinell::result::{RunResult, fields, finish};
 use brinell::signal::Indicator;
@@ -390,6 +390,29 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         (fields::STEPS.of)(outcome),
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
+    told.extend(sensor_lines(findings));
+    let heed = summary::clipped(parts)
+        .into_iter()
+        .chain(summary::unsettled(findings));
+    told.extend(heed.map(|words| format!("  {words}")));
+    told.extend(findings.lines.iter().map(defect_line));
+    let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
+    told.push(format!(
+        "  energy audit closes to {} of the turnover, momentum to {}",
+        part.map_or("-".into(), |x| short(x.abs(), 1)),
+        (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
+    ));
+    let after = plausibility::after(&loaded.scenario, &outcome.energy);
+    told.extend(after.into_iter().map(|words| format!("warning: {words}")));
+    for path in written {
+        told.push(format!("  wrote {}", path.display()));
+    }
+    told
+}
+
+/// What the sensor read, a line for each of its channels.
+fn sensor_lines(findings: &Findings) -> Vec<String> {
+    let mut told = Vec::new();
     for channel in &findings.channels {
         if channel.kind != Kind::AntiAliased || !channel.name.starts_with("sensor_") {
             continue;
@@ -415,34 +438,21 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
             other(Indicator::Kurtosis),
         ));
     }
-    let heed = summary::clipped(parts)
-        .into_iter()
-        .chain(summary::unsettled(findings));
-    told.extend(heed.map(|words| format!("  {words}")));
-    for line in &findings.lines {
-        let found = line.found.map_or("not found in the envelope".into(), |f| {
-            let interval = line.interval.map_or(String::new(), |i| {
-                format!(" (95 %: {:.2} to {:.2})", i.low, i.high)
-            });
-            format!("{:.2} Hz{interval} in the envelope", f.frequency)
-        });
-        told.push(format!(
-            "  defect {}: {} {found}; pure rolling {:.2} Hz",
-            line.defect + 1,
-            line.name,
-            line.nominal
-        ));
-    }
-    let part = (fields::RELATIVE_RESIDUAL.of)(outcome);
-    told.push(format!(
-        "  energy audit closes to {} of the turnover, momentum to {}",
-        part.map_or("-".into(), |x| short(x.abs(), 1)),
-        (fields::MOMENTUM_IMBALANCE.of)(outcome).map_or("(rigid mount)".into(), |x| short(x, 1)),
-    ));
-    let after = plausibility::after(&loaded.scenario, &outcome.energy);
-    told.extend(after.into_iter().map(|words| format!("warning: {words}")));
-    for path in written {
-        told.push(format!("  wrote {}", path.display()));
-    }
     told
+}
+
+/// What the envelope has of a defect.
+fn defect_line(line: &DefectLine) -> String {
+    let found = line.found.map_or("not found in the envelope".into(), |f| {
+        let interval = line.interval.map_or(String::new(), |i| {
+            format!(" (95 %: {:.2} to {:.2})", i.low, i.high)
+        });
+        format!("{:.2} Hz{interval} in the envelope", f.frequency)
+    });
+    format!(
+        "  defect {}: {} {found}; pure rolling {:.2} Hz",
+        line.defect + 1,
+        line.name,
+        line.nominal
+    )
 }

@@ -69,13 +69,16 @@ pub fn resolve(scenario: &mut Scenario, folder: &Path) -> Result<Vec<String>, Ve
     resolve_noting(scenario, folder, &mut Vec::new())
 }
 
+/// A defect by its index, the key that names its file, and the file.
+type Named = (usize, String, String);
+
 /// [`resolve`], with the thresholds that were found in images, by their defects.
 pub(crate) fn resolve_noting(
     scenario: &mut Scenario,
     folder: &Path,
     thresholds: &mut Vec<(usize, f64)>,
 ) -> Result<Vec<String>, Vec<Unresolved>> {
-    let files: Vec<(usize, String, String)> = scenario
+    let files: Vec<Named> = scenario
         .defects
         .iter()
         .enumerate()
@@ -107,6 +110,18 @@ pub(crate) fn resolve_noting(
     if !errors.is_empty() {
         return Err(errors);
     }
+    can_be_read_again(&resolved, &files)?;
+    let (said, errors) = new_problems(scenario, &resolved, &files);
+    warnings.extend(said);
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    *scenario = resolved;
+    Ok(warnings)
+}
+
+/// That the scenario with its geometry is no longer than what is read.
+fn can_be_read_again(resolved: &Scenario, files: &[Named]) -> Result<(), Vec<Unresolved>> {
     let text = resolved.to_toml().len();
     if text > MOST_TEXT {
         let largest = files
@@ -127,12 +142,22 @@ pub(crate) fn resolve_noting(
             message,
         }]);
     }
+    Ok(())
+}
+
+/// What the scenario with its geometry is warned of and refused for, beyond what it was without.
+fn new_problems(
+    scenario: &Scenario,
+    resolved: &Scenario,
+    files: &[Named],
+) -> (Vec<String>, Vec<Unresolved>) {
+    let (mut warnings, mut errors) = (Vec::new(), Vec::new());
     let before = scenario.problems();
     for problem in resolved.problems() {
         if before.contains(&problem) {
             continue;
         }
-        let of = |(i, ..): &&(usize, String, String)| {
+        let of = |(i, ..): &&Named| {
             problem.key.starts_with(&format!("defects.{i}."))
                 || problem.key == format!("defects.{i}")
         };
@@ -160,11 +185,7 @@ pub(crate) fn resolve_noting(
             }),
         }
     }
-    if !errors.is_empty() {
-        return Err(errors);
-    }
-    *scenario = resolved;
-    Ok(warnings)
+    (warnings, errors)
 }
 
 /// Numbers of a shape's geometry.

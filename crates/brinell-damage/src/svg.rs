@@ -229,16 +229,7 @@ impl Reader<'_> {
             // A copy of the wanted element is not the wanted element.
             "use" if !inside => return Ok(()),
             "use" => {
-                let xlink = ("http://www.w3.org/1999/xlink", "href");
-                let href = node
-                    .attribute("href")
-                    .or_else(|| node.attribute(xlink))
-                    .unwrap_or_default();
-                let id = href.trim().trim_start_matches('#');
-                let target = find(node.document(), id)?;
-                if matches!(target.tag_name().name(), "svg" | "symbol") {
-                    return Err(nested(target));
-                }
+                let target = used(node)?;
                 let shift = Affine::translate((number(node, "x")?, number(node, "y")?));
                 let to_mm = to_mm * transform(node)? * shift;
                 return self.element(target, to_mm, style, inside, depth + 1);
@@ -289,57 +280,9 @@ impl Reader<'_> {
         path: &BezPath,
         style: Style,
     ) -> Result<(), DamageError> {
-        for point in path.elements().iter().flat_map(control_points) {
-            let far = point.x.abs().max(point.y.abs());
-            if !point.is_finite() || far > MAX_MM {
-                return Err(DamageError::TooLarge {
-                    what: "the distance from the page's centre",
-                    value: format!("{far:.3e} mm ({})", place(node)),
-                    limit: format!("{MAX_MM} mm"),
-                    way_out: "check `mm_per_unit`",
-                });
-            }
-        }
+        check_reach(node, path)?;
         let tolerance = self.options.tolerance_mm;
-        let mut rings: Rings = Vec::new();
-        let mut open: Vec<bool> = Vec::new();
-        let mut points = self.points;
-        kurbo::flatten(
-            path.elements().iter().copied(),
-            tolerance,
-            |element| match element {
-                _ if points > MAX_POINTS => {}
-                PathEl::MoveTo(p) => {
-                    rings.push(vec![[p.x, p.y]]);
-                    open.push(true);
-                }
-                PathEl::LineTo(p) => {
-                    points += 1;
-                    if let (Some(ring), Some(true)) = (rings.last_mut(), open.last()) {
-                        ring.push([p.x, p.y]);
-                    } else if let Some(start) = rings.last().map(|ring| ring[0]) {
-                        // Drawing on after closing starts anew at the same point.
-                        rings.push(vec![start, [p.x, p.y]]);
-                        open.push(true);
-                    }
-                }
-                PathEl::ClosePath => {
-                    if let Some(open) = open.last_mut() {
-                        *open = false;
-                    }
-                }
-                PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
-            },
-        );
-        self.points = points;
-        if points > MAX_POINTS {
-            return Err(DamageError::TooLarge {
-                what: "the number of points on the outlines",
-                value: format!("above {MAX_POINTS}"),
-                limit: MAX_POINTS.to_string(),
-                way_out: "raise `tolerance_mm` or simplify the drawing",
-            });
-        }
+        let (rings, open) = self.flatten(path)?;
         for (ring, open) in rings.iter().zip(open) {
             let (first, last) = (ring[0], ring[ring.len() - 1]);
             let gap_mm = (first[0] - last[0]).hypot(first[1] - last[1]);
@@ -376,6 +319,50 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// A path as rings of points, and which of them are open.
+    fn flatten(&mut self, path: &BezPath) -> Result<(Rings, Vec<bool>), DamageError> {
+        let mut rings: Rings = Vec::new();
+        let mut open: Vec<bool> = Vec::new();
+        let mut points = self.points;
+        kurbo::flatten(
+            path.elements().iter().copied(),
+            self.options.tolerance_mm,
+            |element| match element {
+                _ if points > MAX_POINTS => {}
+                PathEl::MoveTo(p) => {
+                    rings.push(vec![[p.x, p.y]]);
+                    open.push(true);
+                }
+                PathEl::LineTo(p) => {
+                    points += 1;
+                    if let (Some(ring), Some(true)) = (rings.last_mut(), open.last()) {
+                        ring.push([p.x, p.y]);
+                    } else if let Some(start) = rings.last().map(|ring| ring[0]) {
+                        // Drawing on after closing starts anew at the same point.
+                        rings.push(vec![start, [p.x, p.y]]);
+                        open.push(true);
+                    }
+                }
+                PathEl::ClosePath => {
+                    if let Some(open) = open.last_mut() {
+                        *open = false;
+                    }
+                }
+                PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
+            },
+        );
+        self.points = points;
+        if points > MAX_POINTS {
+            return Err(DamageError::TooLarge {
+                what: "the number of points on the outlines",
+                value: format!("above {MAX_POINTS}"),
+                limit: MAX_POINTS.to_string(),
+                way_out: "raise `tolerance_mm` or simplify the drawing",
+            });
+        }
+        Ok((rings, open))
+    }
+
     fn finish(mut self) -> Result<Polygons, DamageError> {
         let rings = match self.shapes.len() {
             0 => {
@@ -405,6 +392,37 @@ impl Reader<'_> {
         }
         Ok(result)
     }
+}
+
+/// The element that a `use` copies.
+fn used<'a, 'input>(node: Node<'a, 'input>) -> Result<Node<'a, 'input>, DamageError> {
+    let xlink = ("http://www.w3.org/1999/xlink", "href");
+    let href = node
+        .attribute("href")
+        .or_else(|| node.attribute(xlink))
+        .unwrap_or_default();
+    let id = href.trim().trim_start_matches('#');
+    let target = find(node.document(), id)?;
+    if matches!(target.tag_name().name(), "svg" | "symbol") {
+        return Err(nested(target));
+    }
+    Ok(target)
+}
+
+/// That no point of a path lies further out than a drawing does.
+fn check_reach(node: Node<'_, '_>, path: &BezPath) -> Result<(), DamageError> {
+    for point in path.elements().iter().flat_map(control_points) {
+        let far = point.x.abs().max(point.y.abs());
+        if !point.is_finite() || far > MAX_MM {
+            return Err(DamageError::TooLarge {
+                what: "the distance from the page's centre",
+                value: format!("{far:.3e} mm ({})", place(node)),
+                limit: format!("{MAX_MM} mm"),
+                way_out: "check `mm_per_unit`",
+            });
+        }
+    }
+    Ok(())
 }
 
 fn control_points(element: &PathEl) -> Vec<Point> {

@@ -95,96 +95,19 @@ pub(crate) fn chapter(
         curves: cases.iter().map(|case| curves(case.id)).collect(),
         pieces: vec![StudyPiece::Words(experiment.words.into())],
     };
-    let every: Vec<usize> = (0..cases.len()).collect();
-    match first {
-        8 => {
-            for case in &cases {
-                drawn.plan(&format!("fig08-{}", case.id), case, None, plan);
-            }
-            drawn.stack(
-                "fig09-length",
-                CurveKind::Length,
-                &one_by_one(&cases),
-                true,
-                "",
-            );
-        }
-        10..=12 => {
-            for kind in [
-                CurveKind::Spectrum,
-                CurveKind::Envelope,
-                CurveKind::Waveform,
-                CurveKind::Impact,
-            ] {
-                drawn.together(&format!("fig{first}-{}", kind.file()), kind, &every);
-            }
-            if first == 12 {
-                drawn.around("section3-around");
-            }
-        }
-        13 => {
-            if let [irregular, simplified, ..] = cases[..] {
-                drawn.plan("fig13-plan", irregular, Some(simplified), plan);
-            }
-            let own = "Each plot has its own scale: in one, the simplified shape would hide the irregular one.";
-            drawn.stack(
-                "fig14-waveform",
-                CurveKind::Waveform,
-                &one_by_one(&cases),
-                false,
-                own,
-            );
-            drawn.together("fig14-stiffness", CurveKind::Stiffness, &every);
-            drawn.stack(
-                "fig14-entry",
-                CurveKind::Entry,
-                &one_by_one(&cases),
-                false,
-                own,
-            );
-            drawn.stack(
-                "fig14-exit",
-                CurveKind::Exit,
-                &one_by_one(&cases),
-                false,
-                own,
-            );
-        }
-        15 => {
-            drawn.together("fig15-length", CurveKind::Length, &every);
-            drawn.stack(
-                "fig16-waveform",
-                CurveKind::Waveform,
-                &one_by_one(&cases),
-                true,
-                "One scale for all.",
-            );
-        }
-        20 => {
-            let names = cases
-                .iter()
-                .map(|case| with_rms(case, "sensor_ax.rms", numbers));
-            drawn.names = names.collect();
-            drawn.stack(
-                "fig20-waveform",
-                CurveKind::Waveform,
-                &panels(false),
-                true,
-                "",
-            );
-            let mut from_start = Drawn {
-                names: (starts.iter())
-                    .map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers))
-                    .collect(),
-                curves: starts.iter().map(|case| curves(case.id)).collect(),
-                pieces: vec![],
-            };
-            let words = "If the paper’s Figs. 14a, 16 and 20 look like this, bursts that decay from t = 0, its RMS contains the start-up; \
-                         bursts of equal height all along refute it. RMS over 0 to 0.285 s.";
-            from_start.stack("fig20-start", CurveKind::Start, &panels(true), true, words);
-            drawn.pieces.append(&mut from_start.pieces);
-        }
-        _ => {}
+    drawn.figures(first, &cases, plan);
+    if first == 20 {
+        drawn.names = (cases.iter())
+            .map(|case| with_rms(case, "sensor_ax.rms", numbers))
+            .collect();
+        drawn.stack(
+            "fig20-waveform",
+            CurveKind::Waveform,
+            &panels(false),
+            true,
+            "",
+        );
+        drawn.pieces.extend(from_start(&starts, numbers, &curves));
     }
     let mut pieces = drawn.pieces;
     if let Some((label, unit, values)) = &experiment.steps {
@@ -215,6 +138,25 @@ pub(crate) fn chapter(
         title: format!("{}: {}", figures(experiment), experiment.title),
         pieces,
     }
+}
+
+/// Waveforms from t = 0.
+fn from_start(
+    starts: &[&Case],
+    numbers: &Numbers,
+    curves: &impl Fn(&str) -> Option<Curves>,
+) -> Vec<StudyPiece> {
+    let mut drawn = Drawn {
+        names: (starts.iter())
+            .map(|case| with_rms(case, "sensor_ax.first_285ms.rms", numbers))
+            .collect(),
+        curves: starts.iter().map(|case| curves(case.id)).collect(),
+        pieces: vec![],
+    };
+    let words = "If the paper’s Figs. 14a, 16 and 20 look like this, bursts that decay from t = 0, its RMS contains the start-up; \
+             bursts of equal height all along refute it. RMS over 0 to 0.285 s.";
+    drawn.stack("fig20-start", CurveKind::Start, &panels(true), true, words);
+    drawn.pieces
 }
 
 /// A panel a case, under its label.
@@ -263,6 +205,82 @@ struct Drawn {
 }
 
 impl Drawn {
+    /// The pictures of the experiment whose first figure this is.
+    fn figures(
+        &mut self,
+        first: u32,
+        cases: &[&Case],
+        plan: &dyn Fn(&Scenario) -> Option<DamageView>,
+    ) {
+        let every: Vec<usize> = (0..cases.len()).collect();
+        match first {
+            8 => {
+                for case in cases {
+                    self.plan(&format!("fig08-{}", case.id), case, None, plan);
+                }
+                self.stack(
+                    "fig09-length",
+                    CurveKind::Length,
+                    &one_by_one(cases),
+                    true,
+                    "",
+                );
+            }
+            10..=12 => {
+                for kind in [
+                    CurveKind::Spectrum,
+                    CurveKind::Envelope,
+                    CurveKind::Waveform,
+                    CurveKind::Impact,
+                ] {
+                    self.together(&format!("fig{first}-{}", kind.file()), kind, &every);
+                }
+                if first == 12 {
+                    self.around("section3-around");
+                }
+            }
+            13 => {
+                if let [irregular, simplified, ..] = cases[..] {
+                    self.plan("fig13-plan", irregular, Some(simplified), plan);
+                }
+                let own = "Each plot has its own scale: in one, the simplified shape would hide the irregular one.";
+                self.stack(
+                    "fig14-waveform",
+                    CurveKind::Waveform,
+                    &one_by_one(cases),
+                    false,
+                    own,
+                );
+                self.together("fig14-stiffness", CurveKind::Stiffness, &every);
+                self.stack(
+                    "fig14-entry",
+                    CurveKind::Entry,
+                    &one_by_one(cases),
+                    false,
+                    own,
+                );
+                self.stack(
+                    "fig14-exit",
+                    CurveKind::Exit,
+                    &one_by_one(cases),
+                    false,
+                    own,
+                );
+            }
+            15 => {
+                self.together("fig15-length", CurveKind::Length, &every);
+                self.stack(
+                    "fig16-waveform",
+                    CurveKind::Waveform,
+                    &one_by_one(cases),
+                    true,
+                    "One scale for all.",
+                );
+            }
+            _ => {}
+        }
+    }
+
     fn some(&self, places: &[usize]) -> Vec<(usize, &Curves)> {
         let of = |k: &usize| Some((*k, self.curves.get(*k)?.as_ref()?));
         places.iter().filter_map(of).collect()

@@ -2,7 +2,7 @@
 
 use crate::claim::{Check, Claim, Statement};
 use crate::numbers::{Number, Numbers};
-use crate::verdict::{Verdict, between, follows, greater, over};
+use crate::verdict::{Trend, Verdict, between, follows, greater, over};
 
 /// A number of ours behind a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,37 +152,12 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             ref cases,
             name,
             least,
-        } => match ends(cases, name, numbers) {
-            Ok((most, smallest)) => {
-                let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
-                let apart = most.1.value - smallest.1.value;
-                // Ends of independent intervals.
-                let error = half(most.1).hypot(half(smallest.1));
-                let interval = (apart - error, apart + error);
-                let found = Found {
-                    what: format!("{} less {}: {name}", most.0, smallest.0),
-                    value: Some(apart),
-                    interval: Some(interval),
-                    unit: unit(name),
-                };
-                (between(Some(interval), least, f64::INFINITY), vec![found])
-            }
-            Err(missing) => (Verdict::Missing, vec![missing]),
-        },
+        } => apart(cases, name, least, numbers),
         Check::Follows {
             trend,
             ref cases,
             name,
-        } => {
-            let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
-            let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
-            let steps: Vec<_> = values.windows(2).map(step).collect();
-            let all = cases.iter().zip(&values);
-            let all = all
-                .map(|(case, number)| found(case, name, *number))
-                .collect();
-            (follows(trend, &steps), all)
-        }
+        } => followed(trend, cases, name, numbers),
         Check::Changes {
             ref cases,
             name,
@@ -199,6 +174,49 @@ fn decide(check: &Check, numbers: &Numbers) -> (Verdict, Vec<Found>) {
             Err(missing) => (Verdict::Missing, vec![missing]),
         },
     }
+}
+
+/// Whether the largest of the cases exceeds the smallest by `least`.
+fn apart(
+    cases: &[&'static str],
+    name: &'static str,
+    least: f64,
+    numbers: &Numbers,
+) -> (Verdict, Vec<Found>) {
+    match ends(cases, name, numbers) {
+        Ok((most, smallest)) => {
+            let half = |n: Number| n.interval.map_or(0.0, |i| 0.5 * (i.high - i.low));
+            let apart = most.1.value - smallest.1.value;
+            // Ends of independent intervals.
+            let error = half(most.1).hypot(half(smallest.1));
+            let interval = (apart - error, apart + error);
+            let found = Found {
+                what: format!("{} less {}: {name}", most.0, smallest.0),
+                value: Some(apart),
+                interval: Some(interval),
+                unit: unit(name),
+            };
+            (between(Some(interval), least, f64::INFINITY), vec![found])
+        }
+        Err(missing) => (Verdict::Missing, vec![missing]),
+    }
+}
+
+/// Whether the cases follow the trend, step by step.
+fn followed(
+    trend: Trend,
+    cases: &[&'static str],
+    name: &'static str,
+    numbers: &Numbers,
+) -> (Verdict, Vec<Found>) {
+    let values: Vec<_> = cases.iter().map(|case| numbers.get(case, name)).collect();
+    let step = |pair: &[Option<Number>]| over(pair[1]?, pair[0]?);
+    let steps: Vec<_> = values.windows(2).map(step).collect();
+    let all = cases.iter().zip(&values);
+    let all = all
+        .map(|(case, number)| found(case, name, *number))
+        .collect();
+    (follows(trend, &steps), all)
 }
 
 /// "a / b: name", or both names where they differ.

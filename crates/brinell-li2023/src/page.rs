@@ -35,46 +35,6 @@ pub(crate) fn study(
     plan: impl Fn(&Scenario) -> Option<DamageView>,
 ) -> Study {
     let request = &reproduction.request;
-    let counts = counts(&reproduction.outcomes);
-    let mut facts: Vec<Fact> = counts
-        .iter()
-        .map(|(verdict, n)| {
-            let note = if *n == 1 { "claim" } else { "claims" };
-            Fact::new(
-                capital(verdict.words()),
-                Value::Text(n.to_string()),
-                "",
-                note,
-            )
-        })
-        .collect();
-    if reproduction.sensitivity.is_some() {
-        let n = reproduction
-            .outcomes
-            .iter()
-            .filter(|outcome| !outcome.flips.is_empty())
-            .count();
-        facts.push(Fact::new(
-            "Depend on an assumption",
-            Value::Text(n.to_string()),
-            "",
-            "of the above",
-        ));
-    }
-    let [dynamics, shapes, kinematics] = [Basis::Dynamics, Basis::Shapes, Basis::Kinematics]
-        .map(|b| outcome::held(&reproduction.outcomes, b));
-    facts.insert(
-        0,
-        Fact::new(
-            "Dynamic findings that hold",
-            Value::Text(format!("{} of {}", dynamics.0, dynamics.1)),
-            "",
-            format!(
-                "{} of {} more follow from the shapes that go in, {} of {} from kinematics and slip",
-                shapes.0, shapes.1, kinematics.0, kinematics.1
-            ),
-        ),
-    );
     let mut chapters = vec![Chapter {
         id: "believe".into(),
         short: "What to believe".into(),
@@ -121,12 +81,57 @@ pub(crate) fn study(
         ),
         version: brinell::VERSION.into(),
         warnings,
-        facts,
+        facts: facts(reproduction),
         chapters,
         footer: "Curves are thinned to the pixels of the page. Every statement with its numbers is in claims.csv and claims.json beside this \
                  page."
             .into(),
     }
+}
+
+/// How many claims came out how.
+fn facts(reproduction: &Reproduction) -> Vec<Fact> {
+    let counts = counts(&reproduction.outcomes);
+    let mut facts: Vec<Fact> = counts
+        .iter()
+        .map(|(verdict, n)| {
+            let note = if *n == 1 { "claim" } else { "claims" };
+            Fact::new(
+                capital(verdict.words()),
+                Value::Text(n.to_string()),
+                "",
+                note,
+            )
+        })
+        .collect();
+    if reproduction.sensitivity.is_some() {
+        let n = reproduction
+            .outcomes
+            .iter()
+            .filter(|outcome| !outcome.flips.is_empty())
+            .count();
+        facts.push(Fact::new(
+            "Depend on an assumption",
+            Value::Text(n.to_string()),
+            "",
+            "of the above",
+        ));
+    }
+    let [dynamics, shapes, kinematics] = [Basis::Dynamics, Basis::Shapes, Basis::Kinematics]
+        .map(|b| outcome::held(&reproduction.outcomes, b));
+    facts.insert(
+        0,
+        Fact::new(
+            "Dynamic findings that hold",
+            Value::Text(format!("{} of {}", dynamics.0, dynamics.1)),
+            "",
+            format!(
+                "{} of {} more follow from the shapes that go in, {} of {} from kinematics and slip",
+                shapes.0, shapes.1, kinematics.0, kinematics.1
+            ),
+        ),
+    );
+    facts
 }
 
 fn capital(text: &str) -> String {

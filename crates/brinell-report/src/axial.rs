@@ -163,8 +163,8 @@ pub fn axial_section(section: &AxialSection, frame: usize, layout: Layout) -> Pi
     let size = layout.size(0.0);
     let font = size.font;
     let mut picture = Picture::new("tilt", "Tilts and loads along the rollers", size.width, 0.0);
-    let outer_paint = Paint::line(ink::VERMILLION, 1.4).filled(ink::VERMILLION, 0.35);
-    let inner_paint = Paint::line(ink::BLUE, 1.4).filled(ink::BLUE, 0.35);
+    let [inner_paint, outer_paint] =
+        [ink::BLUE, ink::VERMILLION].map(|colour| Paint::line(colour, 1.4).filled(colour, 0.35));
     let shown = [
         ("load at the outer raceway", outer_paint),
         ("load at the inner raceway", inner_paint),
@@ -187,75 +187,14 @@ pub fn axial_section(section: &AxialSection, frame: usize, layout: Layout) -> Pi
         factor: section.exaggeration(),
         load: if heaviest > 0.0 { LOAD / heaviest } else { 0.0 },
     };
-    let steel = Paint::line(ink::FRAME, 1.0).filled("#eef1f4", 1.0);
-    let closed = |lines, paint| Shape::Path {
-        lines,
-        close: true,
-        paint,
-        clip: None,
+    let drawing = Drawing {
+        section,
+        frame,
+        place: &place,
     };
-    let [inner_slope, outer_slope] = section.rings[frame];
-    let raceway = 0.5 * diameter;
-    let ring = |slope: f32, from: f64, to: f64| {
-        vec![
-            place.at(-half, from, slope),
-            place.at(half, from, slope),
-            place.at(half, to, slope),
-            place.at(-half, to, slope),
-        ]
-    };
-    let wall = raceway + WALL * diameter;
-    let s = &mut picture.shapes;
-    for (name, slope, sign) in [
-        ("t-outer", outer_slope, 1.0),
-        ("t-inner", inner_slope, -1.0),
-    ] {
-        s.push(Shape::Open(name));
-        s.push(closed(
-            vec![ring(slope, sign * raceway, sign * wall)],
-            steel,
-        ));
-        s.push(Shape::Close);
-    }
+    drawing.rings(&mut picture.shapes);
     for row in &section.rows {
-        let length = 0.5 * section.roller_length_mm;
-        let tilt = row.tilt[frame];
-        let corner = |z: f64, out: f64| {
-            let (x, y) = place.at(z, out, tilt);
-            (x + scale * row.middle_mm, y)
-        };
-        let body = vec![
-            corner(-length, raceway),
-            corner(length, raceway),
-            corner(length, -raceway),
-            corner(-length, -raceway),
-        ];
-        let load = |loads: &[f32], slope: f32, sign: f64| {
-            let loads = &loads[frame * section.strips..(frame + 1) * section.strips];
-            let step = section.roller_length_mm / section.strips as f64;
-            let base = |z: f64| place.at(row.middle_mm + z, sign * raceway, slope);
-            let mut line = vec![base(-length)];
-            for (k, q) in loads.iter().enumerate() {
-                let (x, y) = base(-length + (k as f64 + 0.5) * step);
-                line.push((x, y - sign * place.load * finite(*q)));
-            }
-            line.push(base(length));
-            line
-        };
-        s.push(Shape::Open("t-row"));
-        s.push(closed(
-            vec![body],
-            Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0),
-        ));
-        s.push(closed(
-            vec![load(&row.outer, outer_slope, 1.0)],
-            outer_paint,
-        ));
-        s.push(closed(
-            vec![load(&row.inner, inner_slope, -1.0)],
-            inner_paint,
-        ));
-        s.push(Shape::Close);
+        drawing.row(row, [inner_paint, outer_paint], &mut picture.shapes);
     }
     let bottom = place.y + 0.5 * scale * (tall + 2.0 * DRAWN * half) + LOAD;
     for (index, row) in section.rows.iter().enumerate() {
@@ -304,4 +243,86 @@ pub(crate) fn data(page: &mut String, section: &AxialSection, frames: usize) {
         );
     }
     page.push_str("]}");
+}
+
+fn closed(line: Vec<(f64, f64)>, paint: Paint) -> Shape {
+    Shape::Path {
+        lines: vec![line],
+        close: true,
+        paint,
+        clip: None,
+    }
+}
+
+/// One instant of a section as it is drawn.
+struct Drawing<'a> {
+    section: &'a AxialSection,
+    frame: usize,
+    place: &'a Place,
+}
+
+impl Drawing<'_> {
+    fn rings(&self, shapes: &mut Vec<Shape>) {
+        let (section, place) = (self.section, self.place);
+        let steel = Paint::line(ink::FRAME, 1.0).filled("#eef1f4", 1.0);
+        let [inner_slope, outer_slope] = section.rings[self.frame];
+        let (half, diameter) = (0.5 * section.width_mm, section.roller_diameter_mm);
+        let raceway = 0.5 * diameter;
+        let ring = |slope: f32, from: f64, to: f64| {
+            vec![
+                place.at(-half, from, slope),
+                place.at(half, from, slope),
+                place.at(half, to, slope),
+                place.at(-half, to, slope),
+            ]
+        };
+        let wall = raceway + WALL * diameter;
+        for (name, slope, sign) in [
+            ("t-outer", outer_slope, 1.0),
+            ("t-inner", inner_slope, -1.0),
+        ] {
+            shapes.push(Shape::Open(name));
+            shapes.push(closed(ring(slope, sign * raceway, sign * wall), steel));
+            shapes.push(Shape::Close);
+        }
+    }
+
+    /// A roller with the loads along it, in the paints of inner and outer.
+    fn row(&self, row: &AxialRow, [inner, outer]: [Paint; 2], shapes: &mut Vec<Shape>) {
+        let (section, place, frame) = (self.section, self.place, self.frame);
+        let [inner_slope, outer_slope] = section.rings[frame];
+        let raceway = 0.5 * section.roller_diameter_mm;
+        let length = 0.5 * section.roller_length_mm;
+        let tilt = row.tilt[frame];
+        let corner = |z: f64, out: f64| {
+            let (x, y) = place.at(z, out, tilt);
+            (x + place.scale * row.middle_mm, y)
+        };
+        let body = vec![
+            corner(-length, raceway),
+            corner(length, raceway),
+            corner(length, -raceway),
+            corner(-length, -raceway),
+        ];
+        let load = |loads: &[f32], slope: f32, sign: f64| {
+            let loads = &loads[frame * section.strips..(frame + 1) * section.strips];
+            let step = section.roller_length_mm / section.strips as f64;
+            let base = |z: f64| place.at(row.middle_mm + z, sign * raceway, slope);
+            let mut line = vec![base(-length)];
+            for (k, q) in loads.iter().enumerate() {
+                let (x, y) = base(-length + (k as f64 + 0.5) * step);
+                line.push((x, y - sign * place.load * finite(*q)));
+            }
+            line.push(base(length));
+            line
+        };
+        shapes.push(Shape::Open("t-row"));
+        shapes.push(closed(
+            body,
+            Paint::line(ink::TEXT, 1.0).filled("#ffffff", 1.0),
+        ));
+        shapes.push(closed(load(&row.outer, outer_slope, 1.0), outer));
+        shapes.push(closed(load(&row.inner, inner_slope, -1.0), inner));
+        shapes.push(Shape::Close);
+    }
 }

@@ -104,14 +104,12 @@ fn means(xs: &[f64], ys: &[f64]) -> Curve {
         .unzip()
 }
 
-/// Panels over one another on one x axis, a curve a row in each.
-fn panels(
-    (name, title): (&str, &str),
+/// What each panel needs: one x axis, below the last, and one left edge.
+fn specs(
     layout: Layout,
     (x_label, x_unit): (&str, &str),
-    rows: &[SlipRow],
     panels: &[(&str, Vec<Curve>)],
-) -> Picture {
+) -> Vec<Spec> {
     let size = layout.size(0.0);
     let part = if layout == Layout::Wide { 140.0 } else { 130.0 };
     let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
@@ -144,6 +142,20 @@ fn panels(
         .collect();
     let left = specs.iter().map(left_margin).fold(0.0, f64::max);
     specs.iter_mut().for_each(|spec| spec.left = left);
+    specs
+}
+
+/// Panels over one another on one x axis, a curve a row in each.
+fn panels(
+    (name, title): (&str, &str),
+    layout: Layout,
+    axis: (&str, &str),
+    rows: &[SlipRow],
+    panels: &[(&str, Vec<Curve>)],
+) -> Picture {
+    let size = layout.size(0.0);
+    let specs = specs(layout, axis, panels);
+    let left = specs.first().map_or(0.0, |spec| spec.left);
     let mut picture = Picture::new(name, title, size.width, 0.0);
     let any_close = panels
         .iter()

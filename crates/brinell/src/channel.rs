@@ -3,10 +3,13 @@
 //! All SI. Rows, rollers and cages count from 1 in names. Accelerations are those of the equations of motion at the
 //! instant of the sample; `sensor_*` are the outer ring's, or what a sensor makes of them, after the anti-alias filter (section 11 of the model).
 
+mod all;
+
 use crate::defect::Side;
 use crate::model::{Model, Workspace};
 use crate::scenario::{Law, ModelKind, Sensor};
 use crate::sensor::{OWN_CHANNEL, own_unit};
+pub use all::all;
 
 /// One instant of a run, evaluated.
 #[derive(Debug, Clone, Copy)]
@@ -225,181 +228,6 @@ pub fn contact_stiffness(model: &Model, ws: &Workspace, side: Side, slot: usize)
     };
     // Equal forces must give the healthy stiffness to the bit.
     law.stiffness * (c.elastic[slot] / healthy)
-}
-
-/// Every channel of a model, in the order of files.
-pub fn all(model: &Model, sensor: &Sensor) -> Vec<Channel> {
-    let l = &model.layout;
-    let dof = l.dof();
-    let element = model.element.word();
-    let mut channels = Vec::new();
-    let mut add = |name: String, unit: &'static str, description: String, quantity: Quantity| {
-        channels.push(Channel {
-            name,
-            unit,
-            description,
-            quantity,
-        });
-    };
-    for (ring, at) in [("inner", l.inner()), ("outer", l.outer())] {
-        for (suffix, unit, what, offset) in [
-            ("", "m", "displacement", 0),
-            ("v", "m/s", "velocity", dof),
-            ("a", "m/s^2", "acceleration", 0),
-        ] {
-            for (k, axis) in ["x", "y"].into_iter().enumerate() {
-                let index = offset + at + k;
-                let quantity = if suffix == "a" {
-                    Quantity::Acceleration(index)
-                } else {
-                    Quantity::State(index)
-                };
-                add(
-                    format!("{ring}_{suffix}{axis}"),
-                    unit,
-                    format!("{what} of the {ring} ring along {axis}"),
-                    quantity,
-                );
-            }
-        }
-    }
-    for row in 0..l.rows {
-        let (at, number) = (l.cage(row), row + 1);
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            let text = format!("displacement of cage {number} along {axis}");
-            add(
-                format!("cage{number}_{axis}"),
-                "m",
-                text,
-                Quantity::State(at + k),
-            );
-        }
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            let text = format!("acceleration of cage {number} along {axis}");
-            add(
-                format!("cage{number}_a{axis}"),
-                "m/s^2",
-                text,
-                Quantity::Acceleration(at + k),
-            );
-        }
-        let text = format!("rotational speed of cage {number}");
-        add(
-            format!("cage{number}_speed"),
-            "rad/s",
-            text,
-            Quantity::CageSpeed(dof + at + 2),
-        );
-    }
-    if model.tilt.is_some() {
-        for (ring, at) in [("inner", l.inner_tilt()), ("outer", l.outer_tilt())] {
-            for (k, axis) in ["x", "y"].into_iter().enumerate() {
-                let text = format!("slope of the {ring} ring's axis along {axis}");
-                let quantity = Quantity::State(at + k);
-                add(format!("{ring}_tilt_{axis}"), "rad", text, quantity);
-            }
-        }
-    }
-    let digits = l.rollers_per_row.to_string().len().max(2);
-    for row in 0..l.rows {
-        for roller in 0..l.rollers_per_row {
-            let slot = l.slot(row, roller);
-            let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
-            use RollerQuantity as R;
-            for (suffix, unit, what, quantity) in [
-                ("r", "m", "radial offset", R::R),
-                ("x", "m", "radial offset along x", R::X),
-                ("y", "m", "radial offset along y", R::Y),
-                ("ax", "m/s^2", "acceleration of the centre along x", R::Ax),
-                ("ay", "m/s^2", "acceleration of the centre along y", R::Ay),
-                ("orbit", "rad", "orbit angle", R::Orbit),
-                ("orbit_speed", "rad/s", "orbit speed", R::OrbitSpeed),
-                ("spin", "rad", "absolute spin angle", R::Spin),
-                ("spin_speed", "rad/s", "absolute spin speed", R::SpinSpeed),
-            ] {
-                let quantity = Quantity::Roller(quantity, slot);
-                add(
-                    format!("roller{number}_{suffix}"),
-                    unit,
-                    format!("{what} {of}"),
-                    quantity,
-                );
-            }
-            if model.tilt.is_some() {
-                let text = format!("tilt {of}");
-                add(
-                    format!("roller{number}_tilt"),
-                    "rad",
-                    text,
-                    Quantity::Tilt(slot),
-                );
-            }
-            for (side, name) in [(Side::Inner, "inner"), (Side::Outer, "outer")] {
-                let quantity = Quantity::Contact(ContactQuantity::Slip, side, slot);
-                let text = format!("slip of the {name} raceway over the surface {of}");
-                add(format!("roller{number}_slip_{name}"), "m/s", text, quantity);
-            }
-        }
-    }
-    for row in 0..l.rows {
-        for roller in 0..l.rollers_per_row {
-            let slot = l.slot(row, roller);
-            let number = format!("{}_{:0digits$}", row + 1, roller + 1);
-            let of = format!("of {element} {} in row {}", roller + 1, row + 1);
-            for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
-                for (suffix, unit, what, quantity) in [
-                    ("force", "N", "normal force", ContactQuantity::Force),
-                    (
-                        "length",
-                        "m",
-                        "effective length L_e",
-                        ContactQuantity::Length,
-                    ),
-                    (
-                        "stiffness",
-                        STIFFNESS_UNIT,
-                        "stiffness",
-                        ContactQuantity::Stiffness,
-                    ),
-                ] {
-                    let text = format!("{what} at the {name} contact {of}");
-                    let quantity = Quantity::Contact(quantity, side, slot);
-                    add(
-                        format!("contact{number}_{name}_{suffix}"),
-                        unit,
-                        text,
-                        quantity,
-                    );
-                }
-            }
-            if model.tilt.is_some() {
-                for (side, name) in [(Side::Outer, "outer"), (Side::Inner, "inner")] {
-                    let text = format!("moment of the line load at the {name} contact {of}");
-                    let quantity = Quantity::Contact(ContactQuantity::Moment, side, slot);
-                    add(
-                        format!("contact{number}_{name}_moment"),
-                        "N m",
-                        text,
-                        quantity,
-                    );
-                }
-            }
-            let text = format!(
-                "force of the pocket along the orbit on roller {} in row {}",
-                roller + 1,
-                row + 1
-            );
-            add(
-                format!("pocket{number}_force"),
-                "N",
-                text,
-                Quantity::PocketForce(slot),
-            );
-        }
-    }
-    channels.extend(sensor_channels(sensor));
-    channels
 }
 
 /// What passes the anti-alias filter and, where there is one, the sensor: along x and y, then along the sensor's own direction.

@@ -11,7 +11,7 @@ mod tilting;
 use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact, energy, tangent};
 use crate::model::{Model, lumped};
 use crate::scenario::ModelKind;
-use crate::slices::{Approach, Cover, Slices};
+use crate::slices::{Approach, Carried, Cover, Slices};
 pub use load_zone::{StaticLoadZone, static_load_zone};
 use newton::{Minimum, State, minimise};
 
@@ -248,66 +248,125 @@ fn covers(model: &Model, slices: &Slices, slot: usize, angles: &Angles) -> [Opti
     })
 }
 
-/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance, by bisection with Newton steps.
+/// The roller's equilibrium: the r at which Q_in - Q_out and its own radial force N balance.
 fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) -> Roller {
     let angles = angles(problem, slot);
     let (sin, cos) = angles.orbit.sin_cos();
-    let inner_at = cos * x[0] + sin * x[1] - model.geometry.clearance;
-    let outer_at = cos * x[2] + sin * x[3] + model.geometry.outer_gap;
-    let own = model.inertia.roller
-        * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]);
     let covers = model
         .slices
         .as_ref()
         .map(|s| covers(model, s, slot, &angles));
-    let sliced = |slices: &Slices, side: Side, delta: f64| {
+    let between = Between {
+        model,
+        slot,
+        angles,
+        inner_at: cos * x[0] + sin * x[1] - model.geometry.clearance,
+        outer_at: cos * x[2] + sin * x[3] + model.geometry.outer_gap,
+        own: model.inertia.roller
+            * (centrifugal(model, problem.speed) + cos * model.gravity[0] + sin * model.gravity[1]),
+        covers,
+    };
+    let r = between.equilibrium();
+    let [(q_in, k_in), (q_out, k_out)] = between.contacts(r);
+    Roller {
+        r,
+        inner: q_in,
+        outer: q_out,
+        tangent: if k_in + k_out > 0.0 {
+            k_in * k_out / (k_in + k_out)
+        } else {
+            0.0
+        },
+        energy: between.energy(r),
+    }
+}
+
+/// One roller between raceways that are held.
+struct Between<'a> {
+    model: &'a Model,
+    slot: usize,
+    angles: Angles,
+    /// The r at which the roller just touches the inner raceway, and the outer one, m.
+    inner_at: f64,
+    outer_at: f64,
+    /// Its own radial force, N.
+    own: f64,
+    /// What damage covers, where slices count.
+    covers: Option<[Option<Cover>; 2]>,
+}
+
+impl Between<'_> {
+    fn sliced(&self, slices: &Slices, side: Side, delta: f64) -> Carried {
         let at = Approach {
             deformation: delta,
             ..Approach::default()
         };
-        let cover = covers.as_ref().and_then(|c| c[side as usize].as_ref());
-        slices.carry(model.contact(side), &at, cover)
-    };
-    let contact = |side: Side, delta: f64| -> (f64, f64) {
+        let cover = self.covers.as_ref().and_then(|c| c[side as usize].as_ref());
+        slices.carry(self.model.contact(side), &at, cover)
+    }
+
+    /// Force of a contact, and its tangent.
+    fn contact(&self, side: Side, delta: f64) -> (f64, f64) {
+        let (model, angles) = (self.model, &self.angles);
         if let Some(slices) = &model.slices {
-            let carried = sliced(slices, side, delta);
+            let carried = self.sliced(slices, side, delta);
             return (carried.force, carried.stiffness[0]);
         }
         let law = model.contact(side);
-        let defects = model.defects_of(slot, side);
-        match damaged_contact(defects.clone(), law, &angles, side, delta) {
-            Some(damaged) => (damaged.elastic, tangent(defects, law, &angles, side, delta)),
+        let defects = model.defects_of(self.slot, side);
+        match damaged_contact(defects.clone(), law, angles, side, delta) {
+            Some(damaged) => (damaged.elastic, tangent(defects, law, angles, side, delta)),
             None if delta > 0.0 => {
                 let force = law.healthy(delta);
                 (force, law.exponent.value() * force / delta)
             }
             None => (0.0, 0.0),
         }
-    };
-    let balance = |r: f64| {
-        let (q_in, k_in) = contact(Side::Inner, inner_at - r);
-        let (q_out, k_out) = contact(Side::Outer, r - outer_at);
-        (q_in - q_out + own, k_in + k_out)
-    };
-    // f falls with r. Start from the raceway that the roller's own force presses it against.
-    let mut low = inner_at.min(outer_at);
-    let mut high = inner_at.max(outer_at);
-    let mut reach = 1e-7;
-    while balance(low).0 < 0.0 && reach < 1.0 {
-        low -= reach;
-        reach *= 2.0;
     }
-    reach = 1e-7;
-    while balance(high).0 > 0.0 && reach < 1.0 {
-        high += reach;
-        reach *= 2.0;
+
+    /// Both contacts of the roller at r.
+    fn contacts(&self, r: f64) -> [(f64, f64); 2] {
+        [
+            self.contact(Side::Inner, self.inner_at - r),
+            self.contact(Side::Outer, r - self.outer_at),
+        ]
     }
-    let mut r = if own < 0.0 { low } else { high };
-    // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
-    let grain = 1e-22 + 2.0 * f64::EPSILON * (inner_at.abs() + outer_at.abs());
-    if balance(r).0 != 0.0 {
+
+    /// Q_in - Q_out + N, which falls with r, and how steeply.
+    fn balance(&self, r: f64) -> (f64, f64) {
+        let [(q_in, k_in), (q_out, k_out)] = self.contacts(r);
+        (q_in - q_out + self.own, k_in + k_out)
+    }
+
+    /// Where the balance is positive, and where it is negative, around the raceways.
+    fn bracket(&self) -> (f64, f64) {
+        let mut low = self.inner_at.min(self.outer_at);
+        let mut high = self.inner_at.max(self.outer_at);
+        let mut reach = 1e-7;
+        while self.balance(low).0 < 0.0 && reach < 1.0 {
+            low -= reach;
+            reach *= 2.0;
+        }
+        reach = 1e-7;
+        while self.balance(high).0 > 0.0 && reach < 1.0 {
+            high += reach;
+            reach *= 2.0;
+        }
+        (low, high)
+    }
+
+    /// The r of the balance, by bisection with Newton steps.
+    fn equilibrium(&self) -> f64 {
+        let (mut low, mut high) = self.bracket();
+        // From the raceway that the roller's own force presses it against.
+        let mut r = if self.own < 0.0 { low } else { high };
+        // Deformations are differences of r and of where the raceways are: finer than their round-off is nothing.
+        let grain = 1e-22 + 2.0 * f64::EPSILON * (self.inner_at.abs() + self.outer_at.abs());
+        if self.balance(r).0 == 0.0 {
+            return r;
+        }
         for _ in 0..200 {
-            let (f, slope) = balance(r);
+            let (f, slope) = self.balance(r);
             if f > 0.0 {
                 low = r;
             } else {
@@ -328,31 +387,26 @@ fn between_raceways(model: &Model, problem: &Problem, slot: usize, x: &Offsets) 
                 break;
             }
         }
+        r
     }
-    let (q_in, k_in) = contact(Side::Inner, inner_at - r);
-    let (q_out, k_out) = contact(Side::Outer, r - outer_at);
-    let stored = |side, delta| {
-        if let Some(slices) = &model.slices {
-            return sliced(slices, side, delta).energy;
-        }
-        energy(
-            model.defects_of(slot, side),
-            model.contact(side),
-            &angles,
-            side,
-            delta,
-        )
-    };
-    Roller {
-        r,
-        inner: q_in,
-        outer: q_out,
-        tangent: if k_in + k_out > 0.0 {
-            k_in * k_out / (k_in + k_out)
-        } else {
-            0.0
-        },
-        energy: stored(Side::Inner, inner_at - r) + stored(Side::Outer, r - outer_at) - own * r,
+
+    /// Potential energy at r, J.
+    fn energy(&self, r: f64) -> f64 {
+        let model = self.model;
+        let stored = |side, delta| {
+            if let Some(slices) = &model.slices {
+                return self.sliced(slices, side, delta).energy;
+            }
+            energy(
+                model.defects_of(self.slot, side),
+                model.contact(side),
+                &self.angles,
+                side,
+                delta,
+            )
+        };
+        stored(Side::Inner, self.inner_at - r) + stored(Side::Outer, r - self.outer_at)
+            - self.own * r
     }
 }
 

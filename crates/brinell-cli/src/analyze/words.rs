@@ -1,6 +1,6 @@
 //! What is printed of an analysis.
 
-use super::{HEADLINES, Result_, whole_indicators};
+use super::{Against, HEADLINES, Result_, whole_indicators};
 use crate::say::{say, short};
 use brinell::analysis::{Analysis, COLUMNS};
 use brinell::signal::Indicator;
@@ -58,11 +58,31 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
             );
         }
     }
+    indicators(a, &m.unit.name);
+    for line in level_lines(&result.levels, &m.unit.name) {
+        say!("  {line}");
+    }
+    if let Some(rest) = &result.rest {
+        let whole: Vec<String> = whole_indicators(rest)
+            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
+            .collect();
+        say!("  of all {} samples: {}", rest.samples, whole.join(", "));
+    }
+    if let Some(other) = &result.against {
+        against(other, &m.unit.name);
+    }
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
+}
+
+/// The indicators that are headlines, in one line.
+fn indicators(a: &Analysis, unit: &str) {
     let rows: Vec<String> = (a.indicators.iter())
         .filter(|(i, _)| HEADLINES.contains(i))
         .map(|(i, e)| {
             let unit = if i.has_unit() {
-                format!(" {}", m.unit.name)
+                format!(" {}", unit)
             } else {
                 String::new()
             };
@@ -75,48 +95,38 @@ pub(super) fn tell(results: &[Result_], result: &Result_, written: &[PathBuf]) {
         })
         .collect();
     say!("  {}", rows.join(", "));
-    for line in level_lines(&result.levels, &m.unit.name) {
-        say!("  {line}");
-    }
-    if let Some(rest) = &result.rest {
-        let whole: Vec<String> = whole_indicators(rest)
-            .map(|(name, v)| format!("{} {}", name.replace('_', " "), short(v, 4)))
-            .collect();
-        say!("  of all {} samples: {}", rest.samples, whole.join(", "));
-    }
-    if let Some(other) = &result.against {
+}
+
+/// This signal beside the other.
+fn against(other: &Against, unit: &str) {
+    say!(
+        "  against {}, channel {}: {}",
+        other.measured.path.display(),
+        other.measured.channel,
+        other.analysis.verdict()
+    );
+    let (mean, rms) = other.comparison.level_db;
+    say!(
+        "  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS",
+        0.0 - mean
+    );
+    say!(
+        "    {:<16} {:>12} {:>12}  this over the other",
+        "",
+        "this",
+        "the other"
+    );
+    for d in &other.comparison.indicators {
         say!(
-            "  against {}, channel {}: {}",
-            other.measured.path.display(),
-            other.measured.channel,
-            other.analysis.verdict()
+            "    {:<16} {:>12} {:>12}  {}{}",
+            d.indicator.name(),
+            short(d.first, 4),
+            short(d.second, 4),
+            ratio(d).map_or("-".into(), |r| format!("x {r}")),
+            match d.indicator.has_unit() {
+                true => format!(", in {}", unit),
+                false => String::new(),
+            }
         );
-        let (mean, rms) = other.comparison.level_db;
-        say!(
-            "  third octaves: this one is {:+.1} dB from the other on average, {rms:.1} dB RMS",
-            0.0 - mean
-        );
-        say!(
-            "    {:<16} {:>12} {:>12}  this over the other",
-            "",
-            "this",
-            "the other"
-        );
-        for d in &other.comparison.indicators {
-            say!(
-                "    {:<16} {:>12} {:>12}  {}{}",
-                d.indicator.name(),
-                short(d.first, 4),
-                short(d.second, 4),
-                ratio(d).map_or("-".into(), |r| format!("x {r}")),
-                match d.indicator.has_unit() {
-                    true => format!(", in {}", m.unit.name),
-                    false => String::new(),
-                }
-            );
-        }
-    }
-    for path in written {
-        say!("  wrote {}", path.display());
     }
 }

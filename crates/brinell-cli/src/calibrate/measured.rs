@@ -4,6 +4,7 @@ use super::CalibrateArgs;
 use crate::analyze::measured::{Measured, Wanted, load};
 use crate::failure::Failure;
 use brinell::analysis::Quantity as Dimension;
+use brinell::bearing::Kinematics;
 use brinell::result::{Quantity, Spread};
 use brinell::scenario::{Scenario, Speed};
 use brinell::signal::{Band, Blocks, Indicator, Interval, LineSearch, line_frequency};
@@ -118,18 +119,7 @@ fn targets(
     };
     let model = simulation.model();
     let kinematics = model.kinematics(model.rotation.at(0.0).0);
-    let mut lines: Vec<(&str, f64)> = Vec::new();
-    for defect in &scenario.defects {
-        let (name, frequency) = kinematics.struck_by(defect.on);
-        let name = match name {
-            "BPFO" => "bpfo",
-            "BPFI" => "bpfi",
-            _ => "2bsf",
-        };
-        if frequency > 0.0 && !lines.iter().any(|l| l.0 == name) {
-            lines.push((name, frequency));
-        }
-    }
+    let lines = lines(scenario, &kinematics);
     // Runs are analysed from half-way on at the latest.
     let simulated = simulation.samples() as usize / 2;
     let highest = lines.iter().map(|l| l.1).fold(0.0, f64::max);
@@ -188,6 +178,23 @@ fn targets(
         notes,
         warnings: measured.warnings.clone(),
     })
+}
+
+/// The defect frequencies, Hz, each once, by the names that levels have.
+fn lines(scenario: &Scenario, kinematics: &Kinematics) -> Vec<(&'static str, f64)> {
+    let mut lines: Vec<(&'static str, f64)> = Vec::new();
+    for defect in &scenario.defects {
+        let (name, frequency) = kinematics.struck_by(defect.on);
+        let name = match name {
+            "BPFO" => "bpfo",
+            "BPFI" => "bpfi",
+            _ => "2bsf",
+        };
+        if frequency > 0.0 && !lines.iter().any(|l| l.0 == name) {
+            lines.push((name, frequency));
+        }
+    }
+    lines
 }
 
 impl Pattern {

@@ -12,7 +12,7 @@ use crate::say::{complain, say};
 use crate::sweep::plural;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
-use brinell_study::dataset::{Campaign, DatasetError, merge, run, verify};
+use brinell_study::dataset::{Campaign, DatasetError, ShardSummary, merge, run, verify};
 use brinell_study::listener::{Listener, RunListener};
 use std::path::Path;
 use std::process::ExitCode;
@@ -100,6 +100,20 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     let failures = failures
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner);
+    tell_failures(&failures);
+    let went = went?;
+    let left = went.runs - went.done - went.before;
+    if !args.quiet {
+        tell(&went, left, &folder, begin.elapsed().as_secs_f64());
+    }
+    if went.interrupted {
+        complain!("interrupted: {left} to go; the same command resumes where this one stopped");
+        return Ok(ExitCode::from(NOT_WHOLE));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn tell_failures(failures: &[(usize, String)]) {
     for (run, reason) in failures.iter().take(SHOWN) {
         complain!("run {run} failed: {}", reason.lines().next().unwrap_or(""));
     }
@@ -109,33 +123,28 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
             failures.len() - SHOWN
         );
     }
-    let went = went?;
-    let left = went.runs - went.done - went.before;
-    if !args.quiet {
-        let before = match went.before {
-            0 => String::new(),
-            n => format!(", {n} there before"),
-        };
+}
+
+/// How many runs are there, and whether the data set is complete.
+fn tell(went: &ShardSummary, left: usize, folder: &Path, seconds: f64) {
+    let before = match went.before {
+        0 => String::new(),
+        n => format!(", {n} there before"),
+    };
+    say!(
+        "{} in {:.2} s{before}; {} of {} of this shard are there",
+        plural(went.done, "run"),
+        seconds,
+        went.runs - left,
+        went.runs
+    );
+    if went.whole {
+        say!("  complete: {}", folder.join("dataset.json").display());
+    } else if left == 0 {
         say!(
-            "{} in {:.2} s{before}; {} of {} of this shard are there",
-            plural(went.done, "run"),
-            begin.elapsed().as_secs_f64(),
-            went.runs - left,
-            went.runs
+            "  other shards are to come; `brinell dataset merge` joins folders, where they ran apart"
         );
-        if went.whole {
-            say!("  complete: {}", folder.join("dataset.json").display());
-        } else if left == 0 {
-            say!(
-                "  other shards are to come; `brinell dataset merge` joins folders, where they ran apart"
-            );
-        }
     }
-    if went.interrupted {
-        complain!("interrupted: {left} to go; the same command resumes where this one stopped");
-        return Ok(ExitCode::from(NOT_WHOLE));
-    }
-    Ok(ExitCode::SUCCESS)
 }
 
 /// That no other command's results lie in the data set's folder.

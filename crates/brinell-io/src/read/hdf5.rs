@@ -168,16 +168,6 @@ impl Walk {
         }
         let kind = dataset.dtype()?;
         let stored = match kind {
-            DType::I8 => Some(Number::I8),
-            DType::U8 => Some(Number::U8),
-            DType::I16 => Some(Number::I16),
-            DType::U16 => Some(Number::U16),
-            DType::I32 => Some(Number::I32),
-            DType::U32 => Some(Number::U32),
-            DType::I64 => Some(Number::I64),
-            DType::U64 => Some(Number::U64),
-            DType::F32 => Some(Number::F32),
-            DType::F64 => Some(Number::F64),
             DType::ObjectReference if !empty => return self.members(&dataset, &name, count, depth),
             DType::String | DType::VariableLengthString => {
                 if count <= 1
@@ -190,7 +180,7 @@ impl Walk {
                 }
                 None
             }
-            _ => None,
+            ref kind => number(kind),
         };
         let mut channel = Channel::array(name, shape, stored.unwrap_or(Number::U8));
         channel.column_major = self.matlab;
@@ -211,15 +201,7 @@ impl Walk {
                 "holds no real numbers".into()
             });
         }
-        let big_endian = {
-            use hdf5_pure::{Datatype as T, DatatypeByteOrder as Order};
-            match dataset.datatype()? {
-                T::FixedPoint { byte_order, .. } | T::FloatingPoint { byte_order, .. } => {
-                    byte_order == Order::BigEndian
-                }
-                _ => false,
-            }
-        };
+        let big_endian = is_big_endian(&dataset)?;
         self.channels.push(channel);
         self.arrays.push(stored.map(|stored| Array {
             dataset,
@@ -441,4 +423,31 @@ fn unshuffle(bytes: &[u8], width: usize, out: &mut Vec<u8>) {
         }
     }
     out[count * width..].copy_from_slice(&bytes[count * width..]);
+}
+
+/// How a type's numbers are stored, where they are real numbers.
+fn number(kind: &DType) -> Option<Number> {
+    Some(match kind {
+        DType::I8 => Number::I8,
+        DType::U8 => Number::U8,
+        DType::I16 => Number::I16,
+        DType::U16 => Number::U16,
+        DType::I32 => Number::I32,
+        DType::U32 => Number::U32,
+        DType::I64 => Number::I64,
+        DType::U64 => Number::U64,
+        DType::F32 => Number::F32,
+        DType::F64 => Number::F64,
+        _ => return None,
+    })
+}
+
+fn is_big_endian(dataset: &Dataset) -> Result<bool, Fault> {
+    use hdf5_pure::{Datatype as T, DatatypeByteOrder as Order};
+    Ok(match dataset.datatype()? {
+        T::FixedPoint { byte_order, .. } | T::FloatingPoint { byte_order, .. } => {
+            byte_order == Order::BigEndian
+        }
+        _ => false,
+    })
 }

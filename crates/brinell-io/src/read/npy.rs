@@ -70,21 +70,7 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
         .and_then(|k| k.split_once('\''))
         .map(|(word, _)| word);
     let (order, number) = word.and_then(|w| w.split_at_checked(1)).unwrap_or(("", ""));
-    let stored = match number {
-        "i1" => Some(Number::I8),
-        "u1" | "b1" => Some(Number::U8),
-        "i2" => Some(Number::I16),
-        "u2" => Some(Number::U16),
-        "i4" => Some(Number::I32),
-        "u4" => Some(Number::U32),
-        "i8" => Some(Number::I64),
-        "u8" => Some(Number::U64),
-        "f2" => Some(Number::F16),
-        "f4" => Some(Number::F32),
-        "f8" => Some(Number::F64),
-        _ => None,
-    }
-    .filter(|_| matches!(order, "<" | ">" | "|" | "="));
+    let stored = stored_as(number).filter(|_| matches!(order, "<" | ">" | "|" | "="));
     let mut channel = Channel::array(name, shape, stored.unwrap_or(Number::U8));
     channel.column_major = column_major;
     if stored.is_none() {
@@ -102,6 +88,24 @@ pub(super) fn header(reader: &mut impl Read, name: &str) -> Result<Array, Fault>
         stored,
         big_endian: order == ">",
         bytes,
+    })
+}
+
+/// How the numbers of a type's word are stored, where they are real ones.
+fn stored_as(word: &str) -> Option<Number> {
+    Some(match word {
+        "i1" => Number::I8,
+        "u1" | "b1" => Number::U8,
+        "i2" => Number::I16,
+        "u2" => Number::U16,
+        "i4" => Number::I32,
+        "u4" => Number::U32,
+        "i8" => Number::I64,
+        "u8" => Number::U64,
+        "f2" => Number::F16,
+        "f4" => Number::F32,
+        "f8" => Number::F64,
+        _ => return None,
     })
 }
 

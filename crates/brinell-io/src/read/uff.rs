@@ -151,7 +151,6 @@ fn function(
     let count = integer(numbers, 10, 10, "number of values")?;
     let count = u64::try_from(count).map_err(|_| damaged(format!("{count} values")))?;
     let even = integer(numbers, 20, 10, "spacing")? == 1;
-    let step: f64 = field(numbers, 43, 13).parse().unwrap_or(0.0);
     let double = matches!(data_type, 4 | 6);
     let complex = matches!(data_type, 5 | 6);
     if !matches!(data_type, 2 | 4 | 5 | 6) {
@@ -166,39 +165,10 @@ fn function(
         even,
         short_x: false,
     };
-    let per = if complex { 2 } else { 1 };
     if binary {
-        function.big_endian = integer(head, 7, 6, "byte order")? == 2;
-        if integer(head, 13, 6, "kind of floats")? != 2 {
-            return Err(damaged("its numbers are not IEEE 754"));
-        }
-        let bytes = integer(head, 31, 12, "number of bytes")?;
-        let bytes = u64::try_from(bytes).map_err(|_| damaged(format!("{bytes} bytes")))?;
-        let width = if double { 8 } else { 4 };
-        // The standard's uneven doubles have single abscissae, pyuff's have double ones.
-        function.short_x = double && !even && count.saturating_mul(per * width + 4) == bytes;
-        let x_width = match (even, function.short_x) {
-            (true, _) => 0,
-            (false, true) => 4,
-            (false, false) => width,
-        };
-        // pyuff counts the bytes of real, even functions for every kind.
-        let bytes = bytes.max(count.saturating_mul(per * width + x_width));
-        if bytes > length.saturating_sub(lines.at) {
-            return Err(damaged(format!(
-                "`{name}` claims {count} values, more than are there"
-            )));
-        }
-        lines.go(function.start + bytes)?;
-        // The line of values may or may not end before the closing -1.
-        while lines.expect()?.trim() != "-1" {}
+        function.pass_binary(lines, head, &name, complex, length)?;
     } else {
-        if count > length - lines.at.min(length) {
-            return Err(damaged(format!(
-                "`{name}` claims {count} values, more than are there"
-            )));
-        }
-        while lines.expect()?.trim_end() != "    -1" {}
+        function.pass_text(lines, &name, length)?;
     }
     let keys = ["name", "description", "date", "id4", "id5"];
     for (i, key) in keys.iter().enumerate().skip(1) {
@@ -209,15 +179,78 @@ fn function(
                 .push((format!("{name}.{key}"), text.to_owned()));
         }
     }
-    let stored = if double { Number::F64 } else { Number::F32 };
-    let mut channel = Channel::array(name, vec![count], stored);
+    let channel = channel(name, &records, &function, complex);
+    Ok((function, channel))
+}
+
+impl Function {
+    /// Passes over the values of a binary function, and finds how they lie.
+    fn pass_binary(
+        &mut self,
+        lines: &mut Lines,
+        head: &str,
+        name: &str,
+        complex: bool,
+        length: u64,
+    ) -> Result<(), Fault> {
+        let per = if complex { 2 } else { 1 };
+        self.big_endian = integer(head, 7, 6, "byte order")? == 2;
+        if integer(head, 13, 6, "kind of floats")? != 2 {
+            return Err(damaged("its numbers are not IEEE 754"));
+        }
+        let bytes = integer(head, 31, 12, "number of bytes")?;
+        let bytes = u64::try_from(bytes).map_err(|_| damaged(format!("{bytes} bytes")))?;
+        let width = if self.double { 8 } else { 4 };
+        // The standard's uneven doubles have single abscissae, pyuff's have double ones.
+        self.short_x =
+            self.double && !self.even && self.count.saturating_mul(per * width + 4) == bytes;
+        let x_width = match (self.even, self.short_x) {
+            (true, _) => 0,
+            (false, true) => 4,
+            (false, false) => width,
+        };
+        // pyuff counts the bytes of real, even functions for every kind.
+        let bytes = bytes.max(self.count.saturating_mul(per * width + x_width));
+        if bytes > length.saturating_sub(lines.at) {
+            return Err(damaged(format!(
+                "`{name}` claims {} values, more than are there",
+                self.count
+            )));
+        }
+        lines.go(self.start + bytes)?;
+        // The line of values may or may not end before the closing -1.
+        while lines.expect()?.trim() != "-1" {}
+        Ok(())
+    }
+
+    fn pass_text(&self, lines: &mut Lines, name: &str, length: u64) -> Result<(), Fault> {
+        if self.count > length - lines.at.min(length) {
+            return Err(damaged(format!(
+                "`{name}` claims {} values, more than are there",
+                self.count
+            )));
+        }
+        while lines.expect()?.trim_end() != "    -1" {}
+        Ok(())
+    }
+}
+
+/// The channel of a function.
+fn channel(name: String, records: &[String], function: &Function, complex: bool) -> Channel {
+    let stored = if function.double {
+        Number::F64
+    } else {
+        Number::F32
+    };
+    let mut channel = Channel::array(name, vec![function.count], stored);
     if complex {
         channel.unreadable = Some("holds complex numbers".into());
     }
     let unit = field(&records[8], 47, 20);
     channel.unit = Some(unit.to_owned()).filter(|u| !u.is_empty() && u != "NONE");
+    let step: f64 = field(&records[6], 43, 13).parse().unwrap_or(0.0);
     // Type 17 of an abscissa is time.
-    if even && step.is_finite() && step > 0.0 && field(&records[7], 0, 10) == "17" {
+    if function.even && step.is_finite() && step > 0.0 && field(&records[7], 0, 10) == "17" {
         let hz = 1.0 / step;
         let round = hz.round();
         // The step has six digits, or thirteen characters.
@@ -227,7 +260,7 @@ fn function(
             source: RateSource::Header("UFF 58 abscissa increment".into()),
         });
     }
-    Ok((function, channel))
+    channel
 }
 
 impl Source for Uff {

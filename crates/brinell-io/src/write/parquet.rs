@@ -63,6 +63,38 @@ struct Chunk {
     page_bytes: u32,
 }
 
+impl Chunk {
+    /// Bytes in the file.
+    fn stored_bytes(&self) -> i64 {
+        i64::from(self.header_bytes) + i64::from(self.page_bytes)
+    }
+
+    /// Bytes before compression.
+    fn raw_bytes(&self, rows: u32) -> i64 {
+        i64::from(self.header_bytes) + 8 * i64::from(rows)
+    }
+
+    /// Its `ColumnChunk`.
+    fn describe(&self, out: &mut Thrift, column: &Column, offset: i64, rows: u32) {
+        out.begin();
+        out.i64(2, offset);
+        out.field(3, Thrift::STRUCT);
+        out.begin();
+        out.i32(1, TYPE_DOUBLE);
+        out.list(2, Thrift::I32, 1);
+        out.zigzag(i64::from(ENCODING_BYTE_STREAM_SPLIT));
+        out.list(3, Thrift::BINARY, 1);
+        out.bytes(column.name.as_bytes());
+        out.i32(4, CODEC_ZSTD);
+        out.i64(5, i64::from(rows));
+        out.i64(6, self.raw_bytes(rows));
+        out.i64(7, self.stored_bytes());
+        out.i64(9, offset);
+        out.end();
+        out.end();
+    }
+}
+
 impl ParquetWriter {
     /// Starts the file. The metadata comes at its end, with the columns' units and the outcome.
     pub fn create(
@@ -177,32 +209,14 @@ impl ParquetWriter {
             .iter()
             .zip(self.chunks.chunks_exact(self.columns.len()))
         {
-            let page_bytes = 8 * i64::from(rows);
             out.begin();
             let group_offset = offset;
             let mut raw_total = 0;
             out.list(1, Thrift::STRUCT, chunks.len());
             for (chunk, column) in chunks.iter().zip(&self.columns) {
-                let header = i64::from(chunk.header_bytes);
-                let stored = header + i64::from(chunk.page_bytes);
-                out.begin();
-                out.i64(2, offset);
-                out.field(3, Thrift::STRUCT);
-                out.begin();
-                out.i32(1, TYPE_DOUBLE);
-                out.list(2, Thrift::I32, 1);
-                out.zigzag(i64::from(ENCODING_BYTE_STREAM_SPLIT));
-                out.list(3, Thrift::BINARY, 1);
-                out.bytes(column.name.as_bytes());
-                out.i32(4, CODEC_ZSTD);
-                out.i64(5, i64::from(rows));
-                out.i64(6, header + page_bytes);
-                out.i64(7, stored);
-                out.i64(9, offset);
-                out.end();
-                out.end();
-                offset += stored;
-                raw_total += header + page_bytes;
+                chunk.describe(&mut out, column, offset, rows);
+                offset += chunk.stored_bytes();
+                raw_total += chunk.raw_bytes(rows);
             }
             out.i64(2, raw_total);
             out.i64(3, i64::from(rows));

@@ -63,7 +63,6 @@ impl AnalysisReport {
 
 fn report(of: &Findings) -> AnalysisReport {
     let (m, a) = (&of.signal, of.signal.analysis);
-    let quantity = of.unit.quantity.words();
     let mut notes_shown = of.notes.to_vec();
     notes_shown.push(format!("{}; {}", of.speed, shaft_lines(a)));
     notes_shown.push(format!("bearing: {}", of.bearing));
@@ -95,6 +94,20 @@ fn report(of: &Findings) -> AnalysisReport {
         kurtogram: a.map.as_ref().map(|map| kurtogram(a, map)),
         ..AnalysisReport::default()
     };
+    curves(&mut page, of);
+    if let Some((other, comparison)) = &of.against {
+        page.tables.extend(differences(of, other, comparison));
+    }
+    // What the verdict rests on comes first.
+    page.tables.insert(0, families(a));
+    page.tables.push(indicators(of));
+    page
+}
+
+/// Waveforms, spectra and envelopes: the signal's, and beside them those of the one it is compared with.
+fn curves(page: &mut AnalysisReport, of: &Findings) {
+    let (m, a) = (&of.signal, of.signal.analysis);
+    let quantity = of.unit.quantity.words();
     let series = |m: &Analyzed| Series {
         label: quantity.into(),
         unit: of.unit.name.clone(),
@@ -150,13 +163,8 @@ fn report(of: &Findings) -> AnalysisReport {
                 );
                 page.envelopes.push(spectrum(e, of_envelope.clone(), words));
             }
-            page.tables.extend(differences(of, other, c));
         }
     }
-    // What the verdict rests on comes first.
-    page.tables.insert(0, families(a));
-    page.tables.push(indicators(of));
-    page
 }
 
 fn kurtogram(a: &Analysis, map: &brinell::signal::Kurtogram) -> Kurtogram {

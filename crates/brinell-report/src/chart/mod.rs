@@ -97,11 +97,7 @@ fn label_is_long(spec: &Spec) -> bool {
 
 impl Chart {
     pub(crate) fn new(spec: Spec) -> Self {
-        let Size {
-            width,
-            height,
-            font,
-        } = spec.size;
+        let Size { width, height, .. } = spec.size;
         let left = left_margin(&spec).max(spec.left);
         let right = right_margin(&spec).max(spec.right);
         let top = 8.0 + LANE_HEIGHT * spec.lanes.len() as f64;
@@ -121,64 +117,87 @@ impl Chart {
             from: frame.bottom,
             to: frame.top,
         };
-        let mut picture = Picture::new(&spec.name, &spec.title, width, height);
+        let mut chart = Self {
+            picture: Picture::new(&spec.name, &spec.title, width, height),
+            frame,
+            x,
+            y,
+            spec,
+        };
+        let y_power = chart.ticks_y();
+        let x_power = chart.ticks_x();
+        chart.axis_labels(x_power, y_power);
+        chart
+    }
 
-        let (values, labels, y_power) = ticks(spec.y, y_target(&spec));
-        picture.shapes.push(Shape::Open("ticks-y"));
+    /// Lines and numbers of the y axis; the power of ten of its numbers.
+    fn ticks_y(&mut self) -> i32 {
+        let font = self.spec.size.font;
+        let (values, labels, y_power) = ticks(self.spec.y, y_target(&self.spec));
+        self.picture.shapes.push(Shape::Open("ticks-y"));
         for (value, label) in values.iter().zip(&labels) {
-            let at = y.at(*value);
-            picture.path(
-                &[(frame.left, at), (frame.right, at)],
+            let at = self.y.at(*value);
+            self.picture.path(
+                &[(self.frame.left, at), (self.frame.right, at)],
                 Paint::line(ink::GRID, 1.0),
             );
-            picture.text(Text::new(
-                frame.left - 7.0,
+            self.picture.text(Text::new(
+                self.frame.left - 7.0,
                 at + 0.36 * font,
                 font,
                 Anchor::End,
                 label,
             ));
         }
-        picture.shapes.push(Shape::Close);
+        self.picture.shapes.push(Shape::Close);
+        y_power
+    }
 
+    /// Lines and numbers of the x axis, as many as have room; the power of ten of its numbers.
+    fn ticks_x(&mut self) -> i32 {
+        let font = self.spec.size.font;
         let widest = |labels: &[String]| {
             labels
                 .iter()
                 .map(|l| font::width(l, font, false))
                 .fold(0.0, f64::max)
         };
-        let mut target = ((frame.width() / 60.0) as usize).clamp(3, 10);
+        let mut target = ((self.frame.width() / 60.0) as usize).clamp(3, 10);
         while target > 1 {
-            let (values, labels, _) = ticks(spec.x, target);
-            if (widest(&labels) + 14.0) * values.len() as f64 <= frame.width() {
+            let (values, labels, _) = ticks(self.spec.x, target);
+            if (widest(&labels) + 14.0) * values.len() as f64 <= self.frame.width() {
                 break;
             }
             target -= 1;
         }
-        let (values, labels, x_power) = ticks(spec.x, target);
-        picture.shapes.push(Shape::Open("ticks-x"));
+        let (values, labels, x_power) = ticks(self.spec.x, target);
+        self.picture.shapes.push(Shape::Open("ticks-x"));
         for (value, label) in values.iter().zip(&labels) {
-            let at = x.at(*value);
-            picture.path(
-                &[(at, frame.top), (at, frame.bottom)],
+            let at = self.x.at(*value);
+            self.picture.path(
+                &[(at, self.frame.top), (at, self.frame.bottom)],
                 Paint::line(ink::GRID, 1.0),
             );
-            if spec.x_axis {
-                picture.text(Text::new(
+            if self.spec.x_axis {
+                self.picture.text(Text::new(
                     at,
-                    frame.bottom + 1.4 * font,
+                    self.frame.bottom + 1.4 * font,
                     font,
                     Anchor::Middle,
                     label,
                 ));
             }
         }
-        picture.shapes.push(Shape::Close);
+        self.picture.shapes.push(Shape::Close);
+        x_power
+    }
 
-        if spec.x_axis {
-            let label = axis_label(&spec.x_label, &spec.x_unit, x_power);
+    fn axis_labels(&mut self, x_power: i32, y_power: i32) {
+        let (font, frame) = (self.spec.size.font, self.frame);
+        if self.spec.x_axis {
+            let label = axis_label(&self.spec.x_label, &self.spec.x_unit, x_power);
             let middle = 0.5 * (frame.left + frame.right);
-            picture.text(Text::with_unit(
+            self.picture.text(Text::with_unit(
                 middle,
                 frame.bottom + 3.0 * font,
                 font,
@@ -186,24 +205,18 @@ impl Chart {
                 &label,
             ));
         }
-        let label = axis_label(&spec.y_label, &spec.y_unit, y_power);
+        let label = axis_label(&self.spec.y_label, &self.spec.y_unit, y_power);
         let middle = 0.5 * (frame.top + frame.bottom);
         let mut line = |x: f64, text: &str| {
-            picture.text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
+            self.picture
+                .text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
         };
-        if label_is_long(&spec) {
+        if label_is_long(&self.spec) {
             let (first, second) = halves(&label);
             line(1.05 * font, &first);
             line(2.3 * font, &second);
         } else {
             line(1.05 * font, &label);
-        }
-        Self {
-            picture,
-            frame,
-            x,
-            y,
-            spec,
         }
     }
 

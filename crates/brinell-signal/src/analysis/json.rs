@@ -72,20 +72,23 @@ pub fn to_json(
         }).collect::<Map<_, _>>(),
     });
     if let Some(bands) = velocity {
-        let rows: Vec<Value> = (bands.iter().flatten())
-            .map(|b| {
-                json!({
-                    "low_hz": b.band.low, "high_hz": b.band.high, "rms_m_per_s": b.rms.value,
-                    "interval_95": b.rms.interval.map(|v| [v.low, v.high]), "cut_short": b.cut_short,
-                })
-            })
-            .collect();
-        object["velocity_bands"] = rows.into();
+        object["velocity_bands"] = velocity_json(bands).into();
     }
     if let Some(c) = comparison {
         object["comparison"] = comparison_json(c);
     }
     object
+}
+
+fn velocity_json(bands: &VelocityBands) -> Vec<Value> {
+    (bands.iter().flatten())
+        .map(|b| {
+            json!({
+                "low_hz": b.band.low, "high_hz": b.band.high, "rms_m_per_s": b.rms.value,
+                "interval_95": b.rms.interval.map(|v| [v.low, v.high]), "cut_short": b.cut_short,
+            })
+        })
+        .collect()
 }
 
 fn family(analysis: &Analysis, f: &Family) -> Value {

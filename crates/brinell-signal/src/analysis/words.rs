@@ -25,64 +25,8 @@ const PASSING: &str = "Rollers that enter the load of a healthy bearing strike i
 pub(super) fn verdict(analysis: &Analysis) -> String {
     let mut text = Vec::new();
     match analysis.conclusion() {
-        Verdict::Damage => {
-            for (i, family) in analysis.causes().enumerate() {
-                let beside = if i > 0 { "Also " } else { "" };
-                let headline = format!(
-                    "{beside}{} damage, {}: {}.",
-                    family.component.words(),
-                    analysis.clarity(family),
-                    told(family)
-                );
-                text.push(capital(&headline));
-                if family.name == "FTF" {
-                    text.push("One element impacts once a turn of the cage, on its way through the load zone; damage of the cage shows the same.".into());
-                }
-                if analysis.may_be_passing(family) {
-                    text.push(PASSING.into());
-                }
-                text.extend(inverter(analysis, family));
-            }
-        }
-        Verdict::CannotTell => {
-            let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
-            for family in grown {
-                text.push(format!(
-                    "Cannot tell which part: the lines of the {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
-                    family.component.words(),
-                    family.growth.unwrap_or(1.0),
-                    told(family),
-                ));
-            }
-            if let Some(elsewhere) = &analysis.elsewhere {
-                text.push(other_lines(analysis, elsewhere));
-            }
-            let open = (analysis.families.iter()).filter(|f| f.standing == Standing::Open);
-            for family in open {
-                if analysis.elsewhere.is_some() && family.is_damage() {
-                    text.push(format!(
-                        "Without them it would be {} damage: {}.",
-                        family.component.words(),
-                        told(family)
-                    ));
-                    continue;
-                }
-                text.push(format!(
-                    "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
-                    family.component.words(),
-                    told(family),
-                    if family.is_damage() {
-                        "lines at distances of the cage's frequency, which so short a record does not separate from others"
-                    } else if family.score < family.noise {
-                        "lines hardly above what noise shows in a record of this length"
-                    } else if family.lacks_sidebands() {
-                        "fewer sidebands than damage that turns has"
-                    } else {
-                        "fewer harmonics than damage has"
-                    }
-                ));
-            }
-        }
+        Verdict::Damage => damage(analysis, &mut text),
+        Verdict::CannotTell => cannot_tell(analysis, &mut text),
         Verdict::NothingFound => text.push("No damage found.".into()),
     }
     let those = |standing| -> Vec<&str> {
@@ -103,6 +47,66 @@ pub(super) fn verdict(analysis: &Analysis) -> String {
         ));
     }
     text.join(" ")
+}
+
+fn damage(analysis: &Analysis, text: &mut Vec<String>) {
+    for (i, family) in analysis.causes().enumerate() {
+        let beside = if i > 0 { "Also " } else { "" };
+        let headline = format!(
+            "{beside}{} damage, {}: {}.",
+            family.component.words(),
+            analysis.clarity(family),
+            told(family)
+        );
+        text.push(capital(&headline));
+        if family.name == "FTF" {
+            text.push("One element impacts once a turn of the cage, on its way through the load zone; damage of the cage shows the same.".into());
+        }
+        if analysis.may_be_passing(family) {
+            text.push(PASSING.into());
+        }
+        text.extend(inverter(analysis, family));
+    }
+}
+
+fn cannot_tell(analysis: &Analysis, text: &mut Vec<String>) {
+    let grown = (analysis.families.iter()).filter(|f| f.standing == Standing::Grown);
+    for family in grown {
+        text.push(format!(
+            "Cannot tell which part: the lines of the {} have grown, {:.1} times as deep as when the machine was healthy: {}.",
+            family.component.words(),
+            family.growth.unwrap_or(1.0),
+            told(family),
+        ));
+    }
+    if let Some(elsewhere) = &analysis.elsewhere {
+        text.push(other_lines(analysis, elsewhere));
+    }
+    let open = (analysis.families.iter()).filter(|f| f.standing == Standing::Open);
+    for family in open {
+        if analysis.elsewhere.is_some() && family.is_damage() {
+            text.push(format!(
+                "Without them it would be {} damage: {}.",
+                family.component.words(),
+                told(family)
+            ));
+            continue;
+        }
+        text.push(format!(
+            "Cannot tell whether the {} is damaged: {}, with {}. A longer record, another sensor or a record of the healthy machine would decide.",
+            family.component.words(),
+            told(family),
+            if family.is_damage() {
+                "lines at distances of the cage's frequency, which so short a record does not separate from others"
+            } else if family.score < family.noise {
+                "lines hardly above what noise shows in a record of this length"
+            } else if family.lacks_sidebands() {
+                "fewer sidebands than damage that turns has"
+            } else {
+                "fewer harmonics than damage has"
+            }
+        ));
+    }
 }
 
 /// Whether the lines of a race may be an inverter's: in motors of 2, 4 or 6 poles multiples of its output lie above those of the shaft's frequency

@@ -212,6 +212,46 @@ impl Book<'_> {
         }
         own
     }
+
+    /// A run's share of each target's uncertainty.
+    fn noise(&self, own: &[f64]) -> Vec<f64> {
+        let both = own.iter().zip(&self.sigma);
+        both.map(|(own, sigma)| own / sigma).collect()
+    }
+
+    /// Whether some of the `runs` runs of the start has a value of each target.
+    fn has_every_target(&self, runs: usize) -> Result<(), Unfit> {
+        let answered: Vec<&Vec<Answer>> = (self.evaluations.iter())
+            .filter_map(|e| e.answers.as_ref())
+            .collect();
+        if answered.is_empty() {
+            return Err(Unfit::AllFailed(runs));
+        }
+        let missing = |t: &usize| answered.iter().all(|a| a[*t].value.is_none());
+        match (0..self.targets.len()).find(missing) {
+            Some(t) => Err(Unfit::NoValue {
+                name: self.targets[t].name.clone(),
+                runs,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Places that the local search begins at: the best ones that lie apart.
+    fn beginnings(&self) -> Vec<Vec<f64>> {
+        let mut beginnings: Vec<Vec<f64>> = Vec::new();
+        for k in self.ranked() {
+            let place = &self.evaluations[k].place;
+            let near = |other: &Vec<f64>| {
+                let far = place.iter().zip(other).map(|(a, b)| (a - b).abs());
+                far.fold(0.0, f64::max) < APART
+            };
+            if !beginnings.iter().any(near) && beginnings.len() < BEGINNINGS {
+                beginnings.push(place.clone());
+            }
+        }
+        beginnings
+    }
 }
 
 /// Fits `keys` keys to targets. The same answers make the same fit.
@@ -240,25 +280,9 @@ pub fn fit<'a>(
     };
     let points = latin_hypercube(settings.seed, keys, start);
     book.indices(&points).map_err(|_| Unfit::Interrupted)?;
-    let answered: Vec<&Vec<Answer>> = (book.evaluations.iter())
-        .filter_map(|e| e.answers.as_ref())
-        .collect();
-    if answered.is_empty() {
-        return Err(Unfit::AllFailed(start));
-    }
-    if let Some(t) = (0..targets.len()).find(|t| answered.iter().all(|a| a[*t].value.is_none())) {
-        return Err(Unfit::NoValue {
-            name: targets[t].name.clone(),
-            runs: start,
-        });
-    }
+    book.has_every_target(start)?;
     let own = book.weigh(start.div_ceil(2));
-    let noise: Vec<f64> = own
-        .iter()
-        .zip(&book.sigma)
-        .map(|(own, s)| own / s)
-        .collect();
-    let noisy = noise.iter().any(|n| *n > NOISY);
+    let noisy = book.noise(&own).iter().any(|n| *n > NOISY);
     let step = if noisy { 2.0 * STEP } else { STEP };
 
     let particles = (2 * keys + 2).min(start);
@@ -276,27 +300,12 @@ pub fn fit<'a>(
 
     book.stage = Stage::Local;
     book.limit = settings.budget - reserve;
-    let mut beginnings: Vec<Vec<f64>> = Vec::new();
-    for k in book.ranked() {
-        let place = &book.evaluations[k].place;
-        let near = |other: &Vec<f64>| {
-            let far = place.iter().zip(other).map(|(a, b)| (a - b).abs());
-            far.fold(0.0, f64::max) < APART
-        };
-        if !beginnings.iter().any(near) && beginnings.len() < BEGINNINGS {
-            beginnings.push(place.clone());
-        }
-    }
-    for beginning in &beginnings {
+    for beginning in &book.beginnings() {
         stage(&mut book, |ask| local(ask, beginning, targets.len(), step))?;
     }
     // Runs near the best are what the outcome rests on.
     let own = book.weigh(particles);
-    let noise: Vec<f64> = own
-        .iter()
-        .zip(&book.sigma)
-        .map(|(own, s)| own / s)
-        .collect();
+    let noise = book.noise(&own);
     book.stage = Stage::Around;
     book.limit = settings.budget;
     let (centre, steps, identified) = look_around(&mut book, &noise, vec![step; keys])?;

@@ -74,10 +74,49 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
     } else {
         NORMAL
     };
+    let information = directions(jacobian, residuals.len(), noise, factor);
+    let largest = information.first().map_or(0.0, |i| i.0);
+    let exact = covariance(&information, 0.0);
+    let wide = covariance(
+        &information,
+        if largest > 0.0 {
+            ROUND_OFF * largest
+        } else {
+            1.0
+        },
+    );
+    let deviation = |k: usize| match exact[(k, k)] {
+        v if v.is_finite() => v.sqrt(),
+        _ => f64::INFINITY,
+    };
+    Identified {
+        deviations: (0..keys).map(|k| birge * deviation(k)).collect(),
+        half_widths: (0..keys).map(|k| factor * deviation(k)).collect(),
+        correlation: DMatrix::from_fn(keys, keys, |a, b| {
+            let scale = (wide[(a, a)] * wide[(b, b)]).sqrt();
+            if a == b || scale <= 0.0 {
+                return f64::from(u8::from(a == b));
+            }
+            (wide[(a, b)] / scale).clamp(-1.0, 1.0)
+        }),
+        directions: information.into_iter().map(|i| i.1).collect(),
+        chi_square,
+        freedom,
+        inflation: birge,
+    }
+}
+
+/// Directions with what is known along each, from the best determined to the worst: the square of the singular value less the noise's share.
+/// `factor` times a standard deviation is half an interval.
+fn directions(
+    jacobian: &DMatrix<f64>,
+    residuals: usize,
+    noise: &[f64],
+    factor: f64,
+) -> Vec<(f64, Direction)> {
+    let keys = jacobian.ncols();
     // Rows of zeros, so that V is whole where there are fewer targets than keys.
-    let tall = jacobian
-        .clone()
-        .resize_vertically(residuals.len().max(keys), 0.0);
+    let tall = jacobian.clone().resize_vertically(residuals.max(keys), 0.0);
     let (values, vectors) = match tall.svd(false, true) {
         nalgebra::SVD {
             singular_values,
@@ -115,44 +154,23 @@ pub fn identify(residuals: &[f64], jacobian: &DMatrix<f64>, noise: &[f64]) -> Id
         direction.half_width = factor / known.sqrt();
     }
     information.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let covariance = |least: f64| {
-        DMatrix::from_fn(keys, keys, |a, b| {
-            let part = |(known, d): &(f64, Direction)| {
-                let product = d.vector[a] * d.vector[b];
-                // What is not there at all does not become infinite.
-                if product.abs() < 1e-8 {
-                    return 0.0;
-                }
-                product / known.max(least)
-            };
-            information.iter().map(part).sum::<f64>()
-        })
-    };
-    let exact = covariance(0.0);
-    let wide = covariance(if largest > 0.0 {
-        ROUND_OFF * largest
-    } else {
-        1.0
-    });
-    let deviation = |k: usize| match exact[(k, k)] {
-        v if v.is_finite() => v.sqrt(),
-        _ => f64::INFINITY,
-    };
-    Identified {
-        deviations: (0..keys).map(|k| birge * deviation(k)).collect(),
-        half_widths: (0..keys).map(|k| factor * deviation(k)).collect(),
-        correlation: DMatrix::from_fn(keys, keys, |a, b| {
-            let scale = (wide[(a, a)] * wide[(b, b)]).sqrt();
-            if a == b || scale <= 0.0 {
-                return f64::from(u8::from(a == b));
+    information
+}
+
+/// Covariance of the keys, where a direction has the information `least` at least.
+fn covariance(information: &[(f64, Direction)], least: f64) -> DMatrix<f64> {
+    let keys = information.len();
+    DMatrix::from_fn(keys, keys, |a, b| {
+        let part = |(known, d): &(f64, Direction)| {
+            let product = d.vector[a] * d.vector[b];
+            // What is not there at all does not become infinite.
+            if product.abs() < 1e-8 {
+                return 0.0;
             }
-            (wide[(a, b)] / scale).clamp(-1.0, 1.0)
-        }),
-        directions: information.into_iter().map(|i| i.1).collect(),
-        chi_square,
-        freedom,
-        inflation: birge,
-    }
+            product / known.max(least)
+        };
+        information.iter().map(part).sum::<f64>()
+    })
 }
 
 /// Standard deviation of a column's length from noise alone: `noise` is that of each residual in one run, `distance` the length of the

@@ -40,6 +40,21 @@ struct Sources {
     base: Document,
 }
 
+/// What first runs say of all.
+#[derive(Default)]
+struct FirstRuns {
+    /// The first that can be simulated.
+    first: Option<Loaded>,
+    /// Why one makes no scenario.
+    failure: Option<DatasetError>,
+    /// The first that cannot begin, and why.
+    unable: Option<(usize, brinell::Error)>,
+    /// Channels of any of them.
+    signals: Vec<Column>,
+    /// Patterns of `signals` that match no channel of any.
+    idle: Option<HashSet<String>>,
+}
+
 /// Which runs lie in which file: those of one part together, each part in files of its own, in the runs' order.
 struct Files {
     runs: Vec<usize>,
@@ -247,8 +262,8 @@ impl Campaign {
 }
 
 impl Sources {
-    /// What follows from first runs: the signals, the columns, and what tells this campaign from others.
-    fn settle(self, mut meaning: Vec<String>) -> Result<Campaign, DatasetError> {
+    /// Makes scenarios of the first runs, of one where no bearing varies; `meaning` gets a scenario of each class.
+    fn first_runs(&self, meaning: &mut Vec<String>) -> FirstRuns {
         let draws = &self.draws;
         let varies = |p: &crate::design::Parameter| p.key.starts_with("bearing.");
         let asked = match draws.parameters().iter().any(varies) {
@@ -261,21 +276,19 @@ impl Sources {
             let first = (0..draws.runs()).find(|run| draws.class(*run) == class);
             runs.extend(first.filter(|run| *run >= asked));
         }
-        let (mut first, mut failure, mut signals) = (None, None, Vec::new());
+        let mut found = FirstRuns::default();
         let (mut known, mut seen) = (HashSet::new(), HashSet::new());
-        let mut idle: Option<HashSet<String>> = None;
-        let mut unable = None;
         // Where none of these makes a scenario, some later one may.
         let further = asked..ASKED.min(draws.runs());
         let asked = runs.len();
         for (k, run) in runs.into_iter().chain(further).enumerate() {
-            if k >= asked && first.is_some() {
+            if k >= asked && found.first.is_some() {
                 break;
             }
             let loaded = match self.scenario(run) {
                 Ok((loaded, _)) => loaded,
                 Err(error) => {
-                    failure.get_or_insert(error);
+                    found.failure.get_or_insert(error);
                     continue;
                 }
             };
@@ -285,26 +298,39 @@ impl Sources {
             let simulation = match Simulation::new(&loaded.scenario) {
                 Ok(simulation) => simulation,
                 Err(error) => {
-                    unable.get_or_insert((run, error));
+                    found.unable.get_or_insert((run, error));
                     continue;
                 }
             };
             let these = simulation.idle_patterns().iter().cloned();
-            idle = Some(match idle {
+            found.idle = Some(match found.idle.take() {
                 None => these.collect(),
                 Some(idle) => these.filter(|pattern| idle.contains(pattern)).collect(),
             });
             for channel in simulation.channels() {
                 if known.insert(channel.name.clone()) {
-                    signals.push(Column::new(
+                    found.signals.push(Column::new(
                         &channel.name,
                         channel.unit,
                         &channel.description,
                     ));
                 }
             }
-            first.get_or_insert(loaded);
+            found.first.get_or_insert(loaded);
         }
+        found
+    }
+
+    /// What follows from first runs: the signals, the columns, and what tells this campaign from others.
+    fn settle(self, mut meaning: Vec<String>) -> Result<Campaign, DatasetError> {
+        let draws = &self.draws;
+        let FirstRuns {
+            first,
+            failure,
+            unable,
+            signals,
+            idle,
+        } = self.first_runs(&mut meaning);
         let Some(first) = first else {
             if let Some((run, error)) = unable {
                 return Err(DatasetError::Refused(format!(

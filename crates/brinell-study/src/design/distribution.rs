@@ -150,33 +150,7 @@ impl Distribution {
                 }
                 Self::Log { low, high }
             }
-            "normal" => {
-                let [mean, deviation] = pair("normal = [mean, standard deviation]", node)?;
-                if deviation <= 0.0 {
-                    return Err(Misfit::new(
-                        "the standard deviation is not positive",
-                        "normal = [mean, standard deviation] with a deviation > 0",
-                    ));
-                }
-                let within = get("within").map(|node| ends("within", node)).transpose()?;
-                let clip = get("clip").map(|node| ends("clip", node)).transpose()?;
-                if let Some((low, high)) = within {
-                    let share = normal_tail((low - mean) / deviation)
-                        - normal_tail((high - mean) / deviation);
-                    if share < 1e-6 {
-                        return Err(Misfit::new(
-                            "less than a millionth of the distribution is within these ends",
-                            "ends with more of the distribution between them",
-                        ));
-                    }
-                }
-                Self::Normal {
-                    mean,
-                    deviation,
-                    within,
-                    clip,
-                }
-            }
+            "normal" => Self::normal(node, get)?,
             "whole" => {
                 let (low, high) = ends(kind, node)?;
                 let whole = |x: f64| x.fract() == 0.0 && x.abs() <= MOST_VALUES;
@@ -194,36 +168,71 @@ impl Distribution {
             "grid" => Self::Grid {
                 values: grid(node)?,
             },
-            _ => {
-                let values = values(kind, node)?;
-                let weights = match get("weights") {
-                    None => vec![1.0; values.len()],
-                    Some(node) => numbers("weights = [...], one for each value of choice", node)?,
-                };
-                let total: f64 = weights.iter().sum();
-                let sound = weights.len() == values.len()
-                    && weights.iter().all(|w| *w >= 0.0 && w.is_finite())
-                    && total > 0.0;
-                if !sound {
-                    return Err(Misfit::new(
-                        format!("{} values and the weights {weights:?}", values.len()),
-                        "a weight of 0 or more for each value, not all of them 0",
-                    ));
-                }
-                let mut sum = 0.0;
-                let mut sums: Vec<f64> = weights
-                    .iter()
-                    .map(|w| {
-                        sum += w / total;
-                        sum
-                    })
-                    .collect();
-                // Round-off must not leave the last values without a place.
-                let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
-                sums[last..].fill(1.0);
-                Self::Choice { values, sums }
-            }
+            _ => Self::choice(kind, node, get)?,
         })
+    }
+
+    fn normal<'a>(node: &Node, get: impl Fn(&str) -> Option<&'a Node>) -> Result<Self, Misfit> {
+        let [mean, deviation] = pair("normal = [mean, standard deviation]", node)?;
+        if deviation <= 0.0 {
+            return Err(Misfit::new(
+                "the standard deviation is not positive",
+                "normal = [mean, standard deviation] with a deviation > 0",
+            ));
+        }
+        let within = get("within").map(|node| ends("within", node)).transpose()?;
+        let clip = get("clip").map(|node| ends("clip", node)).transpose()?;
+        if let Some((low, high)) = within {
+            let share =
+                normal_tail((low - mean) / deviation) - normal_tail((high - mean) / deviation);
+            if share < 1e-6 {
+                return Err(Misfit::new(
+                    "less than a millionth of the distribution is within these ends",
+                    "ends with more of the distribution between them",
+                ));
+            }
+        }
+        Ok(Self::Normal {
+            mean,
+            deviation,
+            within,
+            clip,
+        })
+    }
+
+    /// Values with their weights.
+    fn choice<'a>(
+        kind: &str,
+        node: &Node,
+        get: impl Fn(&str) -> Option<&'a Node>,
+    ) -> Result<Self, Misfit> {
+        let values = values(kind, node)?;
+        let weights = match get("weights") {
+            None => vec![1.0; values.len()],
+            Some(node) => numbers("weights = [...], one for each value of choice", node)?,
+        };
+        let total: f64 = weights.iter().sum();
+        let sound = weights.len() == values.len()
+            && weights.iter().all(|w| *w >= 0.0 && w.is_finite())
+            && total > 0.0;
+        if !sound {
+            return Err(Misfit::new(
+                format!("{} values and the weights {weights:?}", values.len()),
+                "a weight of 0 or more for each value, not all of them 0",
+            ));
+        }
+        let mut sum = 0.0;
+        let mut sums: Vec<f64> = weights
+            .iter()
+            .map(|w| {
+                sum += w / total;
+                sum
+            })
+            .collect();
+        // Round-off must not leave the last values without a place.
+        let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+        sums[last..].fill(1.0);
+        Ok(Self::Choice { values, sums })
     }
 
     /// The value at a place of [0, 1). Of a grid the place counts as well, for those who draw from it.

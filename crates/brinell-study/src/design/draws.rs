@@ -1,13 +1,15 @@
 //! What each run of a plan draws.
 
+mod drawn;
+
 use super::distribution::{Distribution, KINDS, Value};
-use super::plan::{Design, OutOfRange, Plan};
-use super::sequence::{Sequence, Sobol};
+use super::plan::{OutOfRange, Plan};
 use super::split::{self, Part};
 use super::stream::{Secret, bits, seed, unit, word};
 use super::turns::{APART, Place, places};
 use brinell::document::reading::{Node, Toml, parse, quote};
 use brinell::document::{Loaded, Problem, read};
+use drawn::Drawn;
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
@@ -60,21 +62,6 @@ pub struct Parameter {
     pub common: bool,
 }
 
-struct Axis {
-    parameter: usize,
-    distribution: Distribution,
-}
-
-struct Drawn {
-    /// All of its runs, and those of them that the design spreads.
-    runs: usize,
-    open: usize,
-    axes: Vec<Axis>,
-    sequence: Sequence,
-    /// Settings of all grids together.
-    combinations: usize,
-}
-
 /// The runs of a plan.
 pub struct Draws {
     plan: Plan,
@@ -95,79 +82,11 @@ impl Draws {
         let secret = Secret::of(&plan.secret).filter(|_| plan.holds_out());
         let places = places(&plan, secret.as_ref());
         let (mut parameters, mut classes, mut problems) = (Vec::new(), Vec::new(), Vec::new());
-        for (c, class) in plan.classes.iter().enumerate() {
+        for c in 0..plan.classes.len() {
             let mine = || places.iter().filter(|place| place.class as usize == c);
-            let (all, runs) = (
-                mine().count(),
-                mine().filter(|place| place.number != APART).count(),
-            );
-            let mut found = Vec::new();
-            plan.vary.distributions("", &mut found);
-            let common = found.len();
-            class.vary.distributions("", &mut found);
-            if let Some(defects) = &class.defects {
-                defects.distributions("defects", &mut found);
-            }
-            let axes: Vec<Axis> = found
-                .into_iter()
-                .enumerate()
-                .map(|(k, (key, distribution))| Axis {
-                    parameter: parameter(&mut parameters, &key, distribution, k < common),
-                    distribution: distribution.clone(),
-                })
-                .collect();
-            let combinations =
-                axes.iter()
-                    .fold(1_usize, |product, axis| match &axis.distribution {
-                        Distribution::Grid { values } => product.saturating_mul(values.len()),
-                        _ => product,
-                    });
-            if combinations > runs && runs > 0 {
-                let apart = if plan.holds_out() {
-                    " whose labels are not held out"
-                } else {
-                    ""
-                };
-                let message = format!(
-                    "class {:?} has {runs} of the plan's {} runs{apart}, and its grids have {combinations} combinations",
-                    class.name, plan.runs
-                );
-                problems.push(
-                    Problem::error("runs", message)
-                        .value(plan.runs.to_string())
-                        .allowed(format!(
-                            "a run for each combination: about {} runs, or shorter grids",
-                            combinations.saturating_mul(plan.runs).div_ceil(runs.max(1))
-                        )),
-                );
-            }
-            let dimensions = axes.len();
-            let own = bits(&[plan.seed, word("design"), c as u64]);
-            let sequence = match plan.design {
-                Design::Random => Sequence::Random,
-                Design::LatinHypercube => Sequence::latin(own, dimensions, runs),
-                Design::Sobol if dimensions > Sobol::MOST => {
-                    let message = format!("class {:?} draws {dimensions} keys", class.name);
-                    let allowed = format!(
-                        "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
-                        Sobol::MOST
-                    );
-                    problems.push(
-                        Problem::error("design", message)
-                            .value("\"sobol\"")
-                            .allowed(allowed),
-                    );
-                    Sequence::Random
-                }
-                Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
-            };
-            classes.push(Drawn {
-                runs: all,
-                open: runs,
-                axes,
-                sequence,
-                combinations,
-            });
+            let open = mine().filter(|place| place.number != APART).count();
+            let runs = [mine().count(), open];
+            classes.push(Drawn::new(&plan, c, runs, &mut parameters, &mut problems));
         }
         if !problems.is_empty() {
             return Err(problems);
@@ -437,26 +356,6 @@ fn no_place(problems: Vec<Problem>) -> Vec<Problem> {
         Some(_) => problem,
     };
     problems.into_iter().map(hinted).collect()
-}
-
-/// The parameter of that key, made where there is none yet.
-fn parameter(
-    all: &mut Vec<Parameter>,
-    key: &str,
-    distribution: &Distribution,
-    common: bool,
-) -> usize {
-    let numeric = distribution.is_numeric();
-    if let Some(k) = all.iter().position(|p| p.key == key) {
-        all[k].numeric &= numeric;
-        return k;
-    }
-    all.push(Parameter {
-        key: key.into(),
-        numeric,
-        common,
-    });
-    all.len() - 1
 }
 
 /// Paths of the tables that a pattern names and that have one of the keys `with`.

@@ -1,18 +1,13 @@
-//! The plan file: keys, ranges, defaults, and what no single key can say.
+//! The plan file: keys, ranges and defaults.
 
-use super::stream::Secret;
+mod problems;
+
 use super::template::Template;
-use brinell::document::reading::{
-    Choice, Fallback, Finder, Keys, Reader, brief_path, key, parse, path_parts, stated,
-};
-use brinell::document::{Problem, Problems, Severity, locate, numberless};
-use std::collections::HashSet;
+use brinell::document::reading::{Choice, Fallback, Finder, Keys, Reader, key, parse, stated};
+use brinell::document::{Problem, Severity};
 
 /// Runs of a plan at most: what each of them draws is kept in memory.
 const MOST_RUNS: f64 = 1e6;
-
-/// Keys that vary in a class, or in all, at most: a scenario has some two hundred, and lists of defects.
-const MOST_VARIED: usize = 2000;
 
 /// How runs are spread over what their distributions span.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,7 +129,7 @@ impl Plan {
         reader.finish();
         let finder = Finder::new(text, &reader.found, &reader.provenance);
         let problems = if reader.problems.is_empty() {
-            plan.problems(text, &finder)
+            problems::problems(&plan, text, &finder)
         } else {
             reader.problems.finish()
         };
@@ -174,152 +169,6 @@ impl Plan {
     /// Whether labels are held out.
     pub fn holds_out(&self) -> bool {
         self.held_out > 0.0
-    }
-
-    /// What no single key can say.
-    fn problems(&self, text: &str, finder: &Finder) -> Vec<Problem> {
-        let mut all = Problems::of(text);
-        let mut add = |key: &str, value: &str, message: String, allowed: &str| {
-            all.add_of(Severity::Error, numberless(&message), || {
-                let place = finder.place(key).or_else(|| locate(text, key));
-                let mut problem = Problem::error(brief_path(key), message).allowed(allowed);
-                if !value.is_empty() {
-                    problem = problem.value(value);
-                }
-                (problem.placed(place), None)
-            });
-        };
-        for (what, template) in self.templates() {
-            let count = template.settings().len();
-            if count > MOST_VARIED {
-                let allowed = format!("at most {MOST_VARIED} keys");
-                add(&what, "", format!("{count} keys vary"), &allowed);
-                return all.finish();
-            }
-        }
-        if !matches!(self.vary, Template::Table(_)) {
-            add(
-                "vary",
-                "",
-                "expected a section [vary]".into(),
-                "keys of a scenario",
-            );
-        }
-        if self.holds_out() && Secret::of(&self.secret).is_none() {
-            // The value is not repeated: terminals keep what they show.
-            add(
-                "secret",
-                "",
-                "held_out needs a secret that cannot be guessed; whoever has it has the labels"
-                    .into(),
-                "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
-            );
-        }
-        if let Some(split) = &self.split {
-            if split.validation + split.test >= 1.0 {
-                add(
-                    "split",
-                    "",
-                    format!(
-                        "validation and test take {} of the runs, and leave none to train with",
-                        split.validation + split.test
-                    ),
-                    "validation + test < 1",
-                );
-            }
-            if self.out_of_range == OutOfRange::Redraw {
-                add(
-                    "split",
-                    "",
-                    "a run that is drawn again leaves its group of conditions".into(),
-                    "out_of_range = \"refuse\" or \"fail\" where runs are split",
-                );
-            }
-        }
-        if self.signals.is_empty() {
-            add(
-                "signals",
-                "[]",
-                "a data set without signals".into(),
-                "channels, such as \"sensor_ax\"",
-            );
-        }
-        let mut names = HashSet::new();
-        for (k, class) in self.classes.iter().enumerate() {
-            let at = |name: &str| format!("classes.{k}.{name}");
-            if class.name.is_empty() || !names.insert(class.name.as_str()) {
-                let why = if class.name.is_empty() {
-                    "a class needs a name"
-                } else {
-                    "the name comes twice"
-                };
-                add(
-                    &at("name"),
-                    &format!("{:?}", class.name),
-                    why.into(),
-                    "a name of its own for each class",
-                );
-            }
-            if !matches!(class.vary, Template::Table(_)) {
-                add(
-                    &at("vary"),
-                    "",
-                    "expected a section".into(),
-                    "keys of a scenario",
-                );
-            }
-            if matches!(
-                &class.defects,
-                Some(Template::Fixed(_) | Template::Drawn(_) | Template::Table(_))
-            ) {
-                add(
-                    &at("defects"),
-                    "",
-                    "expected [[classes.defects]] entries, or []".into(),
-                    "a list of defects",
-                );
-            }
-            if class.defects.is_some() && (self.vary.sets("defects") || class.vary.sets("defects"))
-            {
-                let why = "this class has defects of its own, which `vary` would change as well";
-                add(
-                    &at("defects"),
-                    "",
-                    why.into(),
-                    "defects in the class, or defects in vary",
-                );
-            }
-            for (path, _) in self.vary.settings() {
-                if class.vary.sets(&path) {
-                    add(
-                        &at(&format!("vary.{path}")),
-                        "",
-                        "set in [vary] too; a key varies in one place".into(),
-                        "",
-                    );
-                }
-            }
-        }
-        if !self.classes.is_empty() && self.classes.iter().all(|class| class.share == 0.0) {
-            add(
-                "classes",
-                "",
-                "every class has a share of 0".into(),
-                "a class with a share above 0",
-            );
-        }
-        for (what, template) in self.templates() {
-            for (path, _) in template.settings() {
-                if let Err(message) = path_parts(&path) {
-                    add(&format!("{what}.{path}"), "", message, "");
-                }
-            }
-            let record = format!("{what}.simulation.record");
-            if template.sets("simulation.record") {
-                add(&record, "", "`signals` says what is recorded".into(), "");
-            }
-        }
-        all.finish()
     }
 
     fn templates(&self) -> impl Iterator<Item = (String, &Template)> {

@@ -70,6 +70,11 @@ pub(super) fn check(s: &Scenario) -> Result<(), ModelError> {
             requirement: "must be sliced for balls",
         });
     }
+    defects(s)
+}
+
+/// That damage lies in a row and on a roller that there is.
+fn defects(s: &Scenario) -> Result<(), ModelError> {
     for (k, defect) in s.defects.iter().enumerate() {
         let roller_fits = match defect.on {
             Surface::Roller(roller) => (1..=s.bearing.rollers_per_row).contains(&roller),

@@ -7,6 +7,7 @@ mod at_rest;
 mod broad_phase;
 mod check;
 pub(crate) mod energy;
+mod from_scenario;
 mod full;
 mod layout;
 pub(crate) mod lumped;
@@ -19,6 +20,7 @@ mod workspace;
 pub use crate::kernel::Kernel;
 pub use broad_phase::BroadPhase;
 pub use energy::{Energy, Power};
+pub use from_scenario::series_stiffness;
 pub use layout::Layout;
 pub use momentum::imbalance;
 pub use motion::Motion;
@@ -29,18 +31,12 @@ pub use workspace::Workspace;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
-use crate::contact::ball::{self, Strips};
-use crate::defect::{Defect, Rules, SIDES, Side};
-use crate::elementary::Exponent;
-use crate::friction::{Friction, drag_factor};
-use crate::kernel;
+use crate::defect::{Defect, Rules, Side};
+use crate::friction::Friction;
 use crate::lanes::{Column, Lanes};
 use crate::operation::{Load, Rotation};
-use crate::scenario::{
-    Element, Guidance, GuidanceFilm, Law, LoadOn, ModelKind, RollerProfile, Scenario, Start,
-};
+use crate::scenario::{Element, Guidance, LoadOn, ModelKind, Start};
 use crate::slices::Slices;
-use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A scenario built in code that no model can be made of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -183,192 +179,6 @@ pub struct Model {
 }
 
 impl Model {
-    /// The model of a scenario.
-    ///
-    /// # Errors
-    /// Where a value that the scenario's reader would have refused makes the model meaningless.
-    pub fn new(s: &Scenario) -> Result<Self, ModelError> {
-        check::check(s)?;
-        Kernel::chosen().map_err(|error| ModelError {
-            key: kernel::SETTING.into(),
-            value: format!("{:?}", error.value),
-            requirement: &error.requirement,
-        })?;
-        let (b, c) = (&s.bearing, &s.cage);
-        let half_mm = |diameter: f64| 0.5e-3 * diameter;
-        let geometry = Geometry {
-            inner_radius: half_mm(b.inner_raceway_diameter_mm),
-            outer_radius: half_mm(b.outer_raceway_diameter_mm),
-            pitch_radius: half_mm(b.pitch_diameter_mm),
-            roller_radius: half_mm(b.roller_diameter_mm),
-            roller_length: 1e-3 * b.roller_length_mm,
-            clearance: 1e-6 * b.radial_clearance_um,
-            outer_gap: 1e-6 * b.outer_gap_um,
-        };
-        let (cage_inner, cage_outer) = (half_mm(c.inner_diameter_mm), half_mm(c.outer_diameter_mm));
-        let inertia = Inertia {
-            inner_ring: b.inner_ring_mass_kg,
-            outer_ring: b.outer_ring_mass_kg,
-            roller: b.roller_mass_kg,
-            roller_spin: match b.element {
-                Element::Roller => 0.5,
-                Element::Ball => 0.4,
-            } * b.roller_mass_kg
-                * geometry.roller_radius.powi(2),
-            cage: c.mass_kg,
-            cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
-        };
-        let exponent = Exponent::new(s.contact.exponent);
-        let ellipses = match b.element {
-            Element::Roller => None,
-            Element::Ball => Some(ball::ellipses(b, &s.contact).ok_or_else(|| ModelError {
-                key: "bearing.inner_groove_conformity".into(),
-                value: format!("{:?}", b.inner_groove_conformity),
-                requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
-            })?),
-        };
-        let hertz = |stiffness, side: Side| Hertz {
-            stiffness,
-            exponent,
-            damping: s.contact.damping_ns_per_m,
-            strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
-        };
-        let tilts = s.simulation.model == ModelKind::Tilting;
-        let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
-        let rules = Rules::new(&s.contact);
-        let sliced = tilts || (rules.law == Law::Sliced && b.profile != RollerProfile::Straight);
-        let stagger = b.row_stagger_deg.to_radians();
-        let pocket_angle = (0..layout.slots)
-            .map(|slot| {
-                let (row, roller) = (layout.row(slot) as f64, layout.roller(slot) as f64);
-                if slot < layout.rollers() {
-                    TAU * roller / b.rollers_per_row as f64 + row * stagger
-                } else {
-                    0.0
-                }
-            })
-            .collect();
-        for (k, defect) in s.defects.iter().enumerate() {
-            if let Some(file) = defect.shape.file() {
-                return Err(ModelError {
-                    key: format!("defects.{k}.shape"),
-                    value: file.to_string(),
-                    requirement: "a shape, not a file: read it first, with brinell_damage::resolve",
-                });
-            }
-        }
-        let defects = Defect::all(&s.defects, b, &s.contact).map_err(|k| ModelError {
-            key: format!("defects.{k}"),
-            value: format!("{:?}", s.defects[k]),
-            requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
-        })?;
-        let broad_phase = SIDES.map(|side| BroadPhase::new(&layout, &defects, side));
-        let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
-        let row_lanes = (0..layout.rows)
-            .map(|row| (0..layout.row_period()).map(own(row)).collect())
-            .collect();
-        let by_slot = |roller: f64, padding: f64| {
-            let mut column = Column::new(layout.slots, padding);
-            column[..layout.rollers()].fill(roller);
-            column
-        };
-        const NEVER_CLOSES: f64 = 1e3;
-        Ok(Self {
-            kind: s.simulation.model,
-            element: b.element,
-            roller_mask: by_slot(1.0, 0.0),
-            gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
-            pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
-            broad_phase,
-            row_lanes,
-            layout,
-            geometry,
-            inertia,
-            inner_contact: hertz(s.contact.inner_stiffness, Side::Inner),
-            outer_contact: hertz(s.contact.outer_stiffness, Side::Outer),
-            series_contact: Hertz {
-                stiffness: series_stiffness(
-                    s.contact.inner_stiffness,
-                    s.contact.outer_stiffness,
-                    s.contact.exponent,
-                ),
-                exponent,
-                damping: 0.5 * s.contact.damping_ns_per_m,
-                strips: None,
-            },
-            friction: Friction {
-                coefficient: s.friction.raceway_coefficient,
-                slip_velocity: s.friction.slip_velocity_m_per_s,
-            },
-            drag: drag_factor(
-                s.lubricant.drag_coefficient,
-                s.lubricant.effective_density_kg_per_m3,
-                // The area against the flow is L d, and pi d^2/4 of a ball.
-                match b.element {
-                    Element::Roller => geometry.roller_length,
-                    Element::Ball => FRAC_PI_2 * geometry.roller_radius,
-                },
-                2.0 * geometry.roller_radius,
-            ),
-            pocket: Pocket {
-                stiffness: c.contact_stiffness_n_per_m,
-                damping: c.contact_damping_ns_per_m,
-                clearance: 1e-3 * c.pocket_clearance_mm,
-            },
-            guidance: c.guidance,
-            guide: Guide {
-                // Where the rollers guide there is no film, and the land stops what strays.
-                film: (c.guidance != Guidance::Rollers).then_some(c.guidance_film),
-                viscosity: s.lubricant.viscosity_pa_s,
-                clearance: 1e-3 * c.guide_clearance_mm,
-                width: 1e-3 * c.guide_width_mm,
-                radius: if c.guidance == Guidance::InnerRing {
-                    cage_inner
-                } else {
-                    cage_outer
-                },
-                land_stiffness: c.contact_stiffness_n_per_m,
-                land_damping: match (c.guidance, c.guidance_film) {
-                    (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
-                    _ => c.contact_damping_ns_per_m,
-                },
-            },
-            inner_support: Support {
-                stiffness: s.support.inner_stiffness_n_per_m,
-                damping: s.support.inner_damping_ns_per_m,
-            },
-            outer_support: Support {
-                stiffness: s.support.outer_stiffness_n_per_m,
-                damping: s.support.outer_damping_ns_per_m,
-            },
-            rotation: Rotation::new(&s.operation.speed_rpm),
-            load: Load {
-                full: s.operation.load_n,
-                on: s.operation.load_on,
-                ramp: if s.simulation.start == Start::Equilibrium {
-                    0.0
-                } else {
-                    s.operation.load_ramp_s
-                },
-            },
-            gravity: s.operation.gravity_m_per_s2,
-            pocket_angle,
-            defects,
-            slices: sliced.then(|| {
-                let g = &geometry;
-                Slices::new(
-                    rules.slices,
-                    g.roller_length,
-                    2.0 * g.roller_radius,
-                    &b.profile,
-                )
-            }),
-            tilt: tilts.then(|| Tilt::new(s, &layout, &geometry, &inertia)),
-            rules,
-            start: s.simulation.start,
-        })
-    }
-
     /// Law of the contacts on `side`.
     #[inline]
     pub fn contact(&self, side: Side) -> &Hertz {
@@ -509,12 +319,4 @@ impl Model {
     pub fn accelerations_in<L: Lanes>(&self, t: f64, y: &[f64], a: &mut [f64], ws: &mut Workspace) {
         full::equations::<L>(self, t, y, a, ws);
     }
-}
-
-/// K_s of two contacts in series, K_s^(-1/n) = K_in^(-1/n) + K_out^(-1/n); 0 where either is.
-pub fn series_stiffness(inner: f64, outer: f64, n: f64) -> f64 {
-    if inner <= 0.0 || outer <= 0.0 {
-        return 0.0;
-    }
-    (inner.powf(-1.0 / n) + outer.powf(-1.0 / n)).powf(-n)
 }

@@ -227,20 +227,7 @@ fn between_raceways(
             ],
         }
     };
-    // Pressed against the raceway that the roller's own force leads to, as far as that force alone would, lying along it.
-    let deep = model.outer_contact.deflection(own.abs());
-    let guess = match own >= 0.0 {
-        true => [outer + deep, half * outer_slope],
-        false => [inner - deep, half * inner_slope],
-    };
-    let guess = if inner > outer {
-        [
-            0.5 * (inner + outer),
-            0.5 * half * (inner_slope + outer_slope),
-        ]
-    } else {
-        guess
-    };
+    let guess = first_guess(model, own, [inner, outer], [inner_slope, outer_slope]);
     // A tilted roller may touch at one end alone.
     let nearest = inner - outer + half * (inner_slope - outer_slope).abs();
     let scale = own
@@ -259,6 +246,28 @@ fn between_raceways(
         energy: i.energy + o.energy - own * r,
         contacts: [i, o],
         failed,
+    }
+}
+
+/// Where the search over (r, beta times half the roller's length) begins. In a gap the roller is pressed against the raceway that its own force
+/// leads to, as far as that force alone would, lying along it; else it is in the middle.
+fn first_guess(
+    model: &Model,
+    own: f64,
+    [inner, outer]: [f64; 2],
+    [inner_slope, outer_slope]: [f64; 2],
+) -> [f64; 2] {
+    let half = 0.5 * model.geometry.roller_length;
+    if inner > outer {
+        return [
+            0.5 * (inner + outer),
+            0.5 * half * (inner_slope + outer_slope),
+        ];
+    }
+    let deep = model.outer_contact.deflection(own.abs());
+    match own >= 0.0 {
+        true => [outer + deep, half * outer_slope],
+        false => [inner - deep, half * inner_slope],
     }
 }
 

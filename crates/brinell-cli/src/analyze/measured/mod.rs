@@ -102,67 +102,12 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
     let scenario = scenario(&file, &path);
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     let run = scenario.as_deref();
-    let mut asked = Vec::new();
-    let (name, channel) = match channel(&file, wanted, run, &mut notes)? {
-        Chosen::One(name, channel) => (name, channel),
-        Chosen::Among(channels, words) => {
-            asked.push(words);
-            // What any of them states is not asked for yet.
-            let states =
-                |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
-            let most = channels.into_iter().rev().max_by_key(states);
-            most.map(|c| (c.name.clone(), c))
-                .ok_or_else(|| asking(&path, &asked))?
-        }
-    };
-    let rate = rate(&mut file, &channel, wanted, run.is_some(), &mut warnings)?;
-    notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
-    let is_wav = file.kind() == FileKind::Wav;
-    let unit = unit(
-        &name,
-        &channel,
-        is_wav,
-        wanted,
-        run,
-        &mut notes,
-        &mut warnings,
-    )?;
-    asked.extend(rate.as_ref().err().cloned());
-    asked.extend(unit.as_ref().err().cloned());
-    if wanted.ask_speed && !states_speed(&file, wanted, run, &name) {
-        asked.push(ASK_SPEED.into());
-    }
-    if wanted.ask_bearing && run.is_none() {
-        asked.push(ASK_BEARING.into());
-    }
-    let (Ok((rate, _)), Ok(Scaled { unit, factor }), []) = (rate, unit, &asked[..]) else {
-        return Err(asking(&path, &asked));
-    };
-
-    let positive = |option: &str, value: Option<f64>, least: f64| match value {
-        Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
-            "{option} {v}: expected {} s",
-            if least == 0.0 {
-                "0 or more"
-            } else {
-                "more than 0"
-            }
-        ))),
-        _ => Ok(()),
-    };
-    positive("--start", wanted.start, 0.0)?;
-    positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
-    let settled = scenario.as_deref().map(settled);
-    let start = match (wanted.start, settled) {
-        (Some(start), _) => start,
-        (None, Some(settled)) => {
-            notes.push(format!(
-                "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
-            ));
-            settled
-        }
-        (None, None) => 0.0,
-    };
+    let Known {
+        name,
+        rate,
+        scaled: Scaled { unit, factor },
+    } = known(&mut file, &path, wanted, run, (&mut notes, &mut warnings))?;
+    let start = start(wanted, run, &mut notes)?;
     let skip = (start * rate).round() as usize;
     let most = match wanted.duration {
         Some(d) => ((d * rate).round() as usize).max(1),
@@ -190,13 +135,7 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         ));
     }
     let seconds = x.len() as f64 / rate;
-    let speed = speed(
-        &mut file,
-        wanted,
-        scenario.as_deref(),
-        &name,
-        (start, seconds, rate),
-    )?;
+    let speed = speed(&mut file, wanted, run, &name, (start, seconds, rate))?;
     Ok(Measured {
         beyond: long.then(|| Beyond {
             file,
@@ -215,6 +154,80 @@ pub(crate) fn load(path: &Path, wanted: &Wanted) -> Result<Measured, Failure> {
         warnings,
         speed,
         scenario,
+    })
+}
+
+/// What has to be known of a channel before it is read.
+struct Known {
+    name: String,
+    /// Hz.
+    rate: f64,
+    scaled: Scaled,
+}
+
+/// Channel, rate and unit; what is missing is asked for at once, speed and bearing with it.
+fn known(
+    file: &mut SignalFile,
+    path: &Path,
+    wanted: &Wanted,
+    run: Option<&Loaded>,
+    (notes, warnings): (&mut Vec<String>, &mut Vec<String>),
+) -> Result<Known, Failure> {
+    let mut asked = Vec::new();
+    let (name, channel) = match channel(file, wanted, run, notes)? {
+        Chosen::One(name, channel) => (name, channel),
+        Chosen::Among(channels, words) => {
+            asked.push(words);
+            // What any of them states is not asked for yet.
+            let states =
+                |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
+            let most = channels.into_iter().rev().max_by_key(states);
+            most.map(|c| (c.name.clone(), c))
+                .ok_or_else(|| asking(path, &asked))?
+        }
+    };
+    let rate = rate(file, &channel, wanted, run.is_some(), warnings)?;
+    notes.extend(rate.as_ref().ok().map(|(_, note)| note.clone()));
+    let is_wav = file.kind() == FileKind::Wav;
+    let unit = unit(&name, &channel, is_wav, wanted, run, notes, warnings)?;
+    asked.extend(rate.as_ref().err().cloned());
+    asked.extend(unit.as_ref().err().cloned());
+    if wanted.ask_speed && !states_speed(file, wanted, run, &name) {
+        asked.push(ASK_SPEED.into());
+    }
+    if wanted.ask_bearing && run.is_none() {
+        asked.push(ASK_BEARING.into());
+    }
+    match (rate, unit, &asked[..]) {
+        (Ok((rate, _)), Ok(scaled), []) => Ok(Known { name, rate, scaled }),
+        _ => Err(asking(path, &asked)),
+    }
+}
+
+/// Where the stretch begins, s: where it was wanted, or where a run's statistics begin.
+fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Result<f64, Failure> {
+    let positive = |option: &str, value: Option<f64>, least: f64| match value {
+        Some(v) if !(v.is_finite() && v >= least) => Err(usage(format!(
+            "{option} {v}: expected {} s",
+            if least == 0.0 {
+                "0 or more"
+            } else {
+                "more than 0"
+            }
+        ))),
+        _ => Ok(()),
+    };
+    positive("--start", wanted.start, 0.0)?;
+    positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
+    Ok(match (wanted.start, run.map(settled)) {
+        (Some(start), _) => start,
+        (None, Some(settled)) => {
+            notes.push(format!(
+                "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
+            ));
+            settled
+        }
+        (None, None) => 0.0,
     })
 }
 

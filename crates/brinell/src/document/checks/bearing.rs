@@ -34,8 +34,7 @@ impl Checker<'_> {
     pub(super) fn bearing(&mut self) {
         self.ways_to_clearance();
         let b = &self.s.bearing;
-        let (inner, outer) = (b.inner_raceway_diameter_mm, b.outer_raceway_diameter_mm);
-        let (pitch, d) = (b.pitch_diameter_mm, b.roller_diameter_mm);
+        let d = b.roller_diameter_mm;
         let clearance_mm = 1e-3 * (b.radial_clearance_um.abs() + b.outer_gap_um);
         if clearance_mm > LARGEST_CLEARANCE * d {
             let (key, factor) = self.clearance_key();
@@ -52,6 +51,16 @@ impl Checker<'_> {
             return;
         }
         self.clearance_unit();
+        if self.raceways(clearance_mm) {
+            self.spacing();
+        }
+    }
+
+    /// Whether the rollers fit between the raceways. `false` where the outer is not the larger one, and nothing else can be said.
+    fn raceways(&mut self, clearance_mm: f64) -> bool {
+        let b = &self.s.bearing;
+        let (inner, outer) = (b.inner_raceway_diameter_mm, b.outer_raceway_diameter_mm);
+        let (pitch, d) = (b.pitch_diameter_mm, b.roller_diameter_mm);
         let tolerance = (GEOMETRY_TOLERANCE * d).max(CLEARANCES * clearance_mm);
         let room = 0.5 * (outer - inner);
         if outer <= inner {
@@ -64,7 +73,7 @@ impl Checker<'_> {
                 format!("> {}", short(inner)),
                 &[INNER],
             );
-            return;
+            return false;
         }
         if (room - d).abs() > tolerance {
             self.error(
@@ -96,7 +105,13 @@ impl Checker<'_> {
                 &[INNER, OUTER, ROLLER],
             );
         }
-        let z = b.rollers_per_row;
+        true
+    }
+
+    /// Whether the rollers of a row have room beside each other.
+    fn spacing(&mut self) {
+        let b = &self.s.bearing;
+        let (pitch, d, z) = (b.pitch_diameter_mm, b.roller_diameter_mm, b.rollers_per_row);
         if z == 0 {
             return;
         }

@@ -235,25 +235,45 @@ impl Checker<'_> {
         if text.is_none() || (grid.depth_um.is_empty() && text.as_deref() != Some("[]")) {
             return;
         }
-        let (columns, rows) = (grid.columns, grid.rows);
-        let sizes = ["columns", "rows"].map(|name| self.shape_key(i, "depth_map", name));
-        let also = [sizes[0].as_str(), sizes[1].as_str()];
-        let count = grid.depth_um.len();
-        if columns == 0 || rows == 0 {
+        if grid.columns == 0 || grid.rows == 0 {
             return;
         }
+        let Some(map) = self.depths(i, &key, grid) else {
+            return;
+        };
+        self.raised_edges(&key, &map);
+        self.depth_map_on_raceway(i, defect, (&key, grid), &map);
+        let pieces = grid.columns as f64 * self.s.contact.slices as f64;
+        if self.s.contact.law == Law::Sliced && pieces > MOST_PIECES {
+            self.error(
+                &self.shape_key(i, "depth_map", "columns"),
+                format!(
+                    "{} columns in each of {} slices are more than memory should hold",
+                    grid.columns, self.s.contact.slices
+                ),
+                format!("columns times contact.slices <= {MOST_PIECES:e}"),
+                &["contact.slices"],
+            );
+        }
+    }
+
+    /// The depths as a grid, where there is one for each node and damage among them.
+    fn depths(&mut self, i: usize, key: &str, grid: &DepthGrid) -> Option<defect::Grid> {
+        let (columns, rows, count) = (grid.columns, grid.rows, grid.depth_um.len());
+        let sizes = ["columns", "rows"].map(|name| self.shape_key(i, "depth_map", name));
+        let also = [sizes[0].as_str(), sizes[1].as_str()];
         if count != columns.saturating_mul(rows) {
             self.error(
-                &key,
+                key,
                 format!("{count} depths for {columns} columns and {rows} rows"),
                 format!("a list of {} numbers", columns.saturating_mul(rows)),
                 &also,
             );
-            return;
+            return None;
         }
         if let Some(hole) = grid.depth_um.iter().position(|h| !h.is_finite()) {
             self.error(
-                &key,
+                key,
                 format!(
                     "no depth in row {}, column {}",
                     hole / columns + 1,
@@ -262,25 +282,27 @@ impl Checker<'_> {
                 "a finite number at every node; 0 where nothing is damaged".into(),
                 &[],
             );
-            return;
+            return None;
         }
-        let Some(map) = defect::Grid::new(grid) else {
-            let flat = grid.depth_um.iter().all(|h| *h == 0.0);
-            if flat {
-                self.error(
-                    &key,
-                    "every depth is 0: there is no damage".into(),
-                    "a depth other than 0 somewhere".into(),
-                    &[],
-                );
-            }
-            return;
-        };
+        let map = defect::Grid::new(grid);
+        if map.is_none() && grid.depth_um.iter().all(|h| *h == 0.0) {
+            self.error(
+                key,
+                "every depth is 0: there is no damage".into(),
+                "a depth other than 0 somewhere".into(),
+                &[],
+            );
+        }
+        map
+    }
+
+    /// What rises above the raceway, where it would not act.
+    fn raised_edges(&mut self, key: &str, map: &defect::Grid) {
         if map.extremes().1 < 0.0
             && (self.s.contact.law != Law::Sliced || self.s.simulation.model == ModelKind::Lumped)
         {
             self.error(
-                &key,
+                key,
                 format!(
                     "raised edges (the highest {} um) act only in contact.law = \"sliced\" of simulation.model = \"full\"",
                     short(-1e6 * map.extremes().1)
@@ -289,15 +311,24 @@ impl Checker<'_> {
                 &["contact.law", "simulation.model"],
             );
         }
+    }
+
+    fn depth_map_on_raceway(
+        &mut self,
+        i: usize,
+        defect: &Defect,
+        (key, grid): (&str, &DepthGrid),
+        map: &defect::Grid,
+    ) {
         let half = 0.5 * self.s.bearing.axial_reach_mm();
         let (low, high) = map.heights();
         let offset = defect.axial_offset_mm;
         let (low, high) = (1e3 * low + offset, 1e3 * high + offset);
         if low >= half || high <= -half {
-            self.on_raceway(i, defect, &key, map.heights());
+            self.on_raceway(i, defect, key, map.heights());
         } else if low < -half - grid.dz_mm || high > half + grid.dz_mm {
             self.warn(
-                &key,
+                key,
                 format!(
                     "damage from z = {} to {} mm goes off the raceway's edge; the roller covers -{3} to {3} mm and what is beyond is left out{2}",
                     short(low),
@@ -307,18 +338,6 @@ impl Checker<'_> {
                 ),
                 String::new(),
                 &[LENGTH],
-            );
-        }
-        let pieces = columns as f64 * self.s.contact.slices as f64;
-        if self.s.contact.law == Law::Sliced && pieces > MOST_PIECES {
-            self.error(
-                &sizes[0],
-                format!(
-                    "{columns} columns in each of {} slices are more than memory should hold",
-                    self.s.contact.slices
-                ),
-                format!("columns times contact.slices <= {MOST_PIECES:e}"),
-                &["contact.slices"],
             );
         }
     }

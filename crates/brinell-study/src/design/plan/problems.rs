@@ -1,0 +1,204 @@
+//! What no single key of a plan can say.
+
+use super::{Class, OutOfRange, Plan, Split};
+use crate::design::stream::Secret;
+use crate::design::template::Template;
+use brinell::document::reading::{Finder, brief_path, path_parts};
+use brinell::document::{Problem, Problems, Severity, locate, numberless};
+use std::collections::HashSet;
+
+/// Keys that vary in a class, or in all, at most: a scenario has some two hundred, and lists of defects.
+const MOST_VARIED: usize = 2000;
+
+/// The problems of a plan whose keys are sound one by one.
+pub(super) fn problems(plan: &Plan, text: &str, finder: &Finder) -> Vec<Problem> {
+    let mut checker = Checker {
+        plan,
+        text,
+        finder,
+        all: Problems::of(text),
+    };
+    if checker.few_enough_keys() {
+        checker.check();
+    }
+    checker.all.finish()
+}
+
+struct Checker<'a> {
+    plan: &'a Plan,
+    text: &'a str,
+    finder: &'a Finder<'a>,
+    all: Problems<'a>,
+}
+
+impl Checker<'_> {
+    /// An error at `key`; `value` is repeated where there is one.
+    fn add(&mut self, key: &str, value: &str, message: String, allowed: &str) {
+        self.all.add_of(Severity::Error, numberless(&message), || {
+            let place = self.finder.place(key).or_else(|| locate(self.text, key));
+            let mut problem = Problem::error(brief_path(key), message).allowed(allowed);
+            if !value.is_empty() {
+                problem = problem.value(value);
+            }
+            (problem.placed(place), None)
+        });
+    }
+
+    /// Whether so few keys vary that each can be looked at.
+    fn few_enough_keys(&mut self) -> bool {
+        for (what, template) in self.plan.templates() {
+            let count = template.settings().len();
+            if count > MOST_VARIED {
+                let allowed = format!("at most {MOST_VARIED} keys");
+                self.add(&what, "", format!("{count} keys vary"), &allowed);
+                return false;
+            }
+        }
+        true
+    }
+
+    fn check(&mut self) {
+        let plan = self.plan;
+        if !matches!(plan.vary, Template::Table(_)) {
+            self.add(
+                "vary",
+                "",
+                "expected a section [vary]".into(),
+                "keys of a scenario",
+            );
+        }
+        if plan.holds_out() && Secret::of(&plan.secret).is_none() {
+            // The value is not repeated: terminals keep what they show.
+            self.add(
+                "secret",
+                "",
+                "held_out needs a secret that cannot be guessed; whoever has it has the labels"
+                    .into(),
+                "32 or more hexadecimal digits drawn at random, such as `openssl rand -hex 16` prints",
+            );
+        }
+        if let Some(split) = &plan.split {
+            self.split(split);
+        }
+        if plan.signals.is_empty() {
+            self.add(
+                "signals",
+                "[]",
+                "a data set without signals".into(),
+                "channels, such as \"sensor_ax\"",
+            );
+        }
+        self.classes();
+        self.settings();
+    }
+
+    fn split(&mut self, split: &Split) {
+        if split.validation + split.test >= 1.0 {
+            self.add(
+                "split",
+                "",
+                format!(
+                    "validation and test take {} of the runs, and leave none to train with",
+                    split.validation + split.test
+                ),
+                "validation + test < 1",
+            );
+        }
+        if self.plan.out_of_range == OutOfRange::Redraw {
+            self.add(
+                "split",
+                "",
+                "a run that is drawn again leaves its group of conditions".into(),
+                "out_of_range = \"refuse\" or \"fail\" where runs are split",
+            );
+        }
+    }
+
+    fn classes(&mut self) {
+        let classes = &self.plan.classes;
+        let mut names = HashSet::new();
+        for (k, class) in classes.iter().enumerate() {
+            if class.name.is_empty() || !names.insert(class.name.as_str()) {
+                let why = if class.name.is_empty() {
+                    "a class needs a name"
+                } else {
+                    "the name comes twice"
+                };
+                self.add(
+                    &format!("classes.{k}.name"),
+                    &format!("{:?}", class.name),
+                    why.into(),
+                    "a name of its own for each class",
+                );
+            }
+            self.class(k, class);
+        }
+        if !classes.is_empty() && classes.iter().all(|class| class.share == 0.0) {
+            self.add(
+                "classes",
+                "",
+                "every class has a share of 0".into(),
+                "a class with a share above 0",
+            );
+        }
+    }
+
+    /// What varies in a class, and its defects.
+    fn class(&mut self, k: usize, class: &Class) {
+        let at = |name: &str| format!("classes.{k}.{name}");
+        if !matches!(class.vary, Template::Table(_)) {
+            self.add(
+                &at("vary"),
+                "",
+                "expected a section".into(),
+                "keys of a scenario",
+            );
+        }
+        if matches!(
+            &class.defects,
+            Some(Template::Fixed(_) | Template::Drawn(_) | Template::Table(_))
+        ) {
+            self.add(
+                &at("defects"),
+                "",
+                "expected [[classes.defects]] entries, or []".into(),
+                "a list of defects",
+            );
+        }
+        let common = &self.plan.vary;
+        if class.defects.is_some() && (common.sets("defects") || class.vary.sets("defects")) {
+            let why = "this class has defects of its own, which `vary` would change as well";
+            self.add(
+                &at("defects"),
+                "",
+                why.into(),
+                "defects in the class, or defects in vary",
+            );
+        }
+        for (path, _) in common.settings() {
+            if class.vary.sets(&path) {
+                self.add(
+                    &at(&format!("vary.{path}")),
+                    "",
+                    "set in [vary] too; a key varies in one place".into(),
+                    "",
+                );
+            }
+        }
+    }
+
+    /// The keys that vary, one by one.
+    fn settings(&mut self) {
+        for (what, template) in self.plan.templates() {
+            for (path, _) in template.settings() {
+                if let Err(message) = path_parts(&path) {
+                    self.add(&format!("{what}.{path}"), "", message, "");
+                }
+            }
+            let record = format!("{what}.simulation.record");
+            if template.sets("simulation.record") {
+                self.add(&record, "", "`signals` says what is recorded".into(), "");
+            }
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! A scenario as the model it stands for: from the file's names and units to SI.
+
+use super::{
+    BroadPhase, Geometry, Inertia, Kernel, Layout, Model, ModelError, Support, Tilt, check,
+};
+use crate::cage::{Guide, Pocket};
+use crate::contact::Hertz;
+use crate::contact::ball::{self, Strips};
+use crate::defect::{Defect, Rules, SIDES, Side};
+use crate::elementary::Exponent;
+use crate::friction::{Friction, drag_factor};
+use crate::kernel;
+use crate::lanes::Column;
+use crate::operation::{Load, Rotation};
+use crate::scenario::{
+    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RollerProfile,
+    Scenario, Start,
+};
+use crate::slices::Slices;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// The gap of padding, m: its contacts never close.
+const NEVER_CLOSES: f64 = 1e3;
+
+/// Millimetres of diameter to metres of radius.
+fn half_mm(diameter: f64) -> f64 {
+    0.5e-3 * diameter
+}
+
+impl Model {
+    /// The model of a scenario.
+    ///
+    /// # Errors
+    /// Where a value that the scenario's reader would have refused makes the model meaningless.
+    pub fn new(s: &Scenario) -> Result<Self, ModelError> {
+        check::check(s)?;
+        Kernel::chosen().map_err(|error| ModelError {
+            key: kernel::SETTING.into(),
+            value: format!("{:?}", error.value),
+            requirement: &error.requirement,
+        })?;
+        let (b, c) = (&s.bearing, &s.cage);
+        let geometry = Geometry::of(b);
+        let inertia = Inertia::of(b, c, &geometry);
+        let [inner_contact, outer_contact, series_contact] = contacts(s)?;
+        let tilts = s.simulation.model == ModelKind::Tilting;
+        let layout = Layout::new(b.rows, b.rollers_per_row, tilts);
+        let rules = Rules::new(&s.contact);
+        let defects = defects(s)?;
+        let by_slot = |roller: f64, padding: f64| {
+            let mut column = Column::new(layout.slots, padding);
+            column[..layout.rollers()].fill(roller);
+            column
+        };
+        Ok(Self {
+            kind: s.simulation.model,
+            element: b.element,
+            roller_mask: by_slot(1.0, 0.0),
+            gaps: [geometry.clearance, geometry.outer_gap].map(|gap| by_slot(gap, NEVER_CLOSES)),
+            pocket_gap: by_slot(1e-3 * c.pocket_clearance_mm, NEVER_CLOSES),
+            broad_phase: SIDES.map(|side| BroadPhase::new(&layout, &defects, side)),
+            row_lanes: row_lanes(&layout),
+            pocket_angle: pocket_angles(b, &layout),
+            inner_contact,
+            outer_contact,
+            series_contact,
+            friction: Friction {
+                coefficient: s.friction.raceway_coefficient,
+                slip_velocity: s.friction.slip_velocity_m_per_s,
+            },
+            drag: drag(b.element, &s.lubricant, &geometry),
+            pocket: Pocket {
+                stiffness: c.contact_stiffness_n_per_m,
+                damping: c.contact_damping_ns_per_m,
+                clearance: 1e-3 * c.pocket_clearance_mm,
+            },
+            guidance: c.guidance,
+            guide: guide(c, &s.lubricant),
+            inner_support: Support {
+                stiffness: s.support.inner_stiffness_n_per_m,
+                damping: s.support.inner_damping_ns_per_m,
+            },
+            outer_support: Support {
+                stiffness: s.support.outer_stiffness_n_per_m,
+                damping: s.support.outer_damping_ns_per_m,
+            },
+            rotation: Rotation::new(&s.operation.speed_rpm),
+            load: load(s),
+            gravity: s.operation.gravity_m_per_s2,
+            slices: slices(s, &rules, &geometry),
+            tilt: tilts.then(|| Tilt::new(s, &layout, &geometry, &inertia)),
+            start: s.simulation.start,
+            layout,
+            geometry,
+            inertia,
+            defects,
+            rules,
+        })
+    }
+}
+
+impl Geometry {
+    fn of(b: &Bearing) -> Self {
+        Self {
+            inner_radius: half_mm(b.inner_raceway_diameter_mm),
+            outer_radius: half_mm(b.outer_raceway_diameter_mm),
+            pitch_radius: half_mm(b.pitch_diameter_mm),
+            roller_radius: half_mm(b.roller_diameter_mm),
+            roller_length: 1e-3 * b.roller_length_mm,
+            clearance: 1e-6 * b.radial_clearance_um,
+            outer_gap: 1e-6 * b.outer_gap_um,
+        }
+    }
+}
+
+impl Inertia {
+    fn of(b: &Bearing, c: &Cage, geometry: &Geometry) -> Self {
+        let (cage_inner, cage_outer) = (half_mm(c.inner_diameter_mm), half_mm(c.outer_diameter_mm));
+        Self {
+            inner_ring: b.inner_ring_mass_kg,
+            outer_ring: b.outer_ring_mass_kg,
+            roller: b.roller_mass_kg,
+            roller_spin: match b.element {
+                Element::Roller => 0.5,
+                Element::Ball => 0.4,
+            } * b.roller_mass_kg
+                * geometry.roller_radius.powi(2),
+            cage: c.mass_kg,
+            cage_spin: 0.5 * c.mass_kg * (cage_inner.powi(2) + cage_outer.powi(2)),
+        }
+    }
+}
+
+/// Laws of the inner contacts, of the outer, and of both in series.
+fn contacts(s: &Scenario) -> Result<[Hertz; 3], ModelError> {
+    let (b, contact) = (&s.bearing, &s.contact);
+    let exponent = Exponent::new(contact.exponent);
+    let ellipses = match b.element {
+        Element::Roller => None,
+        Element::Ball => Some(ball::ellipses(b, contact).ok_or_else(|| ModelError {
+            key: "bearing.inner_groove_conformity".into(),
+            value: format!("{:?}", b.inner_groove_conformity),
+            requirement: "balls need both conformities, a modulus and Poisson's ratio, and grooves wider than the ball",
+        })?),
+    };
+    let hertz = |stiffness, side: Side| Hertz {
+        stiffness,
+        exponent,
+        damping: contact.damping_ns_per_m,
+        strips: ellipses.map(|e| Strips::new(stiffness, e[side as usize].across)),
+    };
+    let (inner, outer) = (contact.inner_stiffness, contact.outer_stiffness);
+    Ok([
+        hertz(inner, Side::Inner),
+        hertz(outer, Side::Outer),
+        Hertz {
+            stiffness: series_stiffness(inner, outer, contact.exponent),
+            exponent,
+            damping: 0.5 * contact.damping_ns_per_m,
+            strips: None,
+        },
+    ])
+}
+
+/// K_s of two contacts in series, K_s^(-1/n) = K_in^(-1/n) + K_out^(-1/n); 0 where either is.
+pub fn series_stiffness(inner: f64, outer: f64, n: f64) -> f64 {
+    if inner <= 0.0 || outer <= 0.0 {
+        return 0.0;
+    }
+    (inner.powf(-1.0 / n) + outer.powf(-1.0 / n)).powf(-n)
+}
+
+/// Damage, its files read before.
+fn defects(s: &Scenario) -> Result<Vec<Defect>, ModelError> {
+    for (k, defect) in s.defects.iter().enumerate() {
+        if let Some(file) = defect.shape.file() {
+            return Err(ModelError {
+                key: format!("defects.{k}.shape"),
+                value: file.to_string(),
+                requirement: "a shape, not a file: read it first, with brinell_damage::resolve",
+            });
+        }
+    }
+    Defect::all(&s.defects, &s.bearing, &s.contact).map_err(|k| ModelError {
+        key: format!("defects.{k}"),
+        value: format!("{:?}", s.defects[k]),
+        requirement: "rows and rollers count from 1, and the shape must make sense: lists equally long, arcs that do not go back, polygons with area, grids without holes",
+    })
+}
+
+/// alpha of each slot, rad; 0 for padding.
+fn pocket_angles(b: &Bearing, layout: &Layout) -> Column {
+    let stagger = b.row_stagger_deg.to_radians();
+    (0..layout.slots)
+        .map(|slot| {
+            let (row, roller) = (layout.row(slot) as f64, layout.roller(slot) as f64);
+            if slot < layout.rollers() {
+                TAU * roller / b.rollers_per_row as f64 + row * stagger
+            } else {
+                0.0
+            }
+        })
+        .collect()
+}
+
+fn row_lanes(layout: &Layout) -> Vec<Column> {
+    let own = |row| move |slot| f64::from(u8::from(layout.row(slot) == row));
+    (0..layout.rows)
+        .map(|row| (0..layout.row_period()).map(own(row)).collect())
+        .collect()
+}
+
+/// Drag of a roller, kg/m.
+fn drag(element: Element, lubricant: &Lubricant, geometry: &Geometry) -> f64 {
+    drag_factor(
+        lubricant.drag_coefficient,
+        lubricant.effective_density_kg_per_m3,
+        // The area against the flow is L d, and pi d^2/4 of a ball.
+        match element {
+            Element::Roller => geometry.roller_length,
+            Element::Ball => FRAC_PI_2 * geometry.roller_radius,
+        },
+        2.0 * geometry.roller_radius,
+    )
+}
+
+fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {
+    Guide {
+        // Where the rollers guide there is no film, and the land stops what strays.
+        film: (c.guidance != Guidance::Rollers).then_some(c.guidance_film),
+        viscosity: lubricant.viscosity_pa_s,
+        clearance: 1e-3 * c.guide_clearance_mm,
+        width: 1e-3 * c.guide_width_mm,
+        radius: half_mm(if c.guidance == Guidance::InnerRing {
+            c.inner_diameter_mm
+        } else {
+            c.outer_diameter_mm
+        }),
+        land_stiffness: c.contact_stiffness_n_per_m,
+        land_damping: match (c.guidance, c.guidance_film) {
+            (Guidance::OuterRing | Guidance::InnerRing, GuidanceFilm::QuasiStatic) => 0.0,
+            _ => c.contact_damping_ns_per_m,
+        },
+    }
+}
+
+fn load(s: &Scenario) -> Load {
+    Load {
+        full: s.operation.load_n,
+        on: s.operation.load_on,
+        ramp: if s.simulation.start == Start::Equilibrium {
+            0.0
+        } else {
+            s.operation.load_ramp_s
+        },
+    }
+}
+
+/// The slices, where rollers tilt or have a profile.
+fn slices(s: &Scenario, rules: &Rules, geometry: &Geometry) -> Option<Slices> {
+    let profiled = rules.law == Law::Sliced && s.bearing.profile != RollerProfile::Straight;
+    (profiled || s.simulation.model == ModelKind::Tilting).then(|| {
+        Slices::new(
+            rules.slices,
+            geometry.roller_length,
+            2.0 * geometry.roller_radius,
+            &s.bearing.profile,
+        )
+    })
+}
