@@ -2,7 +2,7 @@
 
 use brinell::document::Problem;
 use brinell::random::mix;
-use brinell_study::design::{Draws, OutOfRange, Part, Plan, Survey};
+use brinell_study::design::{Draws, OutOfRange, Part, Plan, Survey, Value};
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
@@ -199,6 +199,51 @@ fn prop_designs_fill_each_distribution_evenly() {
     }
 }
 
+/// Were each class a design of its own, a run left out would lie in the part that its class has vacant.
+#[test]
+fn prop_no_vacancy_of_a_design_tells_the_class_of_a_run() {
+    let plan = |design: &str| {
+        let class = |k: usize| {
+            format!(
+                "[[classes]]\nname = 'c{k}'\nvary.bearing.radial_clearance_um = {{ uniform = [1, 2] }}\n"
+            )
+        };
+        let classes: String = (0..4).map(class).collect();
+        format!(
+            "base = 'b'\nruns = 240\ndesign = '{design}'\n[vary]\noperation.speed_rpm = {{ uniform = [0, 1] }}\n\
+             operation.load_n = [{{ uniform = [0, 1] }}, {{ uniform = [0, 1] }}]\n{classes}"
+        )
+    };
+    for design in ["latin-hypercube", "sobol", "random"] {
+        let draws = draws(&plan(design));
+        let values: Vec<Vec<f64>> = (0..240)
+            .map(|run| {
+                let draw = draws.first(BASE, run).unwrap();
+                let of = |v: &Option<Value>| v.as_ref().unwrap().number.unwrap();
+                draw.values[..3].iter().map(of).collect()
+            })
+            .collect();
+        // Every fourth in an order that is not the classes'.
+        let left_out = |run: usize| (run / 4 + run) % 4 == 0;
+        let mut right = 0;
+        for run in (0..240).filter(|run| left_out(*run)) {
+            let vacant = |class: usize| {
+                let mine = |other: &usize| draws.class(*other) == class && !left_out(*other);
+                let part = |x: f64| (60.0 * x) as usize;
+                let vacant = |k: &usize| {
+                    let mut others = (0..240).filter(mine);
+                    !others.any(|other| part(values[other][*k]) == part(values[run][*k]))
+                };
+                (0..3).filter(vacant).count()
+            };
+            let guess = (0..4).max_by_key(|class| vacant(*class)).unwrap();
+            right += usize::from(guess == draws.class(run));
+        }
+        // Binomial at chance: 15 of 60, standard deviation 3.4; beyond 4.5 of them it tells.
+        assert!(right < 30, "{design}: {right} of 60");
+    }
+}
+
 #[test]
 fn prop_grids_are_crossed_and_come_equally_often() {
     let plan = "base = 'b'\nruns = 24\n[vary]\noperation.speed_rpm = { grid = '1000:3000:1000' }\nsimulation.model = { grid = ['full', 'lumped'] }\n\
@@ -337,27 +382,18 @@ fn prop_nothing_that_is_seen_of_a_held_out_run_tells_its_class() {
         let off = ones.count() as f64 - 0.5 * of_these.len() as f64;
         assert!(off.abs() < 2.0 * (of_these.len() as f64).sqrt(), "{off}");
     }
-    // The design is filled by the open runs alone: one in each slice of a class, and no slice is left over for a run that is held out.
+    // The design is filled by the open runs alone: one in each slice, and no slice is left over for a run that is held out.
     let speeds = numbers(&draws, "operation.speed_rpm");
-    for class in [0, 1] {
-        let mine = |run: &&usize| draws.class(**run) == class;
-        let of_class = open.iter().filter(mine).count();
-        assert_eq!(of_class, draws.open_runs_of(class));
-        let slice = |run: &usize| ((speeds[*run] - 1000.0) / 2000.0 * of_class as f64) as usize;
-        let slices: std::collections::HashSet<usize> =
-            open.iter().filter(mine).map(slice).collect();
-        // Nine digits may move one over an edge.
-        assert!(
-            slices.len() + 5 > of_class,
-            "{} of {of_class}",
-            slices.len()
-        );
-        let apart: std::collections::HashSet<usize> = held.iter().filter(mine).map(slice).collect();
-        assert!(
-            apart.len() < 3 * of_class / 4,
-            "at random, two fall into one slice"
-        );
-    }
+    let slices = |runs: &[usize]| {
+        let slice = |run: &usize| ((speeds[*run] - 1000.0) / 2000.0 * open.len() as f64) as usize;
+        let slices: std::collections::HashSet<usize> = runs.iter().map(slice).collect();
+        slices.len()
+    };
+    // Nine digits may move one over an edge.
+    let filled = slices(&open);
+    assert!(filled + 5 > open.len(), "{filled} of {}", open.len());
+    // At random, two fall into one slice.
+    assert!(slices(&held) < 3 * open.len() / 4);
 }
 
 /// x of mix(x).

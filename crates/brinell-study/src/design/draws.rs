@@ -4,12 +4,13 @@ mod drawn;
 
 use super::distribution::{Distribution, KINDS, Value};
 use super::plan::{OutOfRange, Plan};
+use super::sequence::Sequence;
 use super::split::{self, Part};
 use super::stream::{Secret, bits, seed, unit, word};
 use super::turns::{APART, Place, places};
 use brinell::document::reading::{Node, Toml, parse, quote};
 use brinell::document::{Loaded, Problem, read};
-use drawn::Drawn;
+use drawn::{Drawn, common_axes, sequence};
 
 /// Times that a run is drawn before its class counts as impossible.
 const MOST_ATTEMPTS: u64 = 1000;
@@ -69,6 +70,10 @@ pub struct Draws {
     secret: Option<Secret>,
     classes: Vec<Drawn>,
     places: Vec<Place>,
+    /// Keys of `[vary]` that are drawn, and where: over all runs together.
+    common: (usize, Sequence),
+    /// Each run's place there, shuffled, so that it says nothing of the class.
+    order: Vec<u32>,
     parts: Vec<Part>,
     parameters: Vec<Parameter>,
 }
@@ -91,11 +96,17 @@ impl Draws {
         if !problems.is_empty() {
             return Err(problems);
         }
+        let order = shuffled(&plan, &places);
+        let common = common_axes(&plan);
+        let open = order.iter().filter(|place| **place != APART).count();
+        let common = (common, sequence(&plan, u64::MAX, common, open));
         let mut draws = Self {
             plan,
             secret,
             classes,
             places,
+            common,
+            order,
             parts: Vec::new(),
             parameters,
         };
@@ -194,11 +205,15 @@ impl Draws {
         let class = &self.classes[class as usize];
         let own = word(&self.parameters[class.axes[axis].parameter].key);
         // A second draw has no place in the design, nor has a run whose labels are held out: the place would tell the class.
-        if attempt == 0
-            && number != APART
-            && let Some(place) = class.sequence.place(number as usize, axis)
-        {
-            return place;
+        if attempt == 0 && number != APART {
+            let (common, together) = &self.common;
+            let place = match axis.checked_sub(*common) {
+                None => together.place(self.order[run] as usize, axis),
+                Some(own) => class.sequence.place(number as usize, own),
+            };
+            if let Some(place) = place {
+                return place;
+            }
         }
         unit(self.own_bits(run, &[attempt, own]))
     }
@@ -347,6 +362,18 @@ impl Draws {
     pub fn first(&self, base: &str, run: usize) -> Result<Draw, Vec<Problem>> {
         self.draw(base, run, 0)
     }
+}
+
+/// Place of every run among those that the design spreads, in an order of its own; [`APART`] where labels are held out.
+fn shuffled(plan: &Plan, places: &[Place]) -> Vec<u32> {
+    let open = (0..places.len()).filter(|run| places[*run].number != APART);
+    let mut open: Vec<usize> = open.collect();
+    open.sort_by_cached_key(|run| bits(&[plan.seed, word("order"), *run as u64]));
+    let mut order = vec![APART; places.len()];
+    for (place, run) in open.into_iter().enumerate() {
+        order[run] = place as u32;
+    }
+    order
 }
 
 /// What was to be set and has no place in the base: most often a distribution whose name is misspelt, and so a key below a number.

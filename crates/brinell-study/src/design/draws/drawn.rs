@@ -19,7 +19,9 @@ pub(super) struct Drawn {
     /// All of its runs, and those of them that the design spreads.
     pub(super) runs: usize,
     pub(super) open: usize,
+    /// The keys of `[vary]` first, as in every class.
     pub(super) axes: Vec<Axis>,
+    /// Of the class's own keys.
     pub(super) sequence: Sequence,
     /// Settings of all grids together.
     pub(super) combinations: usize,
@@ -36,6 +38,7 @@ impl Drawn {
     ) -> Self {
         let class = &plan.classes[c];
         let axes = axes(plan, class, parameters);
+        let own = axes.len() - common_axes(plan);
         let combinations = axes
             .iter()
             .fold(1_usize, |product, axis| match &axis.distribution {
@@ -45,10 +48,11 @@ impl Drawn {
         if combinations > open && open > 0 {
             problems.push(too_few_runs(plan, class, open, combinations));
         }
-        let sequence = sequence(plan, c, axes.len(), open).unwrap_or_else(|problem| {
-            problems.push(problem);
-            Sequence::Random
-        });
+        if plan.design == Design::Sobol && axes.len() > Sobol::MOST {
+            problems.push(too_many_keys(class, axes.len()));
+        }
+        let sequence = sequence(plan, c as u64, own, open);
+
         Self {
             runs,
             open,
@@ -116,22 +120,30 @@ fn too_few_runs(plan: &Plan, class: &Class, runs: usize, combinations: usize) ->
         ))
 }
 
-/// Where `runs` runs of class `c` draw.
-fn sequence(plan: &Plan, c: usize, dimensions: usize, runs: usize) -> Result<Sequence, Problem> {
-    let own = bits(&[plan.seed, word("design"), c as u64]);
-    Ok(match plan.design {
+fn too_many_keys(class: &Class, keys: usize) -> Problem {
+    let message = format!("class {:?} draws {keys} keys", class.name);
+    let allowed = format!(
+        "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
+        Sobol::MOST
+    );
+    Problem::error("design", message)
+        .value("\"sobol\"")
+        .allowed(allowed)
+}
+
+/// Keys that all classes draw.
+pub(super) fn common_axes(plan: &Plan) -> usize {
+    let mut found = Vec::new();
+    plan.vary.distributions("", &mut found);
+    found.len()
+}
+
+/// Where `runs` runs draw so many keys; `own` tells the designs of a plan apart.
+pub(super) fn sequence(plan: &Plan, own: u64, keys: usize, runs: usize) -> Sequence {
+    let seed = bits(&[plan.seed, word("design"), own]);
+    match plan.design {
         Design::Random => Sequence::Random,
-        Design::LatinHypercube => Sequence::latin(own, dimensions, runs),
-        Design::Sobol if dimensions > Sobol::MOST => {
-            let message = format!("class {:?} draws {dimensions} keys", plan.classes[c].name);
-            let allowed = format!(
-                "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
-                Sobol::MOST
-            );
-            return Err(Problem::error("design", message)
-                .value("\"sobol\"")
-                .allowed(allowed));
-        }
-        Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
-    })
+        Design::LatinHypercube => Sequence::latin(seed, keys, runs),
+        Design::Sobol => Sequence::Sobol(Sobol::new(keys.min(Sobol::MOST)).shifted(seed)),
+    }
 }
