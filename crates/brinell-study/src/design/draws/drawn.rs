@@ -45,10 +45,7 @@ impl Drawn {
         if combinations > open && open > 0 {
             problems.push(too_few_runs(plan, class, open, combinations));
         }
-        let sequence = sequence(plan, c, axes.len(), open).unwrap_or_else(|problem| {
-            problems.push(problem);
-            Sequence::Random
-        });
+        let sequence = sequence(plan, c, axes.len(), open, problems);
         Self {
             runs,
             open,
@@ -117,9 +114,15 @@ fn too_few_runs(plan: &Plan, class: &Class, runs: usize, combinations: usize) ->
 }
 
 /// Where `runs` runs of class `c` draw.
-fn sequence(plan: &Plan, c: usize, dimensions: usize, runs: usize) -> Result<Sequence, Problem> {
+fn sequence(
+    plan: &Plan,
+    c: usize,
+    dimensions: usize,
+    runs: usize,
+    problems: &mut Vec<Problem>,
+) -> Sequence {
     let own = bits(&[plan.seed, word("design"), c as u64]);
-    Ok(match plan.design {
+    match plan.design {
         Design::Random => Sequence::Random,
         Design::LatinHypercube => Sequence::latin(own, dimensions, runs),
         Design::Sobol if dimensions > Sobol::MOST => {
@@ -128,10 +131,13 @@ fn sequence(plan: &Plan, c: usize, dimensions: usize, runs: usize) -> Result<Seq
                 "up to {} keys in a Sobol sequence; \"latin-hypercube\" has no limit",
                 Sobol::MOST
             );
-            return Err(Problem::error("design", message)
-                .value("\"sobol\"")
-                .allowed(allowed));
+            problems.push(
+                Problem::error("design", message)
+                    .value("\"sobol\"")
+                    .allowed(allowed),
+            );
+            Sequence::Random
         }
         Design::Sobol => Sequence::Sobol(Sobol::new(dimensions).shifted(own)),
-    })
+    }
 }
