@@ -239,16 +239,19 @@ fn damage(page: &mut String, report: &Report) {
     }
     for (index, view) in report.damage.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
-        let caption = if view.half_turn_mm.is_some() {
-            "The damaged surface unrolled, both axes to one scale. The grey band is the roller’s surface, once around."
-        } else {
-            "The damaged surface unrolled, both axes to one scale. The grey band is the track, as wide as a roller is long or a ball thick."
+        let band = match (view.half_turn_mm, view.element()) {
+            (Some(_), element) => format!("the {}’s surface, once around", escape(element)),
+            (None, "ball") => "the track, as wide as a ball is thick".into(),
+            (None, _) => "the track, as wide as a roller is long".into(),
         };
+        let caption = format!(
+            "The damaged surface unrolled, both axes to one scale. The grey band is {band}."
+        );
         figure(
             page,
             &format!("damage{index}"),
             |layout| damage_plan(view, index, layout),
-            caption,
+            &caption,
         );
         fact_table(page, &view.facts, "Nothing is known of its size.");
         if !view.passage.is_empty() {

@@ -225,8 +225,8 @@ pub fn slip_over_time(rows: &[SlipRow], layout: Layout) -> Picture {
         rows,
         &[
             ("Cage slip", curves(|r| &r.cage)),
-            ("Rollers’ orbit slip", curves(|r| &r.orbit)),
-            ("Rollers’ spin slip", curves(|r| &r.spin)),
+            ("Rolling elements’ orbit slip", curves(|r| &r.orbit)),
+            ("Rolling elements’ spin slip", curves(|r| &r.spin)),
         ],
     )
 }
@@ -251,11 +251,11 @@ pub(crate) fn slip_over_angle(rows: &[SlipRow], layout: Layout) -> Picture {
     panels(
         ("slip-angle", "Slip over the place in the bearing"),
         layout,
-        ("Orbit angle of the roller", "°"),
+        ("Orbit angle of the rolling element", "°"),
         rows,
         &[
-            ("Rollers’ orbit slip", curves(|r| &r.orbit_there)),
-            ("Rollers’ spin slip", curves(|r| &r.spin_there)),
+            ("Rolling elements’ orbit slip", curves(|r| &r.orbit_there)),
+            ("Rolling elements’ spin slip", curves(|r| &r.spin_there)),
         ],
     )
 }
@@ -275,12 +275,12 @@ pub(crate) fn section(page: &mut String, report: &Report) {
         page,
         "slip-time",
         |layout| slip_over_time(&report.slip_rows, layout),
-        "How far speeds stay behind pure rolling, as a share of it: means over short stretches of time, of all rollers of a row.",
+        "How far speeds stay behind pure rolling, as a share of it: means over short stretches of time, of all rolling elements of a row.",
     );
     figure(
         page,
         "slip-angle",
         |layout| slip_over_angle(&report.slip_rows, layout),
-        "The same over the roller’s place, counter-clockwise from +X: means after the start-up.",
+        "The same over the rolling element’s place, counter-clockwise from +X: means after the start-up.",
     );
 }

@@ -11,10 +11,10 @@ pub fn damage_passage(view: &DamageView, index: usize, layout: Layout) -> Pictur
         &format!("damage-{}-passage", index + 1),
         [&view.title, &view.passage_title],
         (
-            if view.half_turn_mm.is_some() {
-                "Angle on the roller from the defect’s centre"
+            &if view.half_turn_mm.is_some() {
+                format!("Angle on the {} from the defect’s centre", view.element())
             } else {
-                "Angle from the defect’s centre"
+                "Angle from the defect’s centre".to_owned()
             },
             "°",
         ),

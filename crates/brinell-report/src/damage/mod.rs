@@ -17,6 +17,8 @@ pub struct DamageView {
     pub title: String,
     /// "outer raceway".
     pub surface: String,
+    /// What rolls over it: "roller" (also where it is empty) or "ball".
+    pub element: String,
     /// What the view from above shows, as the picture's heading.
     pub plan_title: String,
     /// What the curves over the angle show.
@@ -69,6 +71,16 @@ pub struct AlongRoller {
     pub panels: Vec<DamagePanel>,
     /// Forces and lengths, and by which law.
     pub note: String,
+}
+
+impl DamageView {
+    /// What rolls over the damage, for words.
+    pub(crate) fn element(&self) -> &str {
+        match self.element.is_empty() {
+            true => "roller",
+            false => &self.element,
+        }
+    }
 }
 
 /// Depths at the nodes of a grid.

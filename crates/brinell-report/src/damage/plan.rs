@@ -20,7 +20,9 @@ pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let deepest = plan.draw_damage();
     plan.draw_against();
     plan.draw_rims();
-    let mut entries = plan.draw_rollers();
+    let words = contact_words(view);
+    let paints = plan.draw_rollers();
+    let mut entries: Vec<(&str, Paint)> = words.iter().map(String::as_str).zip(paints).collect();
     if !view.against_mm.is_empty() {
         entries.push((&view.against, against()));
     }
@@ -204,8 +206,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Lines of contact as the damage and a roller meet; words of the legend.
-    fn draw_rollers(&mut self) -> Vec<(&'a str, Paint)> {
+    /// Lines of contact as the damage and a roller meet; paints of the legend.
+    fn draw_rollers(&mut self) -> [Paint; 2] {
         let first = self.extent[0];
         let line = Paint::line(ink::BLUE, 2.4);
         let Some(half) = self.half_turn else {
@@ -213,10 +215,7 @@ impl<'a> Plan<'a> {
             let above = [first - self.radius, first + self.radius].map(|s| self.chart.x.at(s));
             self.draw_line_of_contact(first, line);
             self.draw(self.band(above), true, hint);
-            return vec![
-                ("line of contact as the roller comes on", line),
-                ("the roller above it", hint),
-            ];
+            return [line, hint];
         };
         let hint = Paint::line(ink::BLUE, 2.0).dashed(&[5.0, 4.0]);
         let other = match first > 0.0 {
@@ -225,10 +224,7 @@ impl<'a> Plan<'a> {
         };
         self.draw_line_of_contact(other, hint);
         self.draw_line_of_contact(first, line);
-        vec![
-            ("line of contact as the damage comes to it", line),
-            ("the contact with the other raceway then", hint),
-        ]
+        [line, hint]
     }
 
     fn draw_line_of_contact(&mut self, s: f64, paint: Paint) {
@@ -263,9 +259,23 @@ impl<'a> Plan<'a> {
     }
 }
 
+/// Words for the two lines of [`Plan::draw_rollers`].
+fn contact_words(view: &DamageView) -> [String; 2] {
+    match view.half_turn_mm {
+        Some(half) if half.is_finite() && half > 0.0 => [
+            "line of contact as the damage comes to it".into(),
+            "the contact with the other raceway then".into(),
+        ],
+        _ => [
+            format!("line of contact as the {} comes on", view.element()),
+            format!("the {} above it", view.element()),
+        ],
+    }
+}
+
 fn along(view: &DamageView, around_a_roller: bool) -> String {
     if around_a_roller {
-        "Around the roller, rolling direction".to_owned()
+        format!("Around the {}, rolling direction", view.element())
     } else if view.surface.is_empty() {
         "Along the raceway, rolling direction".to_owned()
     } else {

@@ -16,16 +16,10 @@ pub(super) fn curve(name: &str, values: Vec<f64>) -> DamageCurve {
     }
 }
 
-pub(super) fn section(defect: &Defect, thickness: f64) -> (Vec<f64>, Vec<DamagePanel>) {
-    let under = sections(
-        &defect.shape,
-        defect.depth,
-        defect.roller_length,
-        thickness,
-        POINTS,
-    );
+pub(super) fn section(defect: &Defect, width: f64, thickness: f64) -> (Vec<f64>, Vec<DamagePanel>) {
+    let under = sections(&defect.shape, defect.depth, width, thickness, POINTS);
     // The whole section to both sides, to hold the damaged one against.
-    let whole = Section::new(defect.roller_length, thickness, 0.0, 0.0);
+    let whole = Section::new(width, thickness, 0.0, 0.0);
     let (first, last) = defect.shape.arc();
     let pad = 0.1 * (last - first);
     let mut all = vec![(first - pad, whole), (first, whole)];

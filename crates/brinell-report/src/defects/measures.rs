@@ -3,6 +3,7 @@
 use crate::number::short;
 use crate::{Fact, Value};
 use brinell::defect::{Defect, Shape};
+use brinell::scenario::Bearing;
 
 /// One defect's numbers; lengths in mm, depths in um.
 #[derive(Debug, Clone, Copy)]
@@ -60,14 +61,14 @@ pub(super) fn deepest(defect: &Defect) -> (f64, f64) {
     (own, defect.shape.raised())
 }
 
-pub(super) fn facts(m: &Measures, defect: &Defect) -> Vec<Fact> {
+pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
     let fact = |label: &str, value: f64, digits: usize, unit: &str, note: String| {
         Fact::new(label, Value::Text(short(value, digits)), unit, note)
     };
     let none = String::new;
     let floor = if m.deepest_um > m.approach_um {
         format!(
-            "deeper than the elastic deformation of {} μm: a roller's line does not reach the bottom",
+            "deeper than the elastic deformation of {} μm: the line of contact does not reach the bottom",
             short(m.approach_um, 3)
         )
     } else {
@@ -91,8 +92,11 @@ pub(super) fn facts(m: &Measures, defect: &Defect) -> Vec<Fact> {
             4,
             "mm",
             format!(
-                "largest L_s; the roller is {} mm long",
-                short(1e3 * defect.roller_length, 4)
+                "largest L_s; the {}",
+                match bearing.has_balls() {
+                    true => format!("ball is {} mm thick", short(bearing.roller_diameter_mm, 4)),
+                    false => format!("roller is {} mm long", short(bearing.roller_length_mm, 4)),
+                }
             ),
         ),
         fact("Area", m.area_mm2, 4, "mm^2", none()),

@@ -100,11 +100,12 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
         .panels();
         let thickness =
             1e-3 * thickness_mm.unwrap_or(THICKNESS_SHARE * s.bearing.roller_diameter_mm);
+        let element = s.bearing.element.word();
         let through = deepest >= thickness;
         let (section_s_mm, section) = if is_roller || through {
             (Vec::new(), Vec::new())
         } else {
-            section(defect, thickness)
+            section(defect, ring_width(s), thickness)
         };
         let by_force = force.map_or("no static balance, assumed".to_owned(), |f| {
             format!(
@@ -144,7 +145,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
                 }
                 _ => {
                     format!(
-                        "{title}. What a passing roller meets; K at a deformation of {deformation}"
+                        "{title}. What a passing {element} meets; K at a deformation of {deformation}"
                     )
                 }
             },
@@ -152,14 +153,15 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
                 "{title}. Section under it of a ring {} mm thick",
                 short(1e3 * thickness, 3)
             ),
+            element: element.into(),
             surface: match defect.surface {
                 Surface::OuterRaceway => "outer raceway".into(),
                 Surface::InnerRaceway => "inner raceway".into(),
-                Surface::Roller(_) => "roller".into(),
+                Surface::Roller(_) => element.into(),
             },
             half_turn_mm: is_roller.then_some(0.5e3 * TAU * defect.radius),
             title,
-            facts: facts(&measures, defect),
+            facts: facts(&measures, &s.bearing),
             polygons_mm: in_place(&s.defects[k], &defect.shape),
             against_mm: Vec::new(),
             against: String::new(),
@@ -186,7 +188,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
             section_s_mm,
             section,
             section_note: if is_roller {
-                "section properties describe rings; this damage is on a roller".into()
+                format!("section properties describe rings; this damage is on a {element}")
             } else if through {
                 format!(
                     "the damage is deeper than the ring is thick, {} mm ({assumed}): no section is left",
@@ -194,14 +196,27 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
                 )
             } else {
                 format!(
-                    "ring {} mm thick ({assumed}), as wide as the roller is long; as in the paper, these do not enter the equations of motion",
-                    short(1e3 * thickness, 3)
+                    "ring {} mm thick ({assumed}), as wide as {}; as in the paper, these do not enter the equations of motion",
+                    short(1e3 * thickness, 3),
+                    match s.bearing.has_balls() {
+                        true => "the bearing",
+                        false => "the roller is long",
+                    }
                 )
             },
         };
         all.push(Damage { measures, view });
     }
     Ok(all)
+}
+
+/// Width of the ring whose section is taken, m: a roller's length, or of a ball bearing its own.
+fn ring_width(s: &Scenario) -> f64 {
+    let b = &s.bearing;
+    match b.has_balls() {
+        true => 1e-3 * b.width_mm,
+        false => 1e-3 * b.roller_length_mm,
+    }
 }
 
 /// The damage seen from above where it lies, mm.

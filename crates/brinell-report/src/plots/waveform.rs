@@ -116,7 +116,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
                 .filter(|event| event.kind == kind && event.t_s.is_finite())
                 .map(|event| Mark {
                     x: event.t_s * scale,
-                    name: format!("Roller {} {label}", event.label),
+                    name: format!("Rolling element {} {label}", event.label),
                     label: event.label.clone(),
                 })
                 .collect();

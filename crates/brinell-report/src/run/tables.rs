@@ -86,17 +86,17 @@ pub(super) fn slip(parts: &Parts) -> Vec<Fact> {
         let entries = [
             ("cage", fields::CAGE_SLIP, "behind its pure-rolling speed"),
             (
-                "loaded rollers, orbit",
+                "loaded rolling elements, orbit",
                 fields::LOADED_ORBIT_SLIP,
                 "behind their pure-rolling orbit speed",
             ),
             (
-                "loaded rollers, inner contact",
+                "loaded rolling elements, inner contact",
                 fields::LOADED_SURFACE_SLIP,
                 "mean |slip| over the raceway's surface speed",
             ),
             (
-                "unloaded rollers, orbit",
+                "unloaded rolling elements, orbit",
                 fields::UNLOADED_ORBIT_SLIP,
                 "behind their pure-rolling orbit speed",
             ),
@@ -178,7 +178,7 @@ pub(super) fn audits(parts: &Parts) -> Vec<Fact> {
     facts.push(mj(
         "Parametric work of defects",
         e.parametric,
-        "stiffness that changes under a roller; no body pays for it in the paper's model",
+        "stiffness that changes under a rolling element; no body pays for it in the paper's model",
     ));
     facts.push(mj(
         "Centred levers",

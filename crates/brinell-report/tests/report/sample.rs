@@ -25,6 +25,7 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
     DamageView {
         title: text.into(),
         surface: text.into(),
+        element: text.into(),
         plan_title: text.into(),
         passage_title: text.into(),
         section_title: text.into(),

@@ -242,7 +242,7 @@ impl Leaf for String {
     }
 
     fn expected(_: &Spec) -> String {
-        "a string".into()
+        "a string in quotes".into()
     }
 
     fn read(node: &Node, spec: &Spec) -> Result<String, Misfit> {
