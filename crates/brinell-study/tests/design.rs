@@ -224,7 +224,7 @@ fn prop_no_vacancy_of_a_design_tells_the_class_of_a_run() {
             })
             .collect();
         // Every fourth in an order that is not the classes'.
-        let left_out = |run: usize| (run / 4 + run) % 4 == 0;
+        let left_out = |run: usize| (run / 4 + run).is_multiple_of(4);
         let mut right = 0;
         for run in (0..240).filter(|run| left_out(*run)) {
             let vacant = |class: usize| {
