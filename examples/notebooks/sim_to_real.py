@@ -187,7 +187,11 @@ def simulated(data, copies=4, seed=1, noise=True, lines=True):
         orders = {part: times * row[key] / shaft_hz for part, times, key in zip(PARTS, (1, 1, 2), frequencies)}
         label = {"class": row["class"].split("-")[0], "kind": row["class"], "run": row["run"]}
         label |= {"force_n": max(row["entry_force_n"], default=0.0), "cage_slip": row["cage_slip"][0]}
-        start = resampled(np.asarray(row["sensor_ay"], float), row["sample_rate_hz"])[int(0.05 * RATE) :]
+        try:
+            start = resampled(np.asarray(row["sensor_ay"], float), row["sample_rate_hz"])[int(0.05 * RATE) :]
+            segment(start, shaft_hz)
+        except ValueError as error:
+            raise ValueError(f"run {row['run']}: {error}, less 0.05 s at the start") from None
         for copy in range(copies):
             rng = np.random.default_rng([seed, row["run"], copy])
             rows.append(label | features(machine(rng, start, shaft_hz, orders, noise, lines), shaft_hz, orders))

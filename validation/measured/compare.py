@@ -5,7 +5,7 @@
 RECORDS is a folder with records.csv (docs/src/measured.md says which records), BRINELL the command. `brinell calibrate` fits the sensor of `drive-end.toml` to one record; all others are predicted with what it
 found, by the size, depth and place of their pits and by their speed alone. Prints the state of the fit and two Markdown tables and writes measured.png to FOLDER (out/measured). Needs the brinell package, NumPy, SciPy and matplotlib.
 
-Intervals of a record's numbers are 95 %, from resampling its eight segments of half a second. A statement counts bearings, each the mean of its two speeds: of three and more, the mean and its
+A record's numbers are means of eight segments of half a second, in the last columns measured and predicted. A statement counts bearings, each the mean of its two speeds: of three and more, the mean and its
 95 % Student interval; of one, both speeds and no interval.
 """
 
@@ -113,27 +113,13 @@ def numbers(x, record):
     }
 
 
-def interval(values, rng=np.random.default_rng(1), draws=4000):
-    """Mean and its 95 % interval from resampling."""
-    values = np.asarray(values, float)
-    means = values[rng.integers(0, len(values), (draws, len(values)))].mean(axis=1)
-    return values.mean(), *np.quantile(means, [0.025, 0.975])
-
-
-def said(values, digits=0):
-    if len(values) == 1:
-        return f"{values[0]:.{digits}f}"
-    mean, low, high = interval(values)
-    return f"{mean:.{digits}f} ({low:.{digits}f} to {high:.{digits}f})"
-
-
 def record_table(rows):
-    print("| record | RMS, m/s², measured | predicted | harmonics, of 5 | modulation, dB, measured | predicted | sidebands over harmonics, dB, measured | predicted |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
-    for record, m, s in rows:
-        rms = [f"{10 ** (interval(v['rms'])[0] / 20):.2f} ({10 ** (interval(v['rms'])[1] / 20):.2f} to {10 ** (interval(v['rms'])[2] / 20):.2f})" for v in (m, s)]
+    print("| record | RMS, m/s², measured | predicted | harmonics, of 5 | modulation, dB | sidebands over harmonics, dB |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    for record, *sides in rows:
         name = record["id"].removesuffix("_DE12") + (" (fitted)" if record["id"] == FITTED else "")
-        print(f"| {name} | {rms[0]} | {rms[1]} | {m['present']}, {s['present']} | {said(m['depth'])} | {said(s['depth'])} | {said(m['sides'])} | {said(s['sides'])} |")
+        rms = " | ".join(f"{10 ** (np.mean(v['rms']) / 20):.2f}" for v in sides)
+        print(f"| {name} | {rms} |", " | ".join(", ".join(f"{np.mean(v[key]):.0f}" for v in sides) for key in ("present", "depth", "sides")), "|")
 
 
 def statements(rows):
@@ -160,7 +146,7 @@ def statements(rows):
     }
     level = lambda v: np.mean(v["rms"])
     for group, bearings in sorted(groups.items()):
-        for text, what in list(shapes.items())[: 1 if "without" in group else 4]:
+        for text, what in list(shapes.items())[: 1 if "without" in group or "unloaded" in group else 4]:
             if group != "healthy" or text.startswith("mod"):
                 yield f"{group}: {text}", [[(what(m), what(s)) for counts, m, s in speeds if counts] for speeds in bearings.values()]
     every = {key: speeds for bearings in groups.values() for key, speeds in bearings.items()}
