@@ -191,7 +191,7 @@ def simulated(data, copies=4, seed=1, noise=True, lines=True):
             start = resampled(np.asarray(row["sensor_ay"], float), row["sample_rate_hz"])[int(0.05 * RATE) :]
             segment(start, shaft_hz)
         except ValueError as error:
-            raise ValueError(f"run {row['run']}: {error}, less 0.05 s at the start") from None
+            raise ValueError(f"run {row['run']}: {error}, its first 0.05 s left out") from None
         for copy in range(copies):
             rng = np.random.default_rng([seed, row["run"], copy])
             rows.append(label | features(machine(rng, start, shaft_hz, orders, noise, lines), shaft_hz, orders))
