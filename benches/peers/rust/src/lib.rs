@@ -24,7 +24,7 @@ fn load(path: &str, overrides: &[(&str, String)]) -> Loaded {
 }
 
 /// Where each coordinate of the tables' layout stands in brinell's: r of every roller (row by row), theta, phi, then x, y, theta of
-/// each cage and x, y of the inner and the outer ring.
+/// each cage, tilts where there are any (beta of every roller, slopes of the inner and the outer ring), and x, y of the inner and the outer ring.
 pub fn coordinates(l: &Layout) -> Vec<usize> {
     let rollers: Vec<usize> = (0..l.rows)
         .flat_map(|row| (0..l.rollers_per_row).map(move |roller| l.slot(row, roller)))
@@ -37,18 +37,33 @@ pub fn coordinates(l: &Layout) -> Vec<usize> {
     let of_rings = [l.inner(), l.outer()]
         .into_iter()
         .flat_map(|at| [at, at + 1]);
-    of_rollers.chain(of_cages).chain(of_rings).collect()
+    let betas = rollers.iter().map(|slot| l.beta() + slot);
+    let slopes = [l.inner_tilt(), l.outer_tilt()]
+        .into_iter()
+        .flat_map(|at| [at, at + 1]);
+    let tilts = betas.chain(slopes).filter(|_| l.tilts);
+    of_rollers
+        .chain(of_cages)
+        .chain(tilts)
+        .chain(of_rings)
+        .collect()
 }
 
 /// The radius that turns each coordinate of the tables' layout into a length on a surface.
 pub fn levers(model: &Model) -> Vec<f64> {
     let (l, g) = (&model.layout, &model.geometry);
     let n = l.rollers();
-    let mut lever = vec![1.0; 3 * n + 3 * l.rows + 4];
+    let planar = 3 * n + 3 * l.rows;
+    let tilts = if l.tilts { n + 4 } else { 0 };
+    let mut lever = vec![1.0; planar + tilts + 4];
     lever[n..2 * n].fill(g.pitch_radius);
     lever[2 * n..3 * n].fill(g.roller_radius);
     for row in 0..l.rows {
         lever[3 * n + 3 * row + 2] = g.pitch_radius;
+    }
+    if l.tilts {
+        lever[planar..planar + n].fill(0.5 * g.roller_length);
+        lever[planar + n..planar + tilts].fill(g.pitch_radius);
     }
     lever
 }
