@@ -585,7 +585,10 @@ fn regress_bad_plans_are_told_with_key_line_and_range() {
             long.as_str(),
             vec!["the path of a key has 40 parts; there are at most 32"],
         ),
-        ("runs = 3", vec!["base: missing: a string in quotes is required"]),
+        (
+            "runs = 3",
+            vec!["base: missing: a string in quotes is required"],
+        ),
         (
             "base = 'b'\nruns = 0",
             vec!["line 2: runs = 0: out of range", "allowed: 1 to 1e6"],
