@@ -123,7 +123,7 @@ def test_xval_analysis_is_that_of_the_command(command, examples, tmp_path):
     # The pages tell from where signal, speed and bearing come, and differ there alone.
     run(command, "analyze", tmp_path / "signals.npz", "--channel", "sensor_ax", "-o", tmp_path / "page", "-q")
     page = (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
-    title = re.search("<title>(.*?) · brinell</title>", page)[1]
+    title = re.search(r'subtitle">(.*?), [0-9.]+ s at', page)[1]
     own = found.to_html(title)
 
     def sections(page):
