@@ -3,13 +3,17 @@
 use super::curves::curve;
 use crate::number::short;
 use crate::{AlongRoller, DamagePanel};
-use brinell::lamina::{ContactLine, LoadAlong};
+use brinell::lamina::{AtRest, ContactLine};
 use brinell::scenario::Scenario;
 
-/// Of the roller over a defect (from 0), or of the one in the middle of the load zone. `None` where rollers have no slices, or nothing holds the
-/// rings against the load.
-pub(crate) fn along_roller(s: &Scenario, defect: Option<usize>) -> Option<AlongRoller> {
-    let load = LoadAlong::of(s, defect).ok()??;
+/// Of the roller in the middle of the load zone. `None` where rollers have no slices, or nothing holds the rings against the load.
+pub(crate) fn along_healthy_roller(s: &Scenario) -> Option<AlongRoller> {
+    along_roller(&AtRest::of(s).ok()??, None)
+}
+
+/// Of the roller over a defect (from 0), or of the one in the middle of the load zone.
+pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<AlongRoller> {
+    let load = at_rest.over(defect).ok()?;
     let sides = [(1, "outer"), (0, "inner")];
     let conditions = || {
         let damaged = load.damaged.as_ref().map(|pair| ("damaged", pair));

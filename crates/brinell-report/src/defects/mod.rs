@@ -7,10 +7,12 @@ mod passage;
 
 use crate::DamageView;
 use crate::number::short;
-pub(crate) use along::along_roller;
+pub(crate) use along::along_healthy_roller;
+use along::along_roller;
 use brinell::defect::simplify::Extent;
 use brinell::defect::{Shape, Side, wrap};
 use brinell::derived::defect_passes;
+use brinell::lamina::AtRest;
 use brinell::model::{Model, ModelError};
 use brinell::observe::passes::place;
 use brinell::scenario::{self, Scenario, Surface};
@@ -51,6 +53,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
     })?;
     let passes = defect_passes(&model);
     let statics = static_load_zone(&healthy).ok();
+    let at_rest = AtRest::of(s).ok().flatten();
     let mut all = Vec::new();
     for (k, defect) in model.defects.iter().enumerate() {
         let side = match defect.surface {
@@ -184,7 +187,7 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
                     None => "",
                 }
             ),
-            along: along_roller(s, Some(k)),
+            along: at_rest.as_ref().and_then(|r| along_roller(r, Some(k))),
             section_s_mm,
             section,
             section_note: if is_roller {

@@ -57,7 +57,7 @@ fn report(parts: &Parts) -> Report {
             .collect(),
         load_distribution: load_distribution(parts),
         along: match scenario.defects.is_empty() {
-            true => crate::defects::along_roller(scenario, None),
+            true => crate::defects::along_healthy_roller(scenario),
             false => None,
         },
         indicators: indicators(parts),

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::model::Model;
 use crate::scenario::{Bearing, Scenario, Surface};
 use crate::slices::{Approach, Cover, Slices};
-use crate::statics::{NoBalance, Problem, solve, static_load_zone};
+use crate::statics::{NoBalance, Problem, StaticLoadZone, solve, static_load_zone};
 
 /// Places along damage among which the weakest is looked for.
 const PLACES: usize = 401;
@@ -29,13 +29,35 @@ pub struct LoadAlong {
 }
 
 impl LoadAlong {
-    /// Over the defect with this index: damage of the outer raceway where it lies, of the inner one or of a roller turned into the middle of the
-    /// load zone, a roller's towards the outer raceway. Without an index, or where that is of no defect, the roller in the middle of the load zone.
-    /// `None` where rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
+    /// Of one roller, as [`AtRest::over`] says.
+    ///
+    /// # Errors
+    /// As for [`AtRest::of`].
+    pub fn of(s: &Scenario, defect: Option<usize>) -> Result<Option<Self>, Error> {
+        match AtRest::of(s)? {
+            Some(at_rest) => at_rest.over(defect).map(Some),
+            None => Ok(None),
+        }
+    }
+}
+
+/// A bearing at rest with and without its damage: what [`LoadAlong`] of each defect is taken from.
+#[derive(Debug)]
+pub struct AtRest {
+    bearing: Bearing,
+    healthy: Model,
+    model: Model,
+    /// Of the healthy bearing.
+    zone: StaticLoadZone,
+    slices: Slices,
+}
+
+impl AtRest {
+    /// Of a scenario; `None` where rollers have no slices (`law = "ecl"`, the lumped model), and of balls.
     ///
     /// # Errors
     /// Where the scenario makes no model, or nothing holds the rings against the load.
-    pub fn of(s: &Scenario, defect: Option<usize>) -> Result<Option<Self>, Error> {
+    pub fn of(s: &Scenario) -> Result<Option<Self>, Error> {
         let Some(s) = in_slices(s) else {
             return Ok(None);
         };
@@ -46,31 +68,42 @@ impl LoadAlong {
         let zone = static_load_zone(&healthy)?;
         let model = Model::new(&s)?;
         let slices = slices_of(&model, &s.bearing);
+        Ok(Some(Self {
+            bearing: s.bearing,
+            healthy,
+            model,
+            zone,
+            slices,
+        }))
+    }
+
+    /// Over the defect with this index: damage of the outer raceway where it lies, of the inner one or of a roller turned into the middle of the
+    /// load zone, a roller's towards the outer raceway. Without an index, or where that is of no defect, the roller in the middle of the load zone.
+    ///
+    /// # Errors
+    /// Where nothing holds the rings against the load.
+    pub fn over(&self, defect: Option<usize>) -> Result<LoadAlong, Error> {
+        let (model, slices) = (&self.model, &self.slices);
         let over = defect.and_then(|k| model.defects.get(k)).map(|defect| {
-            let pressed = model.deflection(Side::Outer, zone.largest);
-            (defect, weakest(&model, &slices, defect, pressed))
+            let pressed = model.deflection(Side::Outer, self.zone.largest);
+            (defect, weakest(model, slices, defect, pressed))
         });
-        let (problem, slot) = at_rest(&model, over, zone.middle);
+        let (problem, slot) = at_rest(model, over, self.zone.middle);
         let contacts = |model: &Model| -> Result<_, Error> {
             let balance = solve(model, &problem)?;
-            Ok(lines(
-                model,
-                &s.bearing,
-                &slices,
-                (&problem, &balance),
-                slot,
-            ))
+            let balanced = (&problem, &balance);
+            Ok(lines(model, &self.bearing, slices, balanced, slot))
         };
         let damaged = match model.defects.is_empty() {
             true => None,
-            false => Some(contacts(&model)?),
+            false => Some(contacts(model)?),
         };
-        Ok(Some(Self {
+        Ok(LoadAlong {
             z: slices.z[..slices.count].to_vec(),
             drop: slices.drop[..slices.count].to_vec(),
-            healthy: contacts(&healthy)?,
+            healthy: contacts(&self.healthy)?,
             damaged,
-        }))
+        })
     }
 }
 
