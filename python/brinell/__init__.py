@@ -23,6 +23,7 @@ from brinell._brinell import ReadError, RunError, ScenarioError, SignalError, __
 from brinell.analysis import Analysis, analyze
 from brinell.damage import circle, defect, depth_map, image, outline, rectangle, svg
 from brinell.datasets import DataSet, Plan
+from brinell.notebook import studio
 from brinell.result import Result
 from brinell.runs import simulate, simulate_many
 from brinell.scenario import Scenario, ScenarioWarning, bearings, schema, template
@@ -83,6 +84,7 @@ __all__ = [
     "spectrogram",
     "spectrum",
     "static_analysis",
+    "studio",
     "svg",
     "sweep",
     "template",

@@ -284,16 +284,23 @@ def bearings() -> dict[str, str]:
     return dict(_brinell.bearings())
 
 
-def schema() -> dict[str, Any]:
+def schema(*, plan: bool = False) -> dict[str, Any]:
     """JSON Schema of the scenario file.
+
+    Parameters
+    ----------
+    plan : bool
+        Of a data set's plan instead.
 
     Examples
     --------
     >>> import brinell
     >>> sorted(brinell.schema()["properties"])[:3]
     ['bearing', 'cage', 'contact']
+    >>> brinell.schema(plan=True)["required"]
+    ['base', 'runs']
     """
-    loaded: dict[str, Any] = json.loads(_brinell.schema())
+    loaded: dict[str, Any] = json.loads(_brinell.schema(plan))
     return loaded
 
 

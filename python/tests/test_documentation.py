@@ -36,7 +36,7 @@ def test_prop_every_public_name_is_explained():
                     assert member.__doc__, f"{name}.{part}"
 
 
-@pytest.mark.parametrize("name", ["README.md", "docs/src/python.md"])
+@pytest.mark.parametrize("name", ["docs/src/python.md"])
 def test_prop_examples_of_the_texts_run(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     program = blocks(name)

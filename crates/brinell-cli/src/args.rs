@@ -12,10 +12,12 @@ use std::path::PathBuf;
 #[command(
     name = "brinell",
     version,
+    long_version = crate::version::long(),
     after_help = "First steps:\n  \
-        brinell init bearing.toml           write a commented scenario to edit\n  \
+        brinell init bearing.toml           write a scenario to edit\n  \
         brinell check bearing.toml          see what it means before it runs\n  \
-        brinell run bearing.toml -o out     simulate; then open out/report.html\n\n\
+        brinell run bearing.toml -o out     simulate\n  \
+        brinell open out                    look at the report in a browser\n\n\
         Exit codes: 0 done, 1 the run failed or a result could not be written (to standard output included), 2 bad input, 130 a run interrupted (what was computed is kept; an \
         interrupted sweep or comparison ends with 1)."
 )]
@@ -31,8 +33,8 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Validate a scenario and print what follows from it, without running
     Check(CheckArgs),
-    /// Write a commented scenario to start from (the paper's NN3007 with a rectangular defect)
-    Init(InitArgs),
+    /// Write a scenario to start from: a bearing and what is to be simulated of it
+    Init(crate::init::InitArgs),
     /// List the bearings known by name, or show one with the source of every number
     Bearing {
         #[command(subcommand)]
@@ -51,14 +53,24 @@ pub(crate) enum Command {
     Sweep(crate::sweep::SweepArgs),
     /// Compare scenarios: signals, spectra, contact over the defect, impacts, ratios with intervals
     Compare(crate::compare::CompareArgs),
+    /// Say what differs between two scenarios, key by key, defaults included; nothing is run
+    Diff(crate::diff::DiffArgs),
     /// Run the experiments of Li et al. (2023) and compare each of the paper's sentences with them
     Reproduce(crate::reproduce::ReproduceArgs),
     /// Fit keys within bounds to targets or a measured signal; says how sure the values are, and which the data leave open
     Calibrate(Box<crate::calibrate::CalibrateArgs>),
     /// Make a data set of thousands of labelled signals from a plan; merge and verify data sets
     Dataset(Box<crate::dataset::DatasetArgs>),
-    /// Print the JSON Schema of scenario files, for editors and generators
-    Schema,
+    /// Draw damage on a running bearing and hear it: a page on this machine with the engine behind it
+    Studio(crate::studio::StudioArgs),
+    /// Print the JSON Schema of scenario files, or of a data set's plans, for editors and generators
+    Schema(SchemaArgs),
+    /// Open a page of results in the browser
+    Open(crate::open::OpenArgs),
+    /// Print the script that completes this command's words in a shell
+    Completions(crate::shell::CompletionsArgs),
+    /// Write the manual pages of this command and its subcommands into a folder
+    Man(crate::shell::ManArgs),
 }
 
 /// Scenario and overrides.
@@ -123,9 +135,15 @@ pub(crate) struct RunArgs {
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
+    /// Open report.html in the browser when the run is over; of one scenario
+    #[arg(long, conflicts_with = "no_report")]
+    pub(crate) open: bool,
     /// Replace the results of another scenario or command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
+    /// Print the numbers of summary.json as JSON, and no words; of one scenario
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -172,22 +190,27 @@ pub(crate) struct CheckArgs {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct InitArgs {
-    /// File to write; standard output where left out
-    pub(crate) file: Option<PathBuf>,
-    /// Overwrite an existing file
+pub(crate) struct SchemaArgs {
+    /// Of the plans of `brinell dataset`
     #[arg(long)]
-    pub(crate) force: bool,
+    pub(crate) plan: bool,
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BearingCommand {
     /// List the catalogue, and the bearings of public data sets
-    List,
+    List {
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
     /// Show one bearing with the source of every number
     Show {
-        /// A name of the list, such as NN3007
+        /// A name of the list, such as NN3007; suffixes do no harm: "NU 206 ECP"
         name: String,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
     },
 }
 

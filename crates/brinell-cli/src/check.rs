@@ -5,7 +5,7 @@ mod lamina;
 use crate::args::CheckArgs;
 use crate::failure::{Failure, print_problems};
 use crate::files;
-use crate::say::{document, one_line, say, short, significant};
+use crate::say::{document, one_line, plain_number, say, short, significant};
 use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
@@ -36,8 +36,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     say!("");
     let element = b.element.word();
     let size = match b.element {
-        Element::Roller => format!("{} x {} mm", b.roller_diameter_mm, b.roller_length_mm),
-        Element::Ball => format!("of {} mm", b.roller_diameter_mm),
+        Element::Roller => format!(
+            "{} x {} mm",
+            plain_number(b.roller_diameter_mm),
+            plain_number(b.roller_length_mm)
+        ),
+        Element::Ball => format!("of {} mm", plain_number(b.roller_diameter_mm)),
     };
     say!(
         "Bearing   {}{} row(s) of {} {}s {size} on a {} mm pitch circle",
@@ -47,13 +51,13 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         b.rows,
         b.rollers_per_row,
         element,
-        b.pitch_diameter_mm,
+        plain_number(b.pitch_diameter_mm),
     );
     say!("Clearance {}", clearance(b));
     say!("Rating    {}", rating(s));
     let at = match s.operation.speed_rpm {
-        Speed::Constant(rpm) if rpm < 0.0 => format!("at {} r/min, clockwise", -rpm),
-        Speed::Constant(rpm) => format!("at {rpm} r/min, counter-clockwise"),
+        Speed::Constant(rpm) if rpm < 0.0 => format!("at {} r/min, clockwise", plain_number(-rpm)),
+        Speed::Constant(rpm) => format!("at {} r/min, counter-clockwise", plain_number(rpm)),
         Speed::Profile(_) => format!(
             "at the top speed, {} r/min",
             short(60.0 * d.top_speed / TAU, 5)
@@ -168,7 +172,8 @@ fn clearance(b: &Bearing) -> String {
     let diametral = 2.0 * b.radial_clearance_um;
     let both = format!(
         "{} um on one side, {} um on the diameter",
-        b.radial_clearance_um, diametral
+        plain_number(b.radial_clearance_um),
+        plain_number(diametral)
     );
     if diametral < 0.0 {
         return format!("{both}: preload");
@@ -244,7 +249,7 @@ fn even_pressures(s: &Scenario, model: &Model, force: f64) {
     let [inner, outer] = pressures(s, force).map(|p| short(1e-6 * p, 4));
     say!(
         "  contact pressure        {inner} MPa at the inner raceway, {outer} MPa at the outer one; static limit {} MPa",
-        1e-6 * static_limit(&s.bearing)
+        plain_number(1e-6 * static_limit(&s.bearing))
     );
     for (k, defect) in model.defects.iter().enumerate() {
         if let Some((left, pressure)) = pressure_beside(model, &s.bearing, k, force) {

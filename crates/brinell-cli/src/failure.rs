@@ -31,6 +31,8 @@ pub(crate) enum Failure {
     Picture(brinell_report::Error),
     /// The run failed.
     Run(brinell::Error),
+    /// A page cannot be shown; why.
+    NotOpened(String),
     /// Standard output does not take what is said; why.
     Unsaid(String),
 }
@@ -48,7 +50,11 @@ impl Failure {
                 | IoError::NotAFileName { .. }
                 | IoError::Busy { .. },
             ) => BAD_INPUT,
-            Self::Write(_) | Self::Picture(_) | Self::Run(_) | Self::Unsaid(_) => 1,
+            Self::Write(_)
+            | Self::Picture(_)
+            | Self::Run(_)
+            | Self::NotOpened(_)
+            | Self::Unsaid(_) => 1,
         })
     }
 
@@ -59,7 +65,7 @@ impl Failure {
                 let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
                 texts.join("\n")
             }
-            Self::Usage(message) => message.clone(),
+            Self::Usage(message) | Self::NotOpened(message) => message.clone(),
             Self::Read(path, error) => format!("cannot read {}: {error}", path.display()),
             Self::Write(error) => error.to_string(),
             Self::Picture(error) => error.to_string(),
@@ -86,7 +92,9 @@ impl Failure {
                 text,
                 problems,
             } => print_problems(name, text, problems),
-            Self::Usage(message) => complain!("error: {of}{message}"),
+            Self::Usage(message) | Self::NotOpened(message) => {
+                complain!("error: {of}{message}");
+            }
             Self::Read(path, error) => complain!("error: cannot read {}: {error}", path.display()),
             Self::Write(error) => complain!("error: {of}{error}"),
             Self::Picture(error) => complain!("error: {of}{error}"),

@@ -66,6 +66,14 @@ impl Source {
         &self.overrides
     }
 
+    /// The photos of its defects with the outlines read from them, on a page's scale.
+    pub(crate) fn photos(&self) -> Vec<Option<brinell_damage::Photo>> {
+        let unread = read_bytes(&self.bytes, &self.overrides);
+        unread.map_or(Vec::new(), |loaded| {
+            brinell_damage::photos(&loaded.scenario, folder(&self.path))
+        })
+    }
+
     /// The scenario with `settings` over the overrides; its warnings go to standard error unless `quiet`.
     pub(crate) fn load(
         &self,

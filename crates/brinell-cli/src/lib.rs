@@ -10,16 +10,22 @@ mod check;
 mod compare;
 mod dataset;
 mod defect;
+mod diff;
 mod failure;
 mod files;
+mod init;
 mod inputs;
 mod look_up;
+mod open;
 mod progress;
 mod reproduce;
 mod results;
 mod run;
 mod say;
+mod shell;
+mod studio;
 mod sweep;
+mod version;
 
 use args::{Cli, Command};
 use brinell::kernel::Kernel;
@@ -101,18 +107,35 @@ fn allow_open_files() {
 
 fn run_command(command: Command) -> Result<ExitCode, Failure> {
     match command {
-        Command::Run(args) => run::run(&args),
+        Command::Run(mut args) => {
+            args.quiet |= args.json;
+            run::run(&args)
+        }
         Command::Check(args) => check::check(&args),
-        Command::Init(args) => look_up::init(&args),
+        Command::Init(args) => init::init(&args),
         Command::Bearing { command } => look_up::bearing(&command),
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
         Command::Sweep(args) => sweep::sweep(&args),
-        Command::Calibrate(args) => calibrate::calibrate(&args),
-        Command::Compare(args) => compare::side_by_side(&args),
-        Command::Reproduce(args) => reproduce::reproduce(&args),
+        Command::Calibrate(mut args) => {
+            args.quiet |= args.json;
+            calibrate::calibrate(&args)
+        }
+        Command::Compare(mut args) => {
+            args.quiet |= args.json;
+            compare::side_by_side(&args)
+        }
+        Command::Reproduce(mut args) => {
+            args.quiet |= args.json;
+            reproduce::reproduce(&args)
+        }
         Command::Dataset(args) => dataset::dataset(&args),
-        Command::Schema => look_up::schema(),
+        Command::Studio(args) => studio::studio(&args),
+        Command::Schema(args) => look_up::schema(&args),
+        Command::Diff(args) => diff::diff(&args),
+        Command::Open(args) => open::open(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }

@@ -1,58 +1,40 @@
-//! The commands that look things up: `init`, `bearing`, `frequencies`, `schema`.
+//! The commands that look things up: `bearing`, `frequencies`, `schema`.
 
-use crate::args::{BearingCommand, FrequenciesArgs, InitArgs, ScenarioArgs};
+use crate::args::{BearingCommand, FrequenciesArgs, ScenarioArgs, SchemaArgs};
 use crate::failure::Failure;
 use crate::files;
-use crate::say::{document, say};
+use crate::say::{document, plain_number, say};
 use brinell::analysis::NamedBearing;
 use brinell::bearing::KnownBearing;
-use brinell::bearing::catalogue::{self, Datum, Entry};
+use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
+use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::kinematics::Geometry;
-use brinell::scenario::Speed;
-use brinell_io::atomic_write;
+use brinell::scenario::{Element, Speed};
+use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
-    let template = brinell::document::template();
-    let Some(file) = &args.file else {
-        document(template.trim_end());
-        return Ok(ExitCode::SUCCESS);
+pub(crate) fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
+    let schema = match args.plan {
+        true => brinell_study::design::plan_schema(),
+        false => brinell::document::json_schema(),
     };
-    if file.exists() && !args.force {
-        return Err(Failure::Usage(format!(
-            "{} exists; --force overwrites it",
-            file.display()
-        )));
-    }
-    atomic_write(file, template.as_bytes())?;
-    say!("wrote {0}; edit it, then: brinell run {0}", file.display());
-    Ok(ExitCode::SUCCESS)
-}
-
-pub(crate) fn schema() -> Result<ExitCode, Failure> {
-    let schema = brinell::document::json_schema();
     document(&serde_json::to_string_pretty(&schema).unwrap_or_default());
     Ok(ExitCode::SUCCESS)
 }
 
 pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
     match command {
-        BearingCommand::List => {
-            for entry in catalogue::all() {
-                say!("{:<8} {}", entry.name, entry.title);
-            }
-            say!(
-                "\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:"
-            );
-            for known in KnownBearing::all() {
-                if let KnownBearing::DataSet(bearing) = known {
-                    say!("{:<8} {}", bearing.name, bearing.source);
-                }
-            }
-            say!("\n`brinell bearing show NAME` gives every number with its source.");
+        BearingCommand::List { json: true } => {
+            let all: Vec<Value> = KnownBearing::all().map(listed).collect();
+            document(&serde_json::to_string_pretty(&all).unwrap_or_default());
         }
-        BearingCommand::Show { name } => {
+        BearingCommand::List { json: false } => list(),
+        BearingCommand::Show { name, json: true } => {
+            let known = find(name)?;
+            document(&serde_json::to_string_pretty(&shown(known)).unwrap_or_default());
+        }
+        BearingCommand::Show { name, json: false } => {
             let known = find(name)?;
             say!("{}: {}", known.name(), known.title());
             match known {
@@ -62,6 +44,89 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn list() {
+    for entry in catalogue::all() {
+        let rating = |symbol: &str, key| {
+            let kilo = entry.fact(key).map(|n| plain_number(1e-3 * n));
+            kilo.map(|kilo| format!("{symbol} {kilo} kN"))
+        };
+        let ratings = [rating("C", DYNAMIC_RATING), rating("C0", STATIC_RATING)];
+        let ratings: Vec<String> = ratings.into_iter().flatten().collect();
+        let ratings = match ratings.is_empty() {
+            true => String::new(),
+            false => format!("; {}", ratings.join(", ")),
+        };
+        say!("{:<8} {}{ratings}", entry.name, entry.title);
+    }
+    say!(
+        "\nOf public data sets, for `frequencies` and `analyze`; they are no presets of a scenario:"
+    );
+    for known in KnownBearing::all() {
+        if let KnownBearing::DataSet(bearing) = known {
+            say!("{:<8} {}", bearing.name, bearing.source);
+        }
+    }
+    say!("\n`brinell bearing show NAME` gives every number with its source.");
+}
+
+/// A line of the list as JSON.
+fn listed(known: KnownBearing) -> Value {
+    let mut json = json!({ "name": known.name(), "title": known.title() });
+    match known {
+        KnownBearing::Catalogue(entry) => {
+            json["kind"] = "catalogue".into();
+            for key in FACTS {
+                json[key] = entry.fact(key).into();
+            }
+        }
+        KnownBearing::DataSet(_) => json["kind"] = "data set".into(),
+    }
+    json
+}
+
+/// All that is known of a bearing, as JSON.
+fn shown(known: KnownBearing) -> Value {
+    let mut json = listed(known);
+    match known {
+        KnownBearing::Catalogue(entry) => {
+            let of = |v: &catalogue::Value| {
+                let value = match &v.value {
+                    Datum::Number(x) => (*x).into(),
+                    Datum::Integer(n) => (*n).into(),
+                    Datum::Text(text) => Value::from(text.as_str()),
+                };
+                let cell = json!({ "value": value, "source": v.source, "estimated": v.estimated });
+                (v.key.clone(), cell)
+            };
+            let numbers: serde_json::Map<String, Value> =
+                entry.facts.iter().chain(&entry.values).map(of).collect();
+            json["numbers"] = numbers.into();
+            let classes: serde_json::Map<String, Value> = classes(entry)
+                .map(|(class, [low, high])| (class.name().to_owned(), json!([low, high])))
+                .collect();
+            json["diametral_clearance_um"] = classes.into();
+        }
+        KnownBearing::DataSet(b) => {
+            json["rollers_per_row"] = b.elements.into();
+            json["pitch_diameter_mm"] = b.pitch_mm.into();
+            json["roller_diameter_mm"] = b.diameter_mm.into();
+            json["contact_angle_deg"] = b.contact_angle_deg.into();
+        }
+    }
+    json
+}
+
+/// The classes of clearance for its bore, with their limits on the diameter, um.
+fn classes(entry: &Entry) -> impl Iterator<Item = (ClearanceClass, [f64; 2])> {
+    let element = match entry.has_balls() {
+        true => Element::Ball,
+        false => Element::Roller,
+    };
+    let bore = entry.fact(BORE).unwrap_or(0.0);
+    let all = ClearanceClass::ALL.into_iter();
+    all.filter_map(move |class| Some((class, class.limits(element, bore)?)))
 }
 
 fn show_entry(entry: &Entry) {
@@ -74,6 +139,14 @@ fn show_entry(entry: &Entry) {
             value.key,
             datum(&value.value),
             value.source
+        );
+    }
+    for (class, [low, high]) in classes(entry) {
+        let class = class.name();
+        say!(
+            "  {:<width$}  {:>10}  um on the diameter, ISO 5753-1 for the bore: bearing.clearance_class = \"{class}\"",
+            format!("clearance_{class}"),
+            format!("{low}-{high}"),
         );
     }
 }
@@ -123,7 +196,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
         Which::Geometry(geometry) => geometry.frequencies(rpm),
     };
     if args.json {
-        let values: serde_json::Map<String, serde_json::Value> = rows
+        let values: serde_json::Map<String, Value> = rows
             .iter()
             .map(|(name, hz, _)| {
                 (
@@ -133,7 +206,7 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
             })
             .chain([("speed_rpm".to_owned(), rpm.into())])
             .collect();
-        document(&serde_json::Value::Object(values).to_string());
+        document(&Value::Object(values).to_string());
     } else {
         say!("Pure rolling at {rpm} r/min, outer ring at rest");
         for (name, hz, meaning) in rows {

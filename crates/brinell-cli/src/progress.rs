@@ -2,12 +2,13 @@
 
 use crate::say::{say, short};
 use brinell_study::listener::RunListener;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Steps between looks at the clock.
 const STRIDE: u32 = 256;
@@ -59,9 +60,10 @@ impl Progress {
         self.begin.elapsed().as_secs_f64()
     }
 
-    /// Takes the bar away; a common one stays for the others, with this run's share full.
-    fn finish(&self) {
+    /// Takes the bar away; a common one stays for the others, with this run's share full, unless the run was broken off.
+    fn finish(&self, broken_off: bool) {
         match self.shared {
+            Some(_) if broken_off => {}
             Some(told) => self.bar.inc(micros(self.duration).saturating_sub(told)),
             None => self.bar.finish_and_clear(),
         }
@@ -94,7 +96,7 @@ impl RunListener for Shown<'_> {
 
 impl Drop for Shown<'_> {
     fn drop(&mut self) {
-        self.progress.finish();
+        self.progress.finish(self.stop.load(Ordering::Relaxed));
     }
 }
 
@@ -149,6 +151,11 @@ impl Joint {
     /// The run into `folder` has ended; `lines` go to standard output above the bar.
     pub(crate) fn ended(&mut self, lines: &[String], folder: &Path) {
         self.ended += 1;
+        self.broken_off(lines, folder);
+    }
+
+    /// The run into `folder` ended before its time, and does not count; `lines` as of one that does.
+    pub(crate) fn broken_off(&self, lines: &[String], folder: &Path) {
         self.bar.suspend(|| {
             for line in lines {
                 say!("{}: {line}", folder.display());
@@ -178,13 +185,61 @@ fn bar(duration: f64, quiet: bool) -> ProgressBar {
     };
     let bar = ProgressBar::with_draw_target(Some(micros(duration)), target);
     // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default is used should it ever not parse.
-    let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}, {eta} to go")
+    let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}{to_go}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
-    bar.set_style(style);
+    bar.set_style(style.with_key("to_go", to_go));
     bar.set_message("starting");
     bar
 }
 
+/// The time to go, once there is something to tell it from: at first an estimate is 0 or anything.
+fn to_go(state: &ProgressState, line: &mut dyn Write) {
+    if let Some(left) = time_left(state.fraction(), state.elapsed()) {
+        let _ = write!(line, ", {:#} to go", HumanDuration(left));
+    }
+}
+
+/// Wall time to go where `done` of the whole took `elapsed`; `None` while too little is done to know, and at the end.
+fn time_left(done: f32, elapsed: Duration) -> Option<Duration> {
+    /// Of the whole, and of time.
+    const ENOUGH: (f32, Duration) = (0.01, Duration::from_millis(500));
+    if done < ENOUGH.0 || elapsed < ENOUGH.1 || done >= 1.0 {
+        return None;
+    }
+    let left = elapsed.mul_f32((1.0 - done) / done);
+    // Rounded up: nothing that is to go takes 0 s.
+    Some(Duration::from_secs(left.as_secs() + 1))
+}
+
 fn micros(t: f64) -> u64 {
     (1e6 * t) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_the_time_to_go_is_told_when_it_is_known_and_never_zero() {
+        let ms = Duration::from_millis;
+        assert_eq!(time_left(0.0, ms(0)), None);
+        assert_eq!(time_left(0.0, ms(60_000)), None);
+        assert_eq!(time_left(0.5, ms(10)), None);
+        assert_eq!(time_left(1.0, ms(5000)), None);
+        assert_eq!(time_left(0.5, ms(5500)), Some(ms(6000)));
+        assert_eq!(time_left(0.999, ms(1000)), Some(ms(1000)));
+    }
+
+    #[test]
+    fn prop_a_run_that_is_broken_off_does_not_fill_the_common_bar() {
+        let bar = ProgressBar::hidden();
+        bar.set_length(2_000_000);
+        let shown = |stopped: bool| {
+            let stop = AtomicBool::new(stopped);
+            drop(Shown::new(Joint::part(&bar, 1.0), &stop));
+            bar.position()
+        };
+        assert_eq!(shown(true), 0);
+        assert_eq!(shown(false), 1_000_000);
+    }
 }

@@ -38,6 +38,15 @@ pub(crate) enum Results {
     DataSet,
 }
 
+/// The pages that commands leave in their folders, by their names.
+pub(crate) fn pages() -> impl Iterator<Item = &'static str> {
+    let pages: BTreeSet<&str> = Results::ALL.into_iter().flat_map(Results::files).collect();
+    pages
+        .into_iter()
+        .filter(|name| name.ends_with(".html"))
+        .rev()
+}
+
 impl Results {
     const ALL: [Self; 8] = [
         Self::Run,

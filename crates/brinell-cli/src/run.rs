@@ -12,7 +12,7 @@ use crate::progress::{Progress, Shown};
 use crate::results::{
     Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
-use crate::say::{complain, one_line, say, short};
+use crate::say::{complain, document, one_line, say, short};
 use brinell::document::Loaded;
 use brinell::observe::{DefectLine, Findings, Kind};
 use brinell::plausibility::{self, Beforehand};
@@ -20,6 +20,7 @@ use brinell::result::{RunResult, fields, finish};
 use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
+use brinell_damage::Photo;
 use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
 use brinell_report::Report;
 use brinell_study::runner::Recorder;
@@ -30,13 +31,22 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let [path] = &args.scenarios[..] else {
-        return many::run(args);
+        let alone = match (args.open, args.json) {
+            (true, _) => "--open shows the report",
+            (_, true) => "--json prints the summary.json",
+            _ => return many::run(args),
+        };
+        return Err(Failure::Usage(format!(
+            "{alone} of one scenario; here are {}",
+            args.scenarios.len()
+        )));
     };
     let mut inputs = Inputs::default();
     let Ready {
         loaded,
         simulation,
         beforehand,
+        photos,
     } = ready(args, path, &mut inputs)?;
     if !args.quiet {
         files::warn_idle(simulation.idle_patterns());
@@ -47,11 +57,25 @@ pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let progress = Progress::new(loaded.scenario.simulation.duration_s, args.quiet);
     let stop = stop_flag()?;
     let task = (&loaded, folder.as_path(), &earlier);
-    let done = execute(args, task, (simulation, &beforehand), progress, &stop)?;
+    let done = execute(
+        args,
+        task,
+        (simulation, &beforehand, &photos),
+        progress,
+        &stop,
+    )?;
+    if args.json {
+        document(done.summary.trim_end());
+    }
     if !args.quiet {
         for line in &done.told {
             say!("{line}");
         }
+    }
+    if args.open
+        && let Err(words) = crate::open::show(&folder.join(REPORT))
+    {
+        complain!("warning: {words}");
     }
     match done.end {
         End::Failed(error) => Err(Failure::Run(error)),
@@ -65,6 +89,8 @@ struct Ready {
     loaded: Loaded,
     simulation: Simulation,
     beforehand: Beforehand,
+    /// Of its defects, for the report.
+    photos: Vec<Option<Photo>>,
 }
 
 /// What a scenario was read from goes to `inputs`.
@@ -84,7 +110,12 @@ fn ready(args: &RunArgs, path: &Path, inputs: &mut Inputs) -> Result<Ready, Fail
         }
         print_problems("", "", warnings);
     }
+    let photos = match args.no_report && args.plots.is_empty() {
+        true => Vec::new(),
+        false => source.photos(),
+    };
     Ok(Ready {
+        photos,
         loaded,
         simulation,
         beforehand,
@@ -98,6 +129,8 @@ struct Done {
     interrupted: bool,
     /// A few lines on what came out; what matters most first.
     told: Vec<String>,
+    /// The text of summary.json.
+    summary: String,
 }
 
 /// Earlier results in `folder` that a run of the scenario may replace.
@@ -135,7 +168,7 @@ fn earlier(
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
-    (simulation, beforehand): (Simulation, &Beforehand),
+    (simulation, beforehand, photos): (Simulation, &Beforehand, &[Option<Photo>]),
     progress: Progress,
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
@@ -178,7 +211,13 @@ fn execute(
         findings: &findings,
         beforehand,
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| Report::of_run(&parts));
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| {
+        let mut report = Report::of_run(&parts);
+        for (view, photo) in report.damage.iter_mut().zip(photos) {
+            view.photo = photo.clone();
+        }
+        report
+    });
     let pictures = match &report {
         Some(report) if !args.plots.is_empty() => pictures(report),
         _ => Vec::new(),
@@ -192,7 +231,7 @@ fn execute(
     let mut summary = summary::to_json(&parts);
     summary["files"] = names_below(folder, &files).into();
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(folder.join(SUMMARY), text)?);
+    ready.insert(0, atomic_prepare(folder.join(SUMMARY), &text)?);
     if let Some(report) = report.filter(|_| !args.no_report) {
         let page = brinell_report::html(&report);
         ready.push(atomic_prepare(folder.join(REPORT), page)?);
@@ -203,6 +242,7 @@ fn execute(
         told: tell(&parts, elapsed, &written),
         end: outcome.end,
         interrupted,
+        summary: text,
     })
 }
 

@@ -2,6 +2,7 @@
 //! (a closed pipe), the command continues quietly.
 
 use crate::failure::Failure;
+use anstyle::AnsiColor;
 pub(crate) use brinell_report::short;
 use std::borrow::Cow;
 use std::fmt::Arguments;
@@ -81,7 +82,43 @@ pub(crate) fn arrived() -> std::result::Result<(), Failure> {
 pub(crate) fn complaint(text: Arguments) {
     let text = text.to_string();
     let text = printable(&text, |c| format!("\\u{{{:x}}}", u32::from(c)));
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    // In colour where a terminal shows it, and NO_COLOR does not forbid it.
+    let _ = writeln!(anstream::stderr().lock(), "{}", coloured(&text));
+}
+
+/// The words that begin a complaint's lines, in the colours that other commands have for them.
+fn coloured(text: &str) -> String {
+    const BEGINNINGS: [(&str, AnsiColor); 2] =
+        [("error", AnsiColor::Red), ("warning", AnsiColor::Yellow)];
+    const PLACE: &str = "-->";
+    let line = |line: &str| {
+        for (word, colour) in BEGINNINGS {
+            if let Some(rest) = line.strip_prefix(word)
+                && rest.starts_with(':')
+            {
+                let style = colour.on_default().bold();
+                return format!("{style}{word}:{style:#}{}", &rest[1..]);
+            }
+        }
+        let marks = line.split_once(" | ").is_some_and(|(gutter, rest)| {
+            gutter.trim().is_empty()
+                && !rest.trim().is_empty()
+                && rest.trim_matches([' ', '^']).is_empty()
+        });
+        let blue = AnsiColor::Blue.on_default().bold();
+        match line.split_once(PLACE) {
+            Some((gutter, place)) if gutter.trim().is_empty() => {
+                format!("{gutter}{blue}{PLACE}{blue:#}{place}")
+            }
+            _ if marks => {
+                let red = AnsiColor::Red.on_default().bold();
+                let (gutter, rest) = line.split_once('^').unwrap_or((line, ""));
+                format!("{gutter}{red}^{rest}{red:#}")
+            }
+            _ => line.to_owned(),
+        }
+    };
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Whether a terminal would act upon it: control characters, and those that turn the direction of writing (Unicode's Bidi_Control).
@@ -124,6 +161,16 @@ pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
     }
 }
 
+/// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
+pub(crate) fn plain_number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    let size = rounded.abs();
+    match size >= 1e6 || (size > 0.0 && size < 1e-3) {
+        true => format!("{rounded:e}"),
+        false => rounded.to_string(),
+    }
+}
+
 /// [`short`], with 0 for what is the solver's error beside `scale`.
 pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
     // The static balance leaves 1e-10 of the forces over.
@@ -140,7 +187,26 @@ pub(crate) fn significant(x: f64, scale: f64, digits: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{one_line, printable};
+    use super::{coloured, one_line, printable};
+
+    #[test]
+    fn prop_colour_marks_what_begins_a_complaint_and_changes_no_word() {
+        let text =
+            "error: a: b\n  --> s.toml:1:2\n  1 | error: x\n    |   ^^^\nwarning: c\nerrors 2";
+        let shown = coloured(text);
+        assert_eq!(anstream::adapter::strip_str(&shown).to_string(), text);
+        let red = "\u{1b}[1m\u{1b}[31m";
+        let lines: Vec<&str> = shown.lines().collect();
+        assert!(
+            lines[0].starts_with(red) && lines[3].contains(red),
+            "{shown:?}"
+        );
+        assert!(
+            lines[4].starts_with("\u{1b}[1m\u{1b}[33mwarning:"),
+            "{shown:?}"
+        );
+        assert_eq!((lines[2], lines[5]), ("  1 | error: x", "errors 2"));
+    }
 
     #[test]
     fn prop_nothing_that_a_terminal_acts_upon_is_printed() {

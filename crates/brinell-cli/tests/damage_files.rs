@@ -70,7 +70,7 @@ fn regress_a_written_scenario_says_what_was_assumed_of_its_files() {
     for (name, of_file) in [
         (
             "photo",
-            &["threshold = 0.41", "blur_px = 1.5 px", "speck_mm2"][..],
+            &["threshold = 0.67", "blur_px = 1.5 px", "speck_mm2"][..],
         ),
         ("scan", &["depth_map.zero"]),
     ] {

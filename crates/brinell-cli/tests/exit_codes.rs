@@ -90,11 +90,11 @@ fn regress_a_wrong_value_is_named_with_range_unit_and_line() {
         ),
         (
             "NU206",
-            "NU207",
+            "NU211",
             &[
                 "line 4",
-                "bearing.preset = \"NU207\": not in the catalogue",
-                "did you mean \"NU204\"?",
+                "bearing.preset = \"NU211\": not in the catalogue",
+                "did you mean \"NU210\"?",
                 "NN3007",
             ],
         ),

@@ -3,13 +3,15 @@
 //! Order: missing points are marked; units and sign; the turn to `s`, `z`; the form (fitted to the points that are
 //! there); the zero; filling; the threshold; specks; the origin. Memory: three copies of the grid at most.
 
+use crate::depth_doubts::{raised, tilt};
 use crate::depth_options::{DepthMapOptions, Fill, FirstRow, Unit, Zero, check};
 use crate::error::DamageError;
-use crate::form_fit::{quantile, remove};
+use crate::form_fit::remove;
 use crate::geometry::DepthGrid;
 use crate::holes::{drop_specks, fill};
 use crate::kind::{FileKind, describe};
-use crate::{depth_csv, depth_npy};
+use crate::numbers::quantile;
+use crate::{depth_csv, depth_npy, surface};
 
 /// The largest grid that is read: 4096 x 4096.
 pub(crate) const MAX_POINTS: usize = 1 << 24;
@@ -27,6 +29,12 @@ pub(crate) struct Raw {
     pub(crate) height: usize,
     pub(crate) values: Vec<f64>,
     pub(crate) warnings: Vec<String>,
+    /// What was understood of the file.
+    pub(crate) notes: Vec<String>,
+    /// Distance of columns and of rows, where the file says it.
+    pub(crate) spacing_mm: Option<[f64; 2]>,
+    /// Of the numbers, where the file says it.
+    pub(crate) unit: Option<Unit>,
 }
 
 impl Raw {
@@ -74,7 +82,18 @@ pub fn read_depth_map(
         None => found,
     };
     let mut raw = match kind {
-        Some(FileKind::Csv) => depth_csv::read(bytes)?,
+        Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
+        Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
+        Some(FileKind::Sur) => surface::read_sur(bytes)?,
+        #[cfg(feature = "x3p")]
+        Some(FileKind::X3p) => surface::read_x3p(bytes)?,
+        #[cfg(not(feature = "x3p"))]
+        Some(FileKind::X3p) => {
+            return Err(DamageError::LeftOut {
+                kind: FileKind::X3p,
+                feature: "x3p",
+            });
+        }
         Some(FileKind::Npy) => depth_npy::read(bytes)?,
         #[cfg(feature = "image")]
         Some(FileKind::Png) => crate::pixels::heights(bytes)?,
@@ -89,7 +108,7 @@ pub fn read_depth_map(
             return Err(DamageError::WrongKind {
                 what: describe(bytes),
                 wanted: "a depth map",
-                way_out: "save it as CSV, NPY or 16-bit grey PNG",
+                way_out: "save it as CSV, NPY, 16-bit grey PNG, SDF, X3P or SUR",
             });
         }
     };
@@ -100,10 +119,15 @@ pub fn read_depth_map(
             way_out: "at least 2 x 2 are needed, one line per row",
         });
     }
-    let mut warnings = std::mem::take(&mut raw.warnings);
+    let (mut warnings, notes) = (
+        std::mem::take(&mut raw.warnings),
+        std::mem::take(&mut raw.notes),
+    );
+    let spacing_mm = spacing(&raw, options)?;
     to_depth(&mut raw, options)?;
     let missing = check_missing(&raw, options)?;
-    let mut scan = turned(raw, options);
+    let mut scan = turned(raw, spacing_mm, options);
+    let hint = tilt(&scan, options);
     let form = remove(&mut scan, options.remove_form, options.threshold_um)?;
     if let Some(form) = form.filter(|form| form.excluded > form.used) {
         warnings.push(format!(
@@ -120,17 +144,19 @@ pub fn read_depth_map(
         ));
     }
     finish_depths(&mut scan, options, &mut warnings)?;
+    warnings.extend(hint.into_iter().chain(raised(&scan, options)));
     let (s0_mm, z0_mm) = scan.place(0, 0);
     let mut grid = DepthGrid {
         s0_mm,
         z0_mm,
-        ds_mm: options.ds_mm,
-        dz_mm: options.dz_mm,
+        ds_mm: scan.ds_mm,
+        dz_mm: scan.dz_mm,
         columns: scan.columns,
         rows: scan.rows,
         depth_um: scan.depth_um,
         form,
         warnings,
+        notes,
     };
     if let (true, Some([low, high])) = (options.center, grid.damaged_bounds()) {
         grid.s0_mm = -0.5 * (low[0] + high[0]) as f64 * grid.ds_mm;
@@ -139,9 +165,47 @@ pub fn read_depth_map(
     Ok(grid)
 }
 
+/// What is stated of the distances of columns and of rows.
+fn stated(options: &DepthMapOptions) -> [Option<f64>; 2] {
+    match options.rolling_direction.along_rows() {
+        true => [options.ds_mm, options.dz_mm],
+        false => [options.dz_mm, options.ds_mm],
+    }
+}
+
+/// Distances along s and z, mm: as the file says, or as stated.
+fn spacing(raw: &Raw, options: &DepthMapOptions) -> Result<[f64; 2], DamageError> {
+    /// How far what is stated may be from what the file says.
+    const SAME: f64 = 0.01;
+    let own = raw
+        .spacing_mm
+        .map(|[x, y]| match options.rolling_direction.along_rows() {
+            true => [x, y],
+            false => [y, x],
+        });
+    let of = |k: usize, name: &'static str, stated: Option<f64>| match (stated, own) {
+        (Some(mm), Some(own)) if (mm / own[k] - 1.0).abs() > SAME => Err(DamageError::Option {
+            option: name,
+            value: mm.to_string(),
+            allowed: "as the file says, or left out; check the units of its columns",
+        }),
+        (_, Some(own)) => Ok(own[k]),
+        (Some(mm), None) => Ok(mm),
+        (None, None) => Err(DamageError::Unsupported {
+            at: "the map".to_owned(),
+            what: "a file that says no distance of its points".to_owned(),
+            way_out: "give `ds_mm` and `dz_mm`",
+        }),
+    };
+    Ok([
+        of(0, "ds_mm", options.ds_mm)?,
+        of(1, "dz_mm", options.dz_mm)?,
+    ])
+}
+
 /// To depths in um, positive into the material; NaN where missing.
 fn to_depth(raw: &mut Raw, options: &DepthMapOptions) -> Result<(), DamageError> {
-    let um = match options.unit {
+    let um = match raw.unit.unwrap_or(options.unit) {
         Unit::Um => 1.0,
         Unit::Mm => 1e3,
         Unit::M => 1e6,
@@ -193,7 +257,7 @@ fn check_missing(raw: &Raw, options: &DepthMapOptions) -> Result<usize, DamageEr
     })
 }
 
-fn turned(mut raw: Raw, options: &DepthMapOptions) -> Scan {
+fn turned(mut raw: Raw, [ds_mm, dz_mm]: [f64; 2], options: &DepthMapOptions) -> Scan {
     if options.first_row == FirstRow::Bottom {
         let (width, height) = (raw.width, raw.height);
         for row in 0..height / 2 {
@@ -210,8 +274,8 @@ fn turned(mut raw: Raw, options: &DepthMapOptions) -> Scan {
     Scan {
         columns,
         rows,
-        ds_mm: options.ds_mm,
-        dz_mm: options.dz_mm,
+        ds_mm,
+        dz_mm,
         depth_um: direction.turn_grid(raw.width, raw.height, &raw.values),
     }
 }
@@ -256,7 +320,7 @@ fn finish_depths(
             ),
         });
     }
-    let smallest = options.speck_mm2 / (options.ds_mm * options.dz_mm);
+    let smallest = options.speck_mm2 / (scan.ds_mm * scan.dz_mm);
     let dropped = if smallest > 0.0 {
         drop_specks(scan, smallest)
     } else {

@@ -2,12 +2,14 @@
 //! semicolons, tabs or blanks separate. Lines that begin with `#` and one line of names at the top are passed over.
 
 use crate::depth::{MAX_POINTS, Raw};
+use crate::depth_cloud::{gridded, refuse_axes};
 use crate::error::{DamageError, excerpt};
 use crate::kind::FileKind;
 
 const MAX_BYTES: usize = 512 << 20;
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
+/// `stated_mm`: what is known of the distances of columns and of rows.
+pub(crate) fn read(bytes: &[u8], stated_mm: [Option<f64>; 2]) -> Result<Raw, DamageError> {
     if bytes.len() > MAX_BYTES {
         return Err(DamageError::TooLarge {
             what: "the table",
@@ -32,6 +34,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     let layout = Layout::of(lines().map(|(_, line)| line));
     let mut raw = Raw::default();
     let mut header = None;
+    let mut corner = None;
     for (line, content) in lines() {
         let begin = raw.values.len();
         match layout.row(line, content, &mut raw.values) {
@@ -39,8 +42,16 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
             // A line of names: no cell of it is a number.
             Err(_) if raw.height == 0 && header.is_none() && layout.names(content) => {
                 raw.values.truncate(begin);
-                header = Some(line);
+                header = Some((line, content));
                 continue;
+            }
+            // The corner of two axes may hold words.
+            Err(error) if raw.height == 0 && corner.is_none() => {
+                raw.values.truncate(begin);
+                if layout.row_beside_corner(content, &mut raw.values).is_none() {
+                    return Err(error);
+                }
+                corner = Some(error);
             }
             Err(error) => return Err(error),
         }
@@ -59,8 +70,21 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
             return Err(Raw::too_large(format!("above {MAX_POINTS}")));
         }
     }
-    if let Some(line) = header {
-        raw.warnings
+    if header.is_none() {
+        refuse_axes(&raw)?;
+    }
+    if let Some(error) = corner {
+        return Err(error);
+    }
+    let names: Vec<String> = header.map_or(Vec::new(), |(_, content)| {
+        layout
+            .cells(content)
+            .map(|cell| cell.trim().trim_matches('"').trim().to_owned())
+            .collect()
+    });
+    let mut raw = gridded(raw, &names, stated_mm)?;
+    if let (Some((line, _)), None) = (header, raw.spacing_mm) {
+        raw.notes
             .push(format!("line {line} was taken as names and passed over"));
     }
     Ok(raw)
@@ -122,6 +146,15 @@ impl Layout {
             values.push(value);
         }
         Ok(())
+    }
+
+    /// A row whose first cell is a word.
+    fn row_beside_corner(&self, content: &str, values: &mut Vec<f64>) -> Option<()> {
+        values.push(f64::NAN);
+        for cell in self.cells(content).skip(1) {
+            values.push(self.value(cell)?);
+        }
+        Some(())
     }
 
     /// NaN for a missing point; `None` for what is no number.

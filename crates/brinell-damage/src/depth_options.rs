@@ -53,10 +53,10 @@ pub enum FirstRow {
 /// How to read a depth map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DepthMapOptions {
-    /// From point to point along the rolling direction, mm.
-    pub ds_mm: f64,
-    /// From point to point along the axis, mm.
-    pub dz_mm: f64,
+    /// From point to point along the rolling direction, mm; `None`: as the file says (SDF, X3P, SUR, a point cloud).
+    pub ds_mm: Option<f64>,
+    /// From point to point along the axis, mm; `None`: as the file says.
+    pub dz_mm: Option<f64>,
     /// The unit of the numbers.
     pub unit: Unit,
     /// The numbers are heights, up out of the material; else depths, into it.
@@ -82,11 +82,11 @@ pub struct DepthMapOptions {
 }
 
 impl Default for DepthMapOptions {
-    /// Heights in um every 0.01 mm, nothing taken off but the rim's level, all beyond 1 um damage.
+    /// Heights in um, spacing as the file says, nothing taken off but the rim's level, all beyond 1 um damage.
     fn default() -> Self {
         Self {
-            ds_mm: 0.01,
-            dz_mm: 0.01,
+            ds_mm: None,
+            dz_mm: None,
             unit: Unit::Um,
             height_positive_up: true,
             missing: None,
@@ -105,8 +105,11 @@ impl Default for DepthMapOptions {
 /// Every number within its range.
 pub(crate) fn check(options: &DepthMapOptions) -> Result<(), DamageError> {
     const SPACING: &str = "a number of mm above 0, at most 10";
-    check_range("ds_mm", options.ds_mm, 0.0, 10.0, SPACING)?;
-    check_range("dz_mm", options.dz_mm, 0.0, 10.0, SPACING)?;
+    for (name, spacing) in [("ds_mm", options.ds_mm), ("dz_mm", options.dz_mm)] {
+        if let Some(spacing) = spacing {
+            check_range(name, spacing, 0.0, 10.0, SPACING)?;
+        }
+    }
     let least = -f64::MIN_POSITIVE;
     check_range(
         "threshold_um",

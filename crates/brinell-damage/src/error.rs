@@ -75,6 +75,12 @@ pub enum DamageError {
         /// How that was found.
         why: String,
     },
+    /// A photo in which nothing is damage for certain.
+    #[error("no spall found: {why}")]
+    NoSpall {
+        /// How that was found, and what would help.
+        why: String,
+    },
     /// All of it is damage.
     #[error("all of it would be damage: {why}")]
     AllDamaged {

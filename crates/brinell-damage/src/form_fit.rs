@@ -14,6 +14,7 @@
 use crate::depth::Scan;
 use crate::error::DamageError;
 use crate::form::{Form, FormReport};
+use crate::numbers::{median, solved};
 
 /// More points than this add time, not accuracy.
 const MAX_SAMPLES: usize = 100_000;
@@ -284,7 +285,7 @@ impl Fit<'_> {
         for i in 0..n {
             normal[i][i] += 1e-9 * normal[i][i] + 1e-12 * trace;
         }
-        let change = solve(&mut normal, n)?;
+        let change = solved(&mut normal[..n], 0.0)?;
         let before = self.cost(q)?;
         let mut share = 1.0;
         for _ in 0..20 {
@@ -299,42 +300,4 @@ impl Fit<'_> {
         }
         Some(*q)
     }
-}
-
-/// Gaussian elimination with the right side in column 5; `None` if singular.
-fn solve(a: &mut [[f64; 6]; 5], n: usize) -> Option<[f64; 5]> {
-    for i in 0..n {
-        let pivot = (i..n).max_by(|&r, &s| a[r][i].abs().total_cmp(&a[s][i].abs()))?;
-        a.swap(i, pivot);
-        if a[i][i] == 0.0 || !a[i][i].is_finite() {
-            return None;
-        }
-        for r in i + 1..n {
-            let factor = a[r][i] / a[i][i];
-            for j in i..6 {
-                a[r][j] -= factor * a[i][j];
-            }
-        }
-    }
-    let mut x = [0.0; 5];
-    for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|j| a[i][j] * x[j]).sum();
-        x[i] = (a[i][5] - known) / a[i][i];
-    }
-    x.iter().all(|v| v.is_finite()).then_some(x)
-}
-
-/// The middle value; 0 of none. NaN must not be among them.
-pub(crate) fn median(values: impl Iterator<Item = f64>) -> f64 {
-    quantile(values, 0.5)
-}
-
-/// The value below which `share` (0 to 1) of the others lie.
-pub(crate) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    if values.is_empty() {
-        return 0.0;
-    }
-    let at = (share * (values.len() - 1) as f64).round() as usize;
-    *values.select_nth_unstable_by(at, f64::total_cmp).1
 }

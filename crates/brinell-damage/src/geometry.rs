@@ -1,6 +1,7 @@
 //! What the readers give: polygons, or a grid of depths. Frame and origin: see the crate's header.
 
 use crate::form::FormReport;
+use brinell::scenario;
 
 /// Damaged areas as polygons.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -8,8 +9,10 @@ pub struct Polygons {
     /// Closed rings of points `[s, z]` in mm, the closing edge implied. Even-odd rule: a ring inside a ring is a
     /// hole. Outer rings run counter-clockwise, holes clockwise.
     pub polygons_mm: Vec<Vec<[f64; 2]>>,
-    /// What the reader decided by itself or left out, in sentences.
+    /// What may be wrong, in sentences.
     pub warnings: Vec<String>,
+    /// What the reader decided by itself or left out, in sentences.
+    pub notes: Vec<String>,
     /// Of an image whose threshold was left out: the one that was found, 0 black to 1 white.
     pub threshold: Option<f64>,
 }
@@ -82,8 +85,26 @@ pub struct DepthGrid {
     pub depth_um: Vec<f64>,
     /// The plane or cylinder that was taken off, where one was asked for.
     pub form: Option<FormReport>,
-    /// What the reader decided by itself or left out, in sentences.
+    /// What may be wrong, in sentences.
     pub warnings: Vec<String>,
+    /// What the reader understood of the file by itself, in sentences.
+    pub notes: Vec<String>,
+}
+
+impl From<scenario::DepthGrid> for DepthGrid {
+    /// Nothing was taken off, nothing is said of it.
+    fn from(grid: scenario::DepthGrid) -> Self {
+        Self {
+            s0_mm: grid.s0_mm,
+            z0_mm: grid.z0_mm,
+            ds_mm: grid.ds_mm,
+            dz_mm: grid.dz_mm,
+            columns: grid.columns,
+            rows: grid.rows,
+            depth_um: grid.depth_um,
+            ..Self::default()
+        }
+    }
 }
 
 impl DepthGrid {

@@ -1,11 +1,14 @@
 //! A photo or a mask, read as outlines of what is damaged.
 
 use crate::blur::gaussian;
-use crate::contour::Field;
+use crate::contour::{Field, Outlines};
 use crate::direction::Direction;
 use crate::error::{DamageError, check_range};
 use crate::geometry::Polygons;
+use crate::pieces::{Piece, pieces};
 use crate::pixels::{Channel, Pixels, decode};
+use crate::region;
+use crate::segment::{Pieces, Wanted, find};
 use crate::threshold::otsu;
 
 /// The full scale of a pixel.
@@ -31,8 +34,9 @@ pub enum Smooth {
 pub struct ImageOptions {
     /// The side of a pixel, mm.
     pub mm_per_pixel: f64,
-    /// Between 0 and 1: darker than this is damage (with `use_alpha`: more opaque than this). `None`: 0.5 for alpha; else
-    /// the level that divides the picture's brightness best (Otsu), which is then said in the warnings.
+    /// Between 0 and 1: darker than this is damage (with `use_alpha`: more opaque than this). `None`: 0.5 for alpha; along pixel edges the
+    /// level that divides the picture's brightness best (Otsu); else the light is evened out where it is uneven, and the border of the
+    /// damage is where half of its contrast is left. What was found is said in the notes.
     pub threshold: Option<f64>,
     /// The mask is the alpha channel: what is drawn is damage, whatever its colour.
     pub use_alpha: bool,
@@ -46,6 +50,23 @@ pub struct ImageOptions {
     pub smooth: Smooth,
     /// Spots that enclose less than this are dropped, and holes smaller than this filled, mm^2.
     pub speck_mm2: f64,
+    /// What of the picture is read: left, top, width and height in pixels. `None`: all.
+    pub region_px: Option<[f64; 4]>,
+    /// Which pieces are damage. `None`: the largest of a photo; of a mask (alpha, or along pixel edges) or with a stated threshold all.
+    pub pieces: Option<Pieces>,
+}
+
+impl ImageOptions {
+    /// Whether the level is known without looking at the picture.
+    fn has_level(&self) -> bool {
+        self.threshold.is_some() || self.use_alpha
+    }
+
+    fn pieces(&self) -> Pieces {
+        let mask = self.has_level() || self.smooth == Smooth::PixelEdges;
+        self.pieces
+            .unwrap_or(if mask { Pieces::All } else { Pieces::Largest })
+    }
 }
 
 impl Default for ImageOptions {
@@ -60,15 +81,37 @@ impl Default for ImageOptions {
             center: true,
             smooth: Smooth::SubPixel { blur_px: 1.5 },
             speck_mm2: 0.02,
+            region_px: None,
+            pieces: None,
         }
     }
 }
 
+/// Damage in a picture, and where it lies in it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Traced {
+    /// What [`read_image`] gives.
+    pub polygons: Polygons,
+    /// The same outlines in pixels of the picture as a viewer shows it, from its upper left corner.
+    pub rings_px: Vec<Vec<[f64; 2]>>,
+    /// Columns and rows of the picture.
+    pub size_px: [usize; 2],
+}
+
 /// Reads the damaged areas of a PNG or JPEG image (up to 2^26 pixels) as polygons.
+///
+/// # Errors
+/// What is no such image; options outside their range; no damage, or nothing but damage.
 pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, DamageError> {
+    trace_image(bytes, options).map(|traced| traced.polygons)
+}
+
+/// [`read_image`], with the outlines in pixels too.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn trace_image(bytes: &[u8], options: &ImageOptions) -> Result<Traced, DamageError> {
     check(options)?;
-    // Damage is above the level from here on: what shows through transparent places is sound.
-    let dark_is_damage = !options.use_alpha && !options.invert;
     let channel = if options.use_alpha {
         Channel::Alpha
     } else {
@@ -76,16 +119,14 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
             behind: if options.invert { 0 } else { u16::MAX },
         }
     };
-    let mut pixels = decode(bytes, channel)?;
-    let flip = dark_is_damage || (options.use_alpha && options.invert);
-    if flip {
-        pixels.values.iter_mut().for_each(|v| *v = u16::MAX - *v);
-    }
+    let whole = decode(bytes, channel)?;
+    let size_px = [whole.width, whole.height];
+    let (mut pixels, corner) = region::cut(whole, options.region_px)?;
     if let Smooth::SubPixel { blur_px } = options.smooth {
         gaussian(&mut pixels, blur_px);
     }
-    let mut warnings = Vec::new();
-    let (level, found) = level(&pixels, options, flip, &mut warnings)?;
+    let mut said = Said::default();
+    let (pixels, level) = told_apart(pixels, corner, options, &mut said)?;
     let field = Field {
         width: pixels.width,
         height: pixels.height,
@@ -94,53 +135,258 @@ pub fn read_image(bytes: &[u8], options: &ImageOptions) -> Result<Polygons, Dama
         rim: 0.5,
         sub_pixel: options.smooth != Smooth::PixelEdges,
     };
-    all_or_nothing(&pixels, level)?;
     let pixel_mm2 = options.mm_per_pixel * options.mm_per_pixel;
     let outlines = field.outlines(options.speck_mm2 / pixel_mm2)?;
-    if outlines.specks + outlines.filled > 0 {
-        warnings.push(format!(
+    if outlines.rings.is_empty() {
+        return Err(too_small(&outlines, options));
+    }
+    let specks = said.specks + outlines.specks;
+    if specks + outlines.filled > 0 {
+        said.notes.push(format!(
             "dropped {} and filled {} that enclose less than {} mm^2",
-            counted(outlines.specks, "speck"),
+            counted(specks, "speck"),
             counted(outlines.filled, "hole"),
             options.speck_mm2
         ));
     }
-    if outlines.rings.is_empty() {
-        return Err(DamageError::NothingDamaged {
-            why: format!(
-                "the largest of {} encloses {:.3e} mm^2, less than `speck_mm2` = {}; check `mm_per_pixel` = {}",
-                counted(outlines.specks, "spot"),
-                outlines.largest_speck * pixel_mm2,
-                options.speck_mm2,
-                options.mm_per_pixel
-            ),
-        });
+    let mut rings = outlines.rings;
+    let border = [pixels.width as f64, pixels.height as f64];
+    let cut = |p: &[f64; 2]| p[0] <= 0.0 || p[1] <= 0.0 || p[0] >= border[0] || p[1] >= border[1];
+    if rings.iter().flatten().any(cut) {
+        said.warnings.push(format!(
+            "the damage reaches the {} border and is cut there; it may continue outside",
+            if options.region_px.is_some() {
+                "region's"
+            } else {
+                "image's"
+            }
+        ));
     }
-    if touches_border(&pixels, level) {
-        warnings.push(
-            "the damage reaches the image's border and is cut there; it may continue outside"
-                .to_owned(),
-        );
+    for point in rings.iter_mut().flatten() {
+        *point = [point[0] + corner[0] as f64, point[1] + corner[1] as f64];
     }
-    let (half_width, half_height) = (0.5 * pixels.width as f64, 0.5 * pixels.height as f64);
-    let mut result = Polygons {
-        polygons_mm: outlines.rings,
-        warnings,
-        threshold: found,
+    let mut polygons = Polygons {
+        polygons_mm: in_mm(&rings, size_px, options),
+        warnings: said.warnings,
+        notes: said.notes,
+        threshold: said.threshold,
     };
-    for ring in &mut result.polygons_mm {
-        for point in ring.iter_mut() {
-            let x = (point[0] - half_width) * options.mm_per_pixel;
-            let y = (point[1] - half_height) * options.mm_per_pixel;
-            *point = options.rolling_direction.turn(x, y);
-        }
-        // The outlines run clockwise on the screen.
-        ring.reverse();
-    }
     if options.center {
-        result.centre();
+        polygons.centre();
     }
-    Ok(result)
+    Ok(Traced {
+        polygons,
+        rings_px: rings,
+        size_px,
+    })
+}
+
+/// What there is to say of a picture.
+#[derive(Default)]
+struct Said {
+    warnings: Vec<String>,
+    notes: Vec<String>,
+    threshold: Option<f64>,
+    specks: usize,
+}
+
+/// From pixels to mm about the picture's middle.
+fn in_mm(
+    rings: &[Vec<[f64; 2]>],
+    size_px: [usize; 2],
+    options: &ImageOptions,
+) -> Vec<Vec<[f64; 2]>> {
+    let half = size_px.map(|n| 0.5 * n as f64);
+    let place = |p: &[f64; 2]| {
+        let x = (p[0] - half[0]) * options.mm_per_pixel;
+        let y = (p[1] - half[1]) * options.mm_per_pixel;
+        options.rolling_direction.turn(x, y)
+    };
+    // The outlines run clockwise on the screen.
+    rings
+        .iter()
+        .map(|ring| ring.iter().rev().map(place).collect())
+        .collect()
+}
+
+/// The picture with damage above a level, and nothing but the damage that is wanted above it.
+fn told_apart(
+    mut pixels: Pixels,
+    corner: [usize; 2],
+    options: &ImageOptions,
+    said: &mut Said,
+) -> Result<(Pixels, f64), DamageError> {
+    let wanted = Wanted {
+        bright: options.invert,
+        pieces: match options.pieces() {
+            Pieces::At([x, y]) => Pieces::At([x - corner[0] as f64, y - corner[1] as f64]),
+            other => other,
+        },
+        smallest: options.speck_mm2 / options.mm_per_pixel.powi(2),
+        blur_px: match options.smooth {
+            Smooth::SubPixel { blur_px } => blur_px,
+            Smooth::PixelEdges => 0.0,
+        },
+    };
+    if !options.has_level() && options.smooth != Smooth::PixelEdges {
+        let all_mm2 = pixels.values.len() as f64 * options.mm_per_pixel.powi(2);
+        if all_mm2 < options.speck_mm2 {
+            return Err(DamageError::NothingDamaged {
+                why: format!(
+                    "the whole picture is {all_mm2:.3e} mm^2, less than `speck_mm2` = {}; check `mm_per_pixel` = {}",
+                    options.speck_mm2, options.mm_per_pixel
+                ),
+            });
+        }
+        let found = find(&pixels, wanted)?;
+        let Some(mut found) = found else {
+            return Err(no_spall(&pixels, wanted, options));
+        };
+        let shown = match found.share_of_light {
+            Some(share) => share,
+            None if options.invert => found.level / FULL,
+            None => 1.0 - found.level / FULL,
+        };
+        match found.share_of_light {
+            Some(_) => {
+                said.threshold = Some(shown.clamp(0.0, 1.0));
+                said.notes.push(format!(
+                "the light was evened out; the border is where the brightness is {shown:.3} of that of the sound surface"
+                ));
+            }
+            None => {
+                said.threshold = Some(shown);
+                said.notes
+                    .push(format!("the threshold was found as {shown:.3}"));
+            }
+        }
+        said.specks = found.specks;
+        leave_out(&mut found.pixels, &found.left_out, options, said);
+        without(&mut found.pixels, found.level, wanted.smallest)?;
+        return Ok((found.pixels, found.level));
+    }
+    // Damage is above the level from here on: what shows through transparent places is sound.
+    let flip = options.use_alpha == options.invert;
+    if flip {
+        pixels.values.iter_mut().for_each(|v| *v = u16::MAX - *v);
+    }
+    let level = level(&pixels, options, flip, said)?;
+    all_or_nothing(&pixels, level)?;
+    if wanted.pieces != Pieces::All {
+        let (mut all, specks) = pieces(&pixels, level, wanted.smallest.max(1.0))?;
+        said.specks = specks;
+        take(&mut all, wanted.pieces, options)?;
+        leave_out(&mut pixels, &all, options, said);
+        without(&mut pixels, level, wanted.smallest)?;
+    }
+    Ok((pixels, level))
+}
+
+/// Takes the piece that is wanted out of all of them.
+fn take(all: &mut Vec<Piece>, wanted: Pieces, options: &ImageOptions) -> Result<(), DamageError> {
+    let place = match wanted {
+        Pieces::At(at) => {
+            let at = at.map(|v| v.max(0.0) as usize);
+            all.iter().position(|piece| piece.holds(at))
+        }
+        _ => (!all.is_empty()).then_some(0),
+    };
+    let place = place.ok_or_else(|| DamageError::NoSpall {
+        why: match options.pieces() {
+            Pieces::At([x, y]) => {
+                format!("no damage lies at `at_px` = [{x}, {y}]; check it, or `threshold`")
+            }
+            _ => format!(
+                "nothing is as large as `speck_mm2` = {} mm^2",
+                options.speck_mm2
+            ),
+        },
+    })?;
+    all.remove(place);
+    Ok(())
+}
+
+/// Takes pieces that are not wanted out of the picture.
+fn leave_out(pixels: &mut Pixels, others: &[Piece], options: &ImageOptions, said: &mut Said) {
+    for run in others.iter().flat_map(|piece| &piece.runs) {
+        let start = run.row * pixels.width;
+        pixels.values[start + run.from..start + run.to].fill(0);
+    }
+    if let Some(largest) = others.first() {
+        said.notes.push(format!(
+            "left out {} besides, of up to {:.3} mm^2 (`pieces = \"all\"` keeps what is damage for certain, `at_px` chooses one)",
+            counted(others.len(), "piece"),
+            largest.area as f64 * options.mm_per_pixel.powi(2)
+        ));
+    }
+}
+
+/// Takes spots below a size out of the picture, so that none of them counts as the damage's border.
+fn without(pixels: &mut Pixels, level: f64, smallest: f64) -> Result<(), DamageError> {
+    if smallest <= 1.0 {
+        return Ok(());
+    }
+    let (all, _) = pieces(pixels, level, 1.0)?;
+    for run in all
+        .iter()
+        .filter(|p| (p.area as f64) < smallest)
+        .flat_map(|p| &p.runs)
+    {
+        let start = run.row * pixels.width;
+        pixels.values[start + run.from..start + run.to].fill(0);
+    }
+    Ok(())
+}
+
+fn too_small(outlines: &Outlines, options: &ImageOptions) -> DamageError {
+    DamageError::NothingDamaged {
+        why: format!(
+            "the largest of {} encloses {:.3e} mm^2, less than `speck_mm2` = {}; check `mm_per_pixel` = {}",
+            counted(outlines.specks, "spot"),
+            outlines.largest_speck * options.mm_per_pixel.powi(2),
+            options.speck_mm2,
+            options.mm_per_pixel
+        ),
+    }
+}
+
+/// That no piece is a class of its own, with what would help.
+fn no_spall(pixels: &Pixels, wanted: Wanted, options: &ImageOptions) -> DamageError {
+    let (first, last) = pixels
+        .values
+        .iter()
+        .fold((u16::MAX, 0), |(a, b), &v| (a.min(v), b.max(v)));
+    if first == last {
+        return DamageError::NothingDamaged {
+            why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)".to_owned(),
+        };
+    }
+    let word = if wanted.bright { "lighter" } else { "darker" };
+    let mut why = match options.pieces() {
+        Pieces::At([x, y]) => {
+            format!("nothing at `at_px` = [{x}, {y}] is {word} than the surface around it")
+        }
+        _ => format!(
+            "no piece of `speck_mm2` = {} mm^2 or more is clearly {word} than the surface around it",
+            options.speck_mm2
+        ),
+    };
+    let other = Wanted {
+        bright: !wanted.bright,
+        pieces: Pieces::Largest,
+        ..wanted
+    };
+    if let Ok(Some(found)) = find(pixels, other) {
+        let mm2 = found.chosen[0].area as f64 * options.mm_per_pixel.powi(2);
+        why += &format!(
+            "; a piece of {mm2:.3} mm^2 is {}: if that is the damage, give `invert = {}`",
+            if wanted.bright { "darker" } else { "lighter" },
+            !wanted.bright
+        );
+    } else {
+        why += "; if there is one, state `threshold`, or cut the picture with `region_px`";
+    }
+    DamageError::NoSpall { why }
 }
 
 fn check(options: &ImageOptions) -> Result<(), DamageError> {
@@ -180,31 +426,33 @@ fn check(options: &ImageOptions) -> Result<(), DamageError> {
     Ok(())
 }
 
-/// The level above which a pixel is damage, and the threshold where it was found.
+/// The level above which a pixel is damage: as stated, that of alpha, or Otsu's.
 fn level(
     pixels: &Pixels,
     options: &ImageOptions,
     flip: bool,
-    warnings: &mut Vec<String>,
-) -> Result<(f64, Option<f64>), DamageError> {
+    said: &mut Said,
+) -> Result<f64, DamageError> {
     let given = options.threshold.or(options.use_alpha.then_some(0.5));
     let facing = |level: f64| if flip { 1.0 - level } else { level };
     if let Some(threshold) = given {
-        return Ok((FULL * facing(threshold), None));
+        return Ok(FULL * facing(threshold));
     }
     let split = otsu(&pixels.values).ok_or_else(|| DamageError::NothingDamaged {
         why: "the image has one brightness only (if the mask is its transparency, set `use_alpha`)"
             .to_owned(),
     })?;
     let shown = facing(split.level / FULL);
-    warnings.push(format!("the threshold was found as {shown:.3}"));
+    said.notes
+        .push(format!("the threshold was found as {shown:.3}"));
+    said.threshold = Some(shown);
     if split.separation < CLEAR_SEPARATION {
-        warnings.push(format!(
+        said.warnings.push(format!(
             "only {:.0} % of the image's contrast is between its dark and light parts; look at the outline before using it",
             100.0 * split.separation
         ));
     }
-    Ok((split.level, Some(shown)))
+    Ok(split.level)
 }
 
 fn all_or_nothing(pixels: &Pixels, level: f64) -> Result<(), DamageError> {
@@ -225,13 +473,6 @@ fn all_or_nothing(pixels: &Pixels, level: f64) -> Result<(), DamageError> {
         });
     }
     Ok(())
-}
-
-fn touches_border(pixels: &Pixels, level: f64) -> bool {
-    let (w, h) = (pixels.width, pixels.height);
-    let damaged = |x: usize, y: usize| f64::from(pixels.values[y * w + x]) > level;
-    (0..w).any(|x| damaged(x, 0) || damaged(x, h - 1))
-        || (0..h).any(|y| damaged(0, y) || damaged(w - 1, y))
 }
 
 fn counted(count: usize, what: &str) -> String {

@@ -17,6 +17,12 @@ pub enum FileKind {
     Csv,
     /// A NumPy array.
     Npy,
+    /// A surface after ISO 25178-71, in text or binary.
+    Sdf,
+    /// A surface after ISO 5436-2.
+    X3p,
+    /// A surface of MountainsMap.
+    Sur,
 }
 
 impl FileKind {
@@ -30,6 +36,18 @@ impl FileKind {
         }
         if bytes.starts_with(b"\x93NUMPY") {
             return Some(Self::Npy);
+        }
+        if [&b"aISO-1.0"[..], b"bISO-1.0", b"aBCR-1.0", b"bBCR-1.0"]
+            .iter()
+            .any(|m| bytes.starts_with(m))
+        {
+            return Some(Self::Sdf);
+        }
+        if bytes.starts_with(b"DIGITAL SURF") || bytes.starts_with(b"DSCOMPRESSED") {
+            return Some(Self::Sur);
+        }
+        if bytes.starts_with(b"PK\x03\x04") && has_main(bytes) {
+            return Some(Self::X3p);
         }
         let head = &bytes[..bytes.len().min(4096)];
         let text = match std::str::from_utf8(head) {
@@ -57,6 +75,9 @@ impl FileKind {
             "jpg" | "jpeg" => Some(Self::Jpeg),
             "csv" | "txt" | "tsv" | "asc" | "xyz" | "dat" => Some(Self::Csv),
             "npy" => Some(Self::Npy),
+            "sdf" => Some(Self::Sdf),
+            "x3p" => Some(Self::X3p),
+            "sur" => Some(Self::Sur),
             _ => None,
         }
     }
@@ -70,7 +91,7 @@ impl FileKind {
             (None, None) => Err(DamageError::WrongKind {
                 what: describe(bytes),
                 wanted: "damage",
-                way_out: "give an SVG, PNG, JPEG, CSV or NPY file",
+                way_out: "give an SVG, PNG, JPEG, CSV, NPY, SDF, X3P or SUR file",
             }),
         }
     }
@@ -84,6 +105,12 @@ impl FileKind {
             found,
         })
     }
+}
+
+/// Whether an archive's directory, at its end, names the file that every X3P has.
+fn has_main(bytes: &[u8]) -> bool {
+    let end = &bytes[bytes.len().saturating_sub(100_000)..];
+    end.windows(8).any(|w| w.eq_ignore_ascii_case(b"main.xml"))
 }
 
 /// What unknown content looks like, in words.
@@ -115,6 +142,9 @@ impl fmt::Display for FileKind {
             Self::Jpeg => "JPEG",
             Self::Csv => "CSV",
             Self::Npy => "NPY",
+            Self::Sdf => "SDF",
+            Self::X3p => "X3P",
+            Self::Sur => "SUR",
         })
     }
 }

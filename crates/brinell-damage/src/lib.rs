@@ -2,7 +2,7 @@
 //!
 //! - [`read_svg`]: an outline drawn in a vector editor -> [`Polygons`]
 //! - [`read_image`]: a photo or a mask, PNG or JPEG -> [`Polygons`]
-//! - [`read_depth_map`]: a profilometer's grid, CSV, NPY or PNG -> [`DepthGrid`]
+//! - [`read_depth_map`]: a profilometer's grid or point cloud, CSV, NPY, PNG, SDF, X3P or SUR -> [`DepthGrid`]
 //! - [`resolve`], [`resolve_loaded`]: every file that a scenario names -> the scenario with geometry in its place. For this the crate
 //!   uses `brinell`, which opens no files: its scenario, and its checks on what came out. The readers know no bearing.
 //! - [`DepthGrid::outline`]: the line along which a grid has one depth -> [`Polygons`]
@@ -31,7 +31,9 @@
 
 mod contour;
 mod depth;
+mod depth_cloud;
 mod depth_csv;
+mod depth_doubts;
 mod depth_npy;
 mod depth_options;
 mod direction;
@@ -40,22 +42,37 @@ mod form;
 mod form_fit;
 mod geometry;
 mod holes;
+mod keys;
 mod kind;
 mod loaded;
+mod numbers;
 mod outline;
 #[doc(hidden)]
 pub mod plan;
 mod resolve;
+mod surface;
 
+#[cfg(feature = "image")]
+mod background;
 #[cfg(feature = "image")]
 mod blur;
 #[cfg(feature = "image")]
 mod image;
 #[cfg(feature = "image")]
+mod photo;
+#[cfg(feature = "image")]
+mod pieces;
+#[cfg(feature = "image")]
 mod pixels;
+#[cfg(feature = "image")]
+mod region;
+#[cfg(feature = "image")]
+mod segment;
 #[cfg(feature = "image")]
 mod threshold;
 
+#[cfg(feature = "svg")]
+mod stroke;
 #[cfg(feature = "svg")]
 mod svg;
 #[cfg(feature = "svg")]
@@ -77,9 +94,15 @@ pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 #[doc(hidden)]
 pub use resolve::MOST_TEXT;
-pub use resolve::{Unresolved, read_shape, resolve};
+pub use resolve::{ReadShape, Unresolved, read_shape, resolve, shape_of_bytes};
 
 #[cfg(feature = "image")]
-pub use image::{ImageOptions, Smooth, read_image};
+pub use image::{ImageOptions, Smooth, Traced, read_image, trace_image};
+#[cfg(feature = "image")]
+pub use photo::{Photo, photo, photos};
+#[cfg(feature = "image")]
+pub use segment::Pieces;
+#[cfg(feature = "svg")]
+pub use stroke::{Stroke, brush, scratch};
 #[cfg(feature = "svg")]
 pub use svg::{SvgOptions, read_svg};

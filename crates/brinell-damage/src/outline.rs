@@ -48,6 +48,7 @@ impl DepthGrid {
         Ok(Polygons {
             polygons_mm: simplified(rings, tolerance_mm),
             warnings: Vec::new(),
+            notes: Vec::new(),
             threshold: None,
         })
     }

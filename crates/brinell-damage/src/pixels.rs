@@ -30,6 +30,7 @@ pub(crate) enum Channel {
 }
 
 /// One number per pixel, 0 to 65535, first row on top.
+#[derive(Clone)]
 pub(crate) struct Pixels {
     pub(crate) width: usize,
     pub(crate) height: usize,

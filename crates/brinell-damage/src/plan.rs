@@ -25,16 +25,7 @@ pub fn depth_grid(of: &scenario::Defect) -> Option<crate::DepthGrid> {
         ),
         _ => return None,
     };
-    Some(crate::DepthGrid {
-        s0_mm: grid.s0_mm,
-        z0_mm: grid.z0_mm,
-        ds_mm: grid.ds_mm,
-        dz_mm: grid.dz_mm,
-        columns: grid.columns,
-        rows: grid.rows,
-        depth_um: grid.depth_um,
-        ..crate::DepthGrid::default()
-    })
+    Some(grid.into())
 }
 
 /// Where a grid's border is drawn if nobody says otherwise.

@@ -5,12 +5,10 @@ use std::io::Read;
 use std::path::Path;
 
 use brinell::document::{Problem, Severity};
-use brinell::scenario::{self, ImageFile, RollingDirection, ScanFile, Scenario, Shape, SvgFile};
+use brinell::scenario::{self, ScanFile, Scenario, Shape, SvgFile};
 
-use crate::{
-    DamageError, DepthGrid, DepthMapOptions, Direction, FileKind, Fill, FirstRow, Form, Unit, Zero,
-    read_depth_map,
-};
+use crate::keys::{read_drawing, read_outline, scan_options};
+use crate::{DepthGrid, FileKind, read_depth_map};
 
 /// Bytes of a file of damage.
 const LARGEST: u64 = 256 << 20;
@@ -89,15 +87,18 @@ pub(crate) fn resolve_noting(
     }
     let mut resolved = scenario.clone();
     let (mut warnings, mut errors) = (Vec::new(), Vec::new());
+    let mut hints: Vec<(usize, Vec<String>)> = Vec::new();
     for (i, key, file) in &files {
         match read_noting(&scenario.defects[*i].shape, folder) {
-            Ok((shape, said, threshold)) => {
-                resolved.defects[*i].shape = shape;
-                thresholds.extend(threshold.map(|level| (*i, level)));
+            Ok(read) => {
+                resolved.defects[*i].shape = read.shape;
+                thresholds.extend(read.threshold.map(|level| (*i, level)));
                 warnings.extend(
-                    said.iter()
+                    read.warnings
+                        .iter()
                         .map(|text| format!("{key} = \"{file}\" (defect {}): {text}", i + 1)),
                 );
+                hints.push((*i, read.warnings));
             }
             Err(message) => errors.push(Unresolved {
                 defect: *i,
@@ -111,7 +112,14 @@ pub(crate) fn resolve_noting(
         return Err(errors);
     }
     can_be_read_again(&resolved, &files)?;
-    let (said, errors) = new_problems(scenario, &resolved, &files);
+    let (said, mut errors) = new_problems(scenario, &resolved, &files);
+    // Why a scan is refused may be what it was warned of.
+    for error in errors.iter_mut().filter(|e| e.message.contains("raised")) {
+        let said = hints.iter().filter(|(i, _)| *i == error.defect);
+        for hint in said.flat_map(|(_, said)| said) {
+            error.message += &format!("; {hint}");
+        }
+    }
     warnings.extend(said);
     if !errors.is_empty() {
         return Err(errors);
@@ -224,10 +232,12 @@ fn scale(shape: &Shape) -> String {
             format!("; its size follows from mm_per_unit = {scale}")
         }
         Shape::Svg(_) => "; its size is the drawing's own, or give mm_per_unit".into(),
-        Shape::Scan(scan) => format!(
-            "; its size follows from ds_mm = {} and dz_mm = {}",
-            scan.ds_mm, scan.dz_mm
-        ),
+        Shape::Scan(ScanFile {
+            ds_mm: Some(ds),
+            dz_mm: Some(dz),
+            ..
+        }) => format!("; its size follows from ds_mm = {ds} and dz_mm = {dz}"),
+        Shape::Scan(_) => "; its size is what the file says of its spacing".into(),
         _ => String::new(),
     }
 }
@@ -237,39 +247,83 @@ fn scale(shape: &Shape) -> String {
 /// # Errors
 /// In words.
 pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), String> {
-    read_noting(shape, folder).map(|(shape, warnings, _)| (shape, warnings))
+    read_noting(shape, folder).map(|read| (read.shape, read.warnings))
 }
 
-/// [`read_shape`], with the threshold that was found in an image.
-fn read_noting(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>, Option<f64>), String> {
-    let Some(file) = shape.file() else {
-        return Ok((shape.clone(), Vec::new(), None));
+/// A shape that was read from its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadShape {
+    /// With geometry in place of the file.
+    pub shape: Shape,
+    /// What may be wrong, in sentences.
+    pub warnings: Vec<String>,
+    /// What the reader decided or left out, in sentences.
+    pub notes: Vec<String>,
+    /// The threshold that was found in an image: 0 black to 1 white, or the share of the sound surface's brightness.
+    pub threshold: Option<f64>,
+}
+
+/// [`read_shape`], with all that was said.
+fn read_noting(shape: &Shape, folder: &Path) -> Result<ReadShape, String> {
+    if shape.file().is_none() {
+        return shape_of_bytes(shape, &[]);
+    }
+    shape_of_bytes(shape, &bytes_of(shape, folder)?)
+}
+
+/// Reads the content of the file that a shape names; a shape without a file comes back as it is.
+///
+/// # Errors
+/// In words.
+pub fn shape_of_bytes(shape: &Shape, bytes: &[u8]) -> Result<ReadShape, String> {
+    let as_it_is = || ReadShape {
+        shape: shape.clone(),
+        warnings: Vec::new(),
+        notes: Vec::new(),
+        threshold: None,
     };
-    let bytes = bytes(&folder.join(file), largest(shape))?;
+    let Some(file) = shape.file() else {
+        return Ok(as_it_is());
+    };
     if bytes.is_empty() {
         return Err("the file is empty".into());
     }
-    let kind = FileKind::check(file, &bytes).map_err(|e| e.to_string())?;
+    let kind = FileKind::check(file, bytes).map_err(|e| e.to_string())?;
     let read = match shape {
-        Shape::Image(image) => read_outline(&bytes, image),
-        Shape::Svg(drawing) => read_drawing(&bytes, drawing),
+        Shape::Image(image) => read_outline(bytes, image),
+        Shape::Svg(drawing) => read_drawing(bytes, drawing),
         Shape::Scan(scan) => {
-            return read_depth_map(&bytes, Some(kind), &scan_options(scan))
-                .map_err(|e| e.to_string())
-                .and_then(|grid| {
-                    let doubt = doubt(&grid)?;
-                    let shape = cut_out(&grid)?;
-                    let warnings = grid.warnings.into_iter().chain(doubt);
-                    Ok((shape, warnings.collect(), None))
-                });
+            let grid = read_depth_map(bytes, Some(kind), &scan_options(scan))
+                .map_err(|e| e.to_string())?;
+            // What may be wrong explains what cannot be used.
+            let with_hints = |error: String| [&[error], &grid.warnings[..]].concat().join("; ");
+            let doubt = doubt(&grid).map_err(with_hints)?;
+            return Ok(ReadShape {
+                shape: cut_out(&grid).map_err(with_hints)?,
+                warnings: grid.warnings.iter().cloned().chain(doubt).collect(),
+                notes: grid.notes,
+                threshold: None,
+            });
         }
-        _ => return Ok((shape.clone(), Vec::new(), None)),
+        _ => return Ok(as_it_is()),
     };
     let polygons = read.map_err(|e| e.to_string())?;
-    let shape = Shape::Outline {
-        polygons_mm: polygons.polygons_mm,
-    };
-    Ok((shape, polygons.warnings, polygons.threshold))
+    Ok(ReadShape {
+        shape: Shape::Outline {
+            polygons_mm: polygons.polygons_mm,
+        },
+        warnings: polygons.warnings,
+        notes: polygons.notes,
+        threshold: polygons.threshold,
+    })
+}
+
+/// The content of a shape's file.
+pub(crate) fn bytes_of(shape: &Shape, folder: &Path) -> Result<Vec<u8>, String> {
+    bytes(
+        &folder.join(shape.file().unwrap_or_default()),
+        largest(shape),
+    )
 }
 
 /// Bytes of a file for a shape at most.
@@ -300,103 +354,6 @@ fn bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
         ));
     }
     Ok(bytes)
-}
-
-fn direction(direction: RollingDirection) -> Direction {
-    match direction {
-        RollingDirection::Right => Direction::Right,
-        RollingDirection::Up => Direction::Up,
-        RollingDirection::Left => Direction::Left,
-        RollingDirection::Down => Direction::Down,
-    }
-}
-
-#[cfg(feature = "image")]
-fn read_outline(bytes: &[u8], image: &ImageFile) -> Result<crate::Polygons, DamageError> {
-    let options = crate::ImageOptions {
-        mm_per_pixel: image.mm_per_pixel,
-        threshold: image.threshold,
-        use_alpha: image.use_alpha,
-        invert: image.invert,
-        rolling_direction: direction(image.rolling_direction),
-        center: image.center,
-        smooth: match image.edges {
-            scenario::ImageEdges::SubPixel => crate::Smooth::SubPixel {
-                blur_px: image.blur_px.unwrap_or(0.0),
-            },
-            scenario::ImageEdges::PixelEdges => crate::Smooth::PixelEdges,
-        },
-        speck_mm2: image.speck_mm2,
-    };
-    crate::read_image(bytes, &options)
-}
-
-#[cfg(not(feature = "image"))]
-fn read_outline(_: &[u8], _: &ImageFile) -> Result<crate::Polygons, DamageError> {
-    Err(DamageError::LeftOut {
-        kind: FileKind::Png,
-        feature: "image",
-    })
-}
-
-#[cfg(feature = "svg")]
-fn read_drawing(bytes: &[u8], drawing: &SvgFile) -> Result<crate::Polygons, DamageError> {
-    let options = crate::SvgOptions {
-        path_id: drawing.path_id.clone(),
-        mm_per_unit: drawing.mm_per_unit,
-        tolerance_mm: drawing.tolerance_mm,
-        center: drawing.center,
-    };
-    crate::read_svg(bytes, &options)
-}
-
-#[cfg(not(feature = "svg"))]
-fn read_drawing(_: &[u8], _: &SvgFile) -> Result<crate::Polygons, DamageError> {
-    Err(DamageError::LeftOut {
-        kind: FileKind::Svg,
-        feature: "svg",
-    })
-}
-
-fn scan_options(scan: &ScanFile) -> DepthMapOptions {
-    DepthMapOptions {
-        ds_mm: scan.ds_mm,
-        dz_mm: scan.dz_mm,
-        unit: match scan.unit {
-            scenario::ScanUnit::Um => Unit::Um,
-            scenario::ScanUnit::Mm => Unit::Mm,
-            scenario::ScanUnit::M => Unit::M,
-            scenario::ScanUnit::Counts => Unit::NmPerCount(scan.nm_per_count.unwrap_or(f64::NAN)),
-        },
-        height_positive_up: scan.height_positive_up,
-        missing: scan.missing,
-        fill: match scan.fill {
-            scenario::ScanFill::None => Fill::None,
-            scenario::ScanFill::Neighbours => Fill::Neighbours,
-        },
-        remove_form: match scan.remove_form {
-            scenario::ScanForm::None => Form::None,
-            scenario::ScanForm::Plane => Form::Plane,
-            scenario::ScanForm::Cylinder => Form::Cylinder {
-                radius_mm: scan.radius_mm,
-            },
-        },
-        zero: match scan.zero {
-            scenario::ScanZero::AsIs => Zero::AsIs,
-            scenario::ScanZero::RimMedian => Zero::RimMedian,
-            scenario::ScanZero::Percentile => {
-                Zero::Percentile(scan.zero_percentile.unwrap_or(f64::NAN))
-            }
-        },
-        first_row: match scan.first_row {
-            scenario::FirstRow::Top => FirstRow::Top,
-            scenario::FirstRow::Bottom => FirstRow::Bottom,
-        },
-        rolling_direction: direction(scan.rolling_direction),
-        threshold_um: scan.threshold_um,
-        speck_mm2: scan.speck_mm2,
-        center: scan.center,
-    }
 }
 
 /// A word on a scan whose rim is damage: its form is still in it, or it shows only a part.

@@ -385,6 +385,7 @@ impl Reader<'_> {
         let mut result = Polygons {
             polygons_mm: rings,
             warnings: self.warnings,
+            notes: Vec::new(),
             threshold: None,
         };
         if self.options.center {

@@ -5,4 +5,6 @@ mod depth_maps;
 mod drawings;
 mod images;
 mod outlines;
+mod photos;
 mod resolve;
+mod surfaces;

@@ -8,12 +8,21 @@ use brinell_damage::{
     read_depth_map,
 };
 
+/// Points 0.01 mm apart where a test does not care.
+fn spaced(options: &DepthMapOptions) -> DepthMapOptions {
+    DepthMapOptions {
+        ds_mm: options.ds_mm.or(Some(0.01)),
+        dz_mm: options.dz_mm.or(Some(0.01)),
+        ..options.clone()
+    }
+}
+
 fn read(bytes: &[u8], options: &DepthMapOptions) -> DepthGrid {
-    read_depth_map(bytes, None, options).unwrap()
+    read_depth_map(bytes, None, &spaced(options)).unwrap()
 }
 
 fn refuse(bytes: &[u8], options: &DepthMapOptions) -> String {
-    read_depth_map(bytes, None, options)
+    read_depth_map(bytes, None, &spaced(options))
         .unwrap_err()
         .to_string()
 }
@@ -50,8 +59,8 @@ fn analytic_circle_and_rectangle_have_their_area_and_widths_within_the_spacing()
         })
     };
     let options = DepthMapOptions {
-        ds_mm: step,
-        dz_mm: step,
+        ds_mm: Some(step),
+        dz_mm: Some(step),
         ..Default::default()
     };
     let rectangle = read(&map(&|s, z| s.abs() < 1.5 && z.abs() < 2.0), &options);
@@ -102,8 +111,8 @@ fn analytic_an_l_is_turned_and_never_mirrored() {
             (Direction::Down, [-3.0, -1.5], [3.0, 2.0], [-3.0, 2.0]),
         ] {
             let options = DepthMapOptions {
-                ds_mm: 1.0,
-                dz_mm: 1.0,
+                ds_mm: Some(1.0),
+                dz_mm: Some(1.0),
                 rolling_direction: direction,
                 first_row,
                 zero: Zero::AsIs,
@@ -186,8 +195,8 @@ fn analytic_tilt_and_curvature_are_removed_exactly() {
             form + tilt - spall(s, z)
         });
         let options = DepthMapOptions {
-            ds_mm: step,
-            dz_mm: step,
+            ds_mm: Some(step),
+            dz_mm: Some(step),
             remove_form: form,
             center: false,
             ..Default::default()
@@ -232,8 +241,8 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
                 - if inside(s, z) { 25.0 } else { 0.0 }
         });
         let options = DepthMapOptions {
-            ds_mm: step,
-            dz_mm: step,
+            ds_mm: Some(step),
+            dz_mm: Some(step),
             remove_form: Form::Cylinder { radius_mm: None },
             zero: Zero::AsIs,
             threshold_um: 2.0,
@@ -259,8 +268,8 @@ fn analytic_noise_and_a_large_spall_hardly_move_the_form() {
 fn analytic_the_drawn_scan_gives_its_raceway_and_its_spall() {
     let scan = include_bytes!("../../../examples/scan.csv");
     let options = DepthMapOptions {
-        ds_mm: 0.06,
-        dz_mm: 0.06,
+        ds_mm: Some(0.06),
+        dz_mm: Some(0.06),
         remove_form: Form::Cylinder { radius_mm: None },
         fill: Fill::Neighbours,
         threshold_um: 1.0,
@@ -329,9 +338,11 @@ fn analytic_missing_points_of_a_slope_are_filled_on_it() {
         );
     }
     assert_eq!(
-        grid.warnings,
-        ["13 of 400 points were missing and are filled from their neighbours, up to 2 points deep"]
+        grid.warnings[0],
+        "13 of 400 points were missing and are filled from their neighbours, up to 2 points deep"
     );
+    // A slope that nobody takes off.
+    assert!(grid.warnings[1].contains("as a tilted part does"));
     assert_eq!(
         refuse(
             &map,
@@ -540,14 +551,14 @@ fn prop_unusable_maps_are_refused_in_words() {
         remove_form: Form::Cylinder {
             radius_mm: Some(0.5),
         },
-        ds_mm: 1.0,
+        ds_mm: Some(1.0),
         ..default.clone()
     };
     assert!(refuse(&map, &short).starts_with("the cylinder cannot be fitted: the scan is longer"));
     for (options, words) in [
         (
             DepthMapOptions {
-                ds_mm: f64::NAN,
+                ds_mm: Some(f64::NAN),
                 ..default.clone()
             },
             "`ds_mm` is NaN",
@@ -588,8 +599,8 @@ fn prop_the_largest_map_stays_within_a_gigabyte() {
         raceway(27.5, 0.02, s, z) - spall(s, z)
     });
     let options = DepthMapOptions {
-        ds_mm: step,
-        dz_mm: step,
+        ds_mm: Some(step),
+        dz_mm: Some(step),
         remove_form: Form::Cylinder { radius_mm: None },
         speck_mm2: 0.01,
         ..Default::default()

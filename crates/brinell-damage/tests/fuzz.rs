@@ -3,7 +3,7 @@
 //! A few seconds in the suite; `BRINELL_FUZZ_SECONDS=600` for longer, `BRINELL_FUZZ_SEED` for other mutations. A file
 //! that makes a reader panic is kept in `tests/corpus/` and replayed from then on. `BRINELL_FUZZ_WRITE=1` writes the
 //! made seeds there.
-#![cfg(all(feature = "svg", feature = "image"))]
+#![cfg(all(feature = "svg", feature = "image", feature = "x3p"))]
 
 mod common;
 
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use brinell_damage::*;
+use common::photos::photo;
+use common::surfaces::{cloud, sdf_binary, sdf_text, sur, x3p};
 use common::{Noise, grey_bytes, grey_png, npy, npy_f8, png};
 use png::{BitDepth, ColorType};
 
@@ -55,6 +57,11 @@ fn made_seeds() -> Vec<(&'static str, Vec<u8>)> {
     let f4: Vec<u8> = (0..48)
         .flat_map(|i| (if i % 11 == 3 { f32::NAN } else { i as f32 }).to_be_bytes())
         .collect();
+    let pit = |column: usize, row: usize| match (column, row) {
+        (2..=4, 3..=6) => -20.0 + column as f64,
+        (6, 1) => f64::NAN,
+        _ => 0.1,
+    };
     vec![
         (
             "shapes.svg",
@@ -118,6 +125,14 @@ fn made_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ),
         ("short.npy", npy("<i2", true, [6, 8], &i2)),
         ("big.npy", npy(">f4", false, [8, 6], &f4)),
+        ("text.sdf", sdf_text(8, 9, 100.0, &pit)),
+        ("binary.sdf", sdf_binary(8, 9, 100.0, &pit)),
+        ("plain.sur", sur(8, 9, 100.0, &pit, false)),
+        ("packed.sur", sur(8, 9, 100.0, &pit, true)),
+        ("stored.x3p", x3p(8, 9, 100.0, &pit, false)),
+        ("deflated.x3p", x3p(8, 9, 100.0, &pit, true)),
+        ("cloud.xyz", cloud(8, 9, 100.0, &pit, "x_mm,y_mm,z_um\n")),
+        ("uneven.jpg", photo(1, 5).bytes),
     ]
 }
 
@@ -253,11 +268,19 @@ fn read_all(noise: &mut Noise, bytes: &[u8]) -> usize {
             },
         ][noise.below(2)],
         speck_mm2: number(noise, 0.01),
+        region_px: (noise.below(4) == 0)
+            .then(|| [0.0, number(noise, 2.0), number(noise, 10.0), 9.0]),
+        pieces: [
+            None,
+            Some(Pieces::Largest),
+            Some(Pieces::All),
+            Some(Pieces::At([number(noise, 9.0), 8.0])),
+        ][noise.below(4)],
     };
     let radius = number(noise, 20.0);
     let depth = DepthMapOptions {
-        ds_mm: number(noise, 0.1),
-        dz_mm: number(noise, 0.1),
+        ds_mm: (noise.below(2) == 0).then(|| number(noise, 0.1)),
+        dz_mm: Some(number(noise, 0.1)).filter(|_| noise.below(2) == 0),
         unit: [
             Unit::Um,
             Unit::Mm,

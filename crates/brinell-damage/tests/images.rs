@@ -190,7 +190,7 @@ fn analytic_holes_stay_and_specks_go() {
     assert_eq!(damage.polygons_mm.len(), 2);
     let area = PI * (100.0_f64.powi(2) - 50.0_f64.powi(2)) * PIXEL * PIXEL;
     assert!((damage.area_mm2() / area - 1.0).abs() < 5e-3);
-    let said = damage.warnings.join("\n");
+    let said = damage.notes.join("\n");
     assert!(said.contains("the threshold was found as 0.5"), "{said}");
     assert!(
         said.contains("and filled 1 hole that enclose less than 0.02 mm^2"),

@@ -2,21 +2,46 @@
 //!
 //! The order is: lock and empty `NAME.partial`, write, force to the disk, rename to `NAME`, force the folder to
 //! the disk. After a crash at any point `NAME` is either absent, the old file, or the whole new one.
+//!
+//! The same writers make the bytes of a file in memory, where nothing of this is needed.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
 
+/// Where a file is to be made; the path of one in memory is what errors call it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Destination<'a> {
+    Disk(&'a Path),
+    Memory(&'a Path),
+}
+
+impl<'a> Destination<'a> {
+    pub(crate) fn path(self) -> &'a Path {
+        match self {
+            Self::Disk(path) | Self::Memory(path) => path,
+        }
+    }
+}
+
 /// A file under construction. Dropped before [`PartialFile::commit`], it is removed.
 #[derive(Debug)]
 pub(crate) struct PartialFile {
-    file: File,
-    partial: PathBuf,
+    place: Place,
     path: PathBuf,
-    committed: bool,
     failed: bool,
+}
+
+#[derive(Debug)]
+enum Place {
+    Disk {
+        file: File,
+        partial: PathBuf,
+        committed: bool,
+    },
+    Memory(Cursor<Vec<u8>>),
 }
 
 impl PartialFile {
@@ -31,22 +56,34 @@ impl PartialFile {
         name.push(".partial");
         let partial = path.with_file_name(name);
         let file = open_alone(&partial, path)?;
+        let empty = || match file.metadata()?.len() {
+            0 => Ok(()),
+            _ => file.set_len(0),
+        };
+        let emptied = empty();
         let this = Self {
-            file,
-            partial,
+            place: Place::Disk {
+                file,
+                partial,
+                committed: false,
+            },
             path: path.to_owned(),
-            committed: false,
             failed: false,
         };
-        let empty = || {
-            if this.file.metadata()?.len() > 0 {
-                this.file.set_len(0)
-            } else {
-                Ok(())
-            }
-        };
-        empty().map_err(|e| IoError::writing(path, e))?;
+        emptied.map_err(|e| IoError::writing(path, e))?;
         Ok(this)
+    }
+
+    /// Opens a file on the disk as [`PartialFile::create`] does, or begins one in memory.
+    pub(crate) fn at(destination: Destination<'_>) -> Result<Self, IoError> {
+        match destination {
+            Destination::Disk(path) => Self::create(path),
+            Destination::Memory(path) => Ok(Self {
+                place: Place::Memory(Cursor::default()),
+                path: path.to_owned(),
+                failed: false,
+            }),
+        }
     }
 
     /// The path that the file will have.
@@ -57,7 +94,7 @@ impl PartialFile {
     /// Appends bytes. After a failure every further call fails: the file has a hole that nobody could see.
     pub(crate) fn append(&mut self, bytes: &[u8]) -> Result<(), IoError> {
         self.check()?;
-        self.file.write_all(bytes).map_err(|e| {
+        self.place.write_all(bytes).map_err(|e| {
             self.failed = true;
             IoError::writing(&self.path, e)
         })
@@ -67,10 +104,10 @@ impl PartialFile {
     pub(crate) fn patch(&mut self, at: u64, bytes: &[u8]) -> Result<(), IoError> {
         self.check()?;
         let mut write = || {
-            let end = self.file.stream_position()?;
-            self.file.seek(SeekFrom::Start(at))?;
-            self.file.write_all(bytes)?;
-            self.file.seek(SeekFrom::Start(end))
+            let end = self.place.stream_position()?;
+            self.place.seek(SeekFrom::Start(at))?;
+            self.place.write_all(bytes)?;
+            self.place.seek(SeekFrom::Start(end))
         };
         write().map(drop).map_err(|e| {
             self.failed = true;
@@ -89,11 +126,13 @@ impl PartialFile {
         }
     }
 
-    /// Forces the contents to the disk.
+    /// Forces the contents to the disk, where they are on one.
     pub(crate) fn complete(self) -> Result<Complete, IoError> {
         self.check()?;
-        let forced = self.file.sync_all();
-        forced.map_err(|e| IoError::writing(&self.path, e))?;
+        if let Place::Disk { file, .. } = &self.place {
+            file.sync_all()
+                .map_err(|e| IoError::writing(&self.path, e))?;
+        }
         Ok(Complete(self))
     }
 
@@ -119,36 +158,80 @@ impl Complete {
     /// # Errors
     /// Where the folder does not let it.
     pub fn publish(mut self) -> Result<PathBuf, IoError> {
-        let PartialFile { partial, path, .. } = &self.0;
-        std::fs::rename(partial, path).map_err(|e| IoError::writing(path, e))?;
-        self.0.committed = true;
-        sync_folder_of(self.path());
-        Ok(self.path().to_owned())
+        let path = self.path().to_owned();
+        // A file in memory gets no name; nobody outside has a `Complete` of one.
+        if let Place::Disk {
+            partial, committed, ..
+        } = &mut self.0.place
+        {
+            std::fs::rename(partial, &path).map_err(|e| IoError::writing(&path, e))?;
+            *committed = true;
+            sync_folder_of(&path);
+        }
+        Ok(path)
+    }
+
+    /// The bytes of a file in memory; of one on the disk there are none here.
+    pub(crate) fn into_bytes(mut self) -> Vec<u8> {
+        match &mut self.0.place {
+            Place::Memory(bytes) => std::mem::take(bytes).into_inner(),
+            Place::Disk { .. } => Vec::new(),
+        }
+    }
+}
+
+impl Write for Place {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Disk { file, .. } => file.write(bytes),
+            Self::Memory(memory) => memory.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Disk { file, .. } => file.flush(),
+            Self::Memory(_) => Ok(()),
+        }
+    }
+}
+
+impl Seek for Place {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match self {
+            Self::Disk { file, .. } => file.seek(to),
+            Self::Memory(memory) => memory.seek(to),
+        }
     }
 }
 
 /// For encoders that write to a stream.
 impl Write for PartialFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes).inspect_err(|_| self.failed = true)
+        self.place.write(bytes).inspect_err(|_| self.failed = true)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.place.flush()
     }
 }
 
 impl Seek for PartialFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.file.seek(to)
+        self.place.seek(to)
     }
 }
 
 impl Drop for PartialFile {
     fn drop(&mut self) {
-        if !self.committed {
+        if let Place::Disk {
+            partial,
+            committed: false,
+            ..
+        } = &self.place
+        {
             // Nobody is left to tell of a failure here; the name says that the file is partial.
-            let _ = std::fs::remove_file(&self.partial);
+            let _ = std::fs::remove_file(partial);
         }
     }
 }

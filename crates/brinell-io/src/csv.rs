@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, Signals};
 
@@ -28,9 +28,13 @@ pub struct CsvWriter {
 impl CsvWriter {
     /// Starts the file with its header line. Units have no place in it: they go to the run's summary.
     pub fn create(path: impl AsRef<Path>, columns: &[Column]) -> Result<Self, IoError> {
-        let path = path.as_ref();
-        check_columns(path, columns)?;
-        let file = PartialFile::create(path)?;
+        Self::at(Destination::Disk(path.as_ref()), columns)
+    }
+
+    /// The same on the disk or in memory.
+    pub(crate) fn at(destination: Destination<'_>, columns: &[Column]) -> Result<Self, IoError> {
+        check_columns(destination.path(), columns)?;
+        let file = PartialFile::at(destination)?;
         // Room for one more row than the limit, so that a row never allocates.
         let mut text = Vec::with_capacity(BUFFER_BYTES + columns.len() * LONGEST_FIELD);
         for (i, column) in columns.iter().enumerate() {

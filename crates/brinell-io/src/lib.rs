@@ -34,6 +34,9 @@
 //! assert_eq!(file.read("acc [g]")?, [1.5, -2.25]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Without a file system, as in a browser, [`open_bytes`] reads and [`Format::in_memory`] writes: the same readers and writers, the same
+//! bytes. For `wasm32-unknown-unknown` leave out the features `parquet` and `parquet-write`, which need a C compiler.
 
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
@@ -61,15 +64,19 @@ pub use read::MAX_VALUES;
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use read::parquet::read_parquet;
+#[cfg(feature = "parquet")]
+#[doc(hidden)]
+pub use read::records::read_records;
 pub use read::{
-    Channel, Decimal, Delimiter, FileKind, Rate, RateSource, SignalFile, TextFormat, open, open_as,
+    Channel, Decimal, Delimiter, FileKind, NoRate, Rate, RateSource, SignalFile, TextFormat, open,
+    open_as, open_bytes, open_bytes_as, rate_of_times, seconds_in,
 };
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use records::{Cell, Kind, RecordColumn, read_row_file, sha256_of, write_row_file};
 #[doc(hidden)]
 pub use signals::keys;
-pub use signals::{Column, Format, Metadata, Outcome, SignalWriter, Signals};
+pub use signals::{Column, Format, MemoryWriter, Metadata, Outcome, SignalWriter, Signals};
 #[doc(hidden)]
 pub use table::{Cells, Table};
 #[doc(hidden)]

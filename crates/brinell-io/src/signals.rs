@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::atomic::Destination;
 use crate::write::uff::UffWriter;
 use crate::write::wav::WavWriter;
 use crate::{Complete, CsvWriter, IoError, MatWriter};
@@ -131,6 +132,35 @@ pub trait SignalWriter: Send {
     }
 }
 
+/// Takes a table row by row and makes of it, in memory, the bytes that its file would have: for where there is no file system.
+///
+/// Memory is that of the file; MAT, NPZ and UFF take it twice, for they store one channel after the other.
+pub struct MemoryWriter(Box<dyn SignalWriter>);
+
+impl MemoryWriter {
+    /// Appends one row: a value per column, in the order of the columns.
+    ///
+    /// # Errors
+    /// Where the row has another length, or the format holds no more rows.
+    pub fn write_row(&mut self, row: &[f64]) -> Result<(), IoError> {
+        self.0.write_row(row)
+    }
+
+    /// The whole file.
+    ///
+    /// # Errors
+    /// Where the format cannot hold the table.
+    pub fn finish(self, outcome: Outcome) -> Result<Vec<u8>, IoError> {
+        Ok(self.0.complete(outcome)?.into_bytes())
+    }
+}
+
+impl fmt::Debug for MemoryWriter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MemoryWriter").finish_non_exhaustive()
+    }
+}
+
 /// A file format for signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
@@ -194,21 +224,55 @@ impl Format {
         metadata: &Metadata,
     ) -> Result<Box<dyn SignalWriter>, IoError> {
         let path = folder.join(self.file_name());
+        self.writer(Destination::Disk(&path), columns, metadata)
+    }
+
+    /// A writer of this format's bytes in memory, the same as [`Format::create`] makes a file of. Errors call it [`Format::file_name`].
+    ///
+    /// ```
+    /// use brinell_io::{Column, Format, Metadata, Outcome};
+    ///
+    /// let columns = [Column::new("outer_ax", "m/s^2", "")];
+    /// let mut writer = Format::Csv.in_memory(&columns, &Metadata::default())?;
+    /// writer.write_row(&[1.5])?;
+    /// assert_eq!(writer.finish(Outcome::Complete)?, b"outer_ax\n1.5\n");
+    /// # Ok::<(), brinell_io::IoError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where the format cannot hold such columns, needs metadata that are not there, or is not in this build.
+    pub fn in_memory(
+        self,
+        columns: &[Column],
+        metadata: &Metadata,
+    ) -> Result<MemoryWriter, IoError> {
+        let destination = Destination::Memory(Path::new(self.file_name()));
+        Ok(MemoryWriter(self.writer(destination, columns, metadata)?))
+    }
+
+    fn writer(
+        self,
+        destination: Destination<'_>,
+        columns: &[Column],
+        metadata: &Metadata,
+    ) -> Result<Box<dyn SignalWriter>, IoError> {
         Ok(match self {
-            Self::Csv => Box::new(CsvWriter::create(&path, columns)?),
+            Self::Csv => Box::new(CsvWriter::at(destination, columns)?),
             #[cfg(feature = "parquet-write")]
-            Self::Parquet => Box::new(crate::ParquetWriter::create(&path, columns, metadata)?),
-            Self::Mat => Box::new(MatWriter::create(&path, columns, metadata, false)?),
+            Self::Parquet => Box::new(crate::ParquetWriter::at(destination, columns, metadata)?),
+            Self::Mat => Box::new(MatWriter::at(destination, columns, metadata, false)?),
             #[cfg(feature = "npz")]
-            Self::Npz => Box::new(crate::write::npz::NpzWriter::create(
-                &path, columns, metadata,
+            Self::Npz => Box::new(crate::write::npz::NpzWriter::at(
+                destination,
+                columns,
+                metadata,
             )?),
-            Self::Uff58 => Box::new(UffWriter::create(&path, columns, metadata)?),
-            Self::Wav => Box::new(WavWriter::create(&path, columns, metadata)?),
+            Self::Uff58 => Box::new(UffWriter::at(destination, columns, metadata)?),
+            Self::Wav => Box::new(WavWriter::at(destination, columns, metadata)?),
             #[cfg(not(feature = "parquet-write"))]
             Self::Parquet => {
                 return Err(IoError::FormatLeftOut {
-                    path,
+                    path: destination.path().to_owned(),
                     format: self.name(),
                     feature: "parquet",
                 });
@@ -216,7 +280,7 @@ impl Format {
             #[cfg(not(feature = "npz"))]
             Self::Npz => {
                 return Err(IoError::FormatLeftOut {
-                    path,
+                    path: destination.path().to_owned(),
                     format: self.name(),
                     feature: "npz",
                 });

@@ -5,6 +5,7 @@ mod bad_files;
 mod common;
 mod csv;
 mod measured;
+mod memory;
 mod parquet;
 mod records;
 mod table;

@@ -2,7 +2,8 @@
 //!
 //! A few seconds in the suite, the same mutations each time; `BRINELL_FUZZ_SECONDS=600` goes on for so long, `BRINELL_FUZZ_SEED` takes others.
 //! The seeds are the files in `tests/data/` and `tests/corpus/`; a file that breaks a reader is kept in the latter and replayed from then on.
-//! Panics of other people's readers are caught in the library and told as damage; here only our own count.
+//! Panics of other people's readers are caught in the library and told as damage; here only our own count. Each file is read from the disk and
+//! from memory, which must come to the same.
 #![cfg(all(feature = "parquet", feature = "hdf5", feature = "npz"))]
 
 use std::ops::ControlFlow;
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use brinell_io::{Column, Format, IoError, Metadata, Outcome, keys, open};
+use brinell_io::{Column, Format, IoError, Metadata, Outcome, SignalFile, keys, open, open_bytes};
 
 /// Mutations of the suite's run, whatever the machine's speed.
 const RUNS: u64 = 6_000;
@@ -104,18 +105,37 @@ fn mutate(noise: &mut Noise, seed: &[u8], other: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Reads what is there, up to a limit; whether anything was.
-fn read_all(path: &Path) -> bool {
-    let Ok(mut file) = open(path) else {
-        return false;
+/// What a file comes to.
+#[derive(Default, PartialEq)]
+struct Seen {
+    /// Of errors.
+    words: Vec<String>,
+    /// Of all values, in order.
+    digest: u64,
+    /// Whether a channel could be read.
+    any: bool,
+}
+
+/// Reads what is there, up to a limit.
+fn read_all(file: Result<SignalFile, IoError>) -> Seen {
+    let mut seen = Seen::default();
+    let mut file = match file {
+        Ok(file) => file,
+        Err(error) => {
+            seen.words.push(error.to_string());
+            return seen;
+        }
     };
-    let _ = file.only_signal().map(drop);
+    seen.words
+        .extend(file.only_signal().err().map(|e| e.to_string()));
     let names: Vec<String> = file.channels().iter().map(|c| c.name.clone()).collect();
-    let mut any = false;
     for name in names.iter().take(40) {
         let mut count = 0;
         let mut take = |values: &[f64]| {
             count += values.len() as u64;
+            seen.digest = values.iter().fold(seen.digest, |sum, value| {
+                (sum ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3)
+            });
             if count > MAX_VALUES {
                 ControlFlow::Break(())
             } else {
@@ -123,12 +143,14 @@ fn read_all(path: &Path) -> bool {
             }
         };
         let mut read = |name: &str| file.read_pieces(name, &mut take);
-        any |= match read(name) {
-            Err(IoError::Unsupported { .. }) => read(&format!("{name}(:,2)")).is_ok(),
-            result => result.is_ok(),
+        let result = match read(name) {
+            Err(IoError::Unsupported { .. }) => read(&format!("{name}(:,2)")),
+            result => result,
         };
+        seen.any |= result.is_ok();
+        seen.words.extend(result.err().map(|e| e.to_string()));
     }
-    any
+    seen
 }
 
 fn peak_memory_mb() -> Option<u64> {
@@ -201,13 +223,20 @@ fn prop_no_bytes_make_a_reader_panic() {
         };
         std::fs::write(&path, &bytes).unwrap();
         let (ours, started) = (OURS.load(Ordering::Relaxed), Instant::now());
-        readable += u64::from(read_all(&path));
+        let seen = read_all(open(&path));
+        readable += u64::from(seen.any);
         let took = started.elapsed();
         slowest = slowest.max(took);
+        let name = path.to_str().unwrap();
+        let differs = seen != read_all(open_bytes(name, bytes.clone()));
         let panicked = OURS.load(Ordering::Relaxed) > ours;
-        if panicked || took > Duration::from_secs(20) {
+        if panicked || differs || took > Duration::from_secs(20) {
             kept += 1;
-            let what = if panicked { "panic" } else { "slow" };
+            let what = match (panicked, differs) {
+                (true, _) => "panic",
+                (_, true) => "differs",
+                _ => "slow",
+            };
             std::fs::write(
                 folder("corpus").join(format!("{what}-{:016x}", noise.0)),
                 &bytes,

@@ -10,6 +10,7 @@ mod read;
 mod run;
 mod scenario;
 mod signal;
+mod studio;
 mod sweep;
 
 use pyo3::prelude::*;
@@ -33,6 +34,8 @@ mod _brinell {
     use signal::{
         Findings, analyze, envelope, envelope_spectrum, indicators, kurtogram, psd, spectrogram,
     };
+    #[pymodule_export]
+    use studio::{StudioEngine, studio_page};
     #[pymodule_export]
     use sweep::sweep;
 

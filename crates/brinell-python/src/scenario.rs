@@ -259,10 +259,14 @@ pub(crate) fn bearings<'py>(py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
     PyList::new(py, entries.map(|e| (e.name.as_str(), e.title.as_str())))
 }
 
-/// JSON Schema of the scenario file, as text.
+/// JSON Schema of the scenario file, or of a data set's plan, as text.
 #[pyfunction]
-pub(crate) fn schema() -> String {
-    brinell::document::json_schema().to_string()
+pub(crate) fn schema(plan: bool) -> String {
+    let schema = match plan {
+        true => brinell_study::design::plan_schema(),
+        false => brinell::document::json_schema(),
+    };
+    schema.to_string()
 }
 
 /// A scenario to begin from, commented.

@@ -37,6 +37,7 @@ mod raster;
 mod run;
 mod sensor;
 mod shape;
+mod sheet;
 mod side_by_side;
 mod slip;
 mod spectrogram;
@@ -57,7 +58,7 @@ pub use axial::{AxialRow, AxialSection, axial_section};
 pub use calibrate::{CalibrationReport, FittedKey, Tried, calibration_html, calibration_pictures};
 pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
-pub use damage::{damage_passage, damage_plan, damage_section, load_along};
+pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 pub use data::{
     Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
     Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
@@ -83,6 +84,8 @@ pub use plots::{headline_png, pictures};
 #[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;
+#[doc(hidden)]
+pub use sheet::{SheetDamage, SheetGroup, SheetReport, SheetTile, sheet_html};
 #[doc(hidden)]
 pub use side_by_side::{
     Along, OverlaidCurve, Overlay, Part, Piece, SideBySide, Vertical, overlay, side_by_side_html,

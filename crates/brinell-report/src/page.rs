@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use crate::chart::Domain;
-use crate::damage::{damage_passage, damage_plan, damage_section, load_along};
+use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 use crate::data::Report;
 use crate::embedded::Chart;
 use crate::frame::{THINNED, alert, close, code, figure, none, open, plain, section};
 use crate::load::load_distribution;
 use crate::number::significant;
-use crate::picture::escape;
-use crate::plots;
+use crate::picture::{Picture, escape};
+use crate::plots::{self, Layout};
 use crate::tables::{assumptions, fact_table, facts, indicators};
 
 /// Passes drawn; a page with more is no longer read.
@@ -239,6 +239,19 @@ fn damage(page: &mut String, report: &Report) {
     }
     for (index, view) in report.damage.iter().take(PASSES).enumerate() {
         let _ = writeln!(page, "<h3>{}</h3>", escape(&view.title));
+        if let Some(photo) = view
+            .photo
+            .as_ref()
+            .filter(|_| damage_photo(view, index, Layout::Wide).is_some())
+        {
+            let empty = || Picture::new("", "", 0.0, 0.0);
+            figure(
+                page,
+                &format!("damage{index}-photo"),
+                |layout| damage_photo(view, index, layout).unwrap_or_else(empty),
+                &sentence(&escape(&photo.notes.join("; "))),
+            );
+        }
         let band = match (view.half_turn_mm, view.element()) {
             (Some(_), element) => format!("the {}’s surface, once around", escape(element)),
             (None, "ball") => "the track, as wide as a ball is thick".into(),

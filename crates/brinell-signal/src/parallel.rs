@@ -6,6 +6,25 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+/// WebAssembly as browsers run it has one thread.
+const SINGLE: bool = cfg!(target_family = "wasm");
+
+/// Both results; `a` on a thread of its own where there are threads, `b` on the calling one.
+///
+/// # Panics
+/// Where `a` or `b` does.
+pub fn join<A: Send, B>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B) -> (A, B) {
+    if SINGLE {
+        return (a(), b());
+    }
+    thread::scope(|scope| {
+        let a = scope.spawn(a);
+        let b = b();
+        let a = (a.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        (a, b)
+    })
+}
+
 /// Threads that are of use for `jobs` jobs on this machine: one a core, and no more than there are jobs; at least 1.
 pub fn threads(jobs: usize) -> NonZeroUsize {
     let cores = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
@@ -31,6 +50,9 @@ pub fn each<T: Send>(
     job: impl Fn(usize) -> T + Sync,
     mut done: impl FnMut(usize, T),
 ) {
+    if SINGLE {
+        return (0..count).for_each(|k| done(k, job(k)));
+    }
     let next = AtomicUsize::new(0);
     let (job, next) = (&job, &next);
     thread::scope(|scope| {

@@ -53,13 +53,14 @@ fn refusals(plan: &str) -> Vec<String> {
     problems.iter().map(ToString::to_string).collect()
 }
 
+fn number(draws: &Draws, run: usize, key: &str) -> Option<f64> {
+    let mut parameters = draws.parameters().iter();
+    let k = parameters.position(|p| p.key == key).unwrap();
+    draws.first(BASE, run).unwrap().values[k].as_ref()?.number
+}
+
 fn numbers(draws: &Draws, key: &str) -> Vec<f64> {
-    let k = draws
-        .parameters()
-        .iter()
-        .position(|p| p.key == key)
-        .unwrap();
-    let value = |run| draws.first(BASE, run).unwrap().values[k].as_ref()?.number;
+    let value = |run| number(draws, run, key);
     (0..draws.runs()).filter_map(value).collect()
 }
 
@@ -568,6 +569,58 @@ fn prop_splits_share_no_conditions_and_have_their_shares() {
         refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with")
     );
     assert!(refused("out_of_range = \"redraw\"\n[split]\ntest = 0.5")[0].contains("drawn again"));
+}
+
+#[test]
+fn prop_no_severity_that_is_held_out_is_in_training_or_validation() {
+    let plan = |split: &str| {
+        PLAN.replace("runs = 60", "runs = 600")
+            .replace("[vary]", &format!("[split]\n{split}\n[vary]"))
+    };
+    let key = "defects.0.depth_um";
+    let range = "severity = [\"defects.0.depth_um\"]\nseverity_range = [10, 20]";
+    let with = draws(&plan(&format!("validation = 0.1\ntest = 0.2\n{range}")));
+    let without = draws(&plan("validation = 0.1\ntest = 0.2"));
+    let (mut held, mut others) = (0, 0);
+    for run in 0..600 {
+        let depth = number(&with, run, key);
+        let is_held = depth.is_some_and(|depth| (10.0..=20.0).contains(&depth));
+        // Elsewhere groups go their way as before.
+        let expected = match is_held {
+            true => Part::Test,
+            false => without.part(run),
+        };
+        assert_eq!(with.part(run), expected, "run {run}: {depth:?}");
+        held += usize::from(is_held && without.part(run) == Part::Train);
+        others += usize::from(depth.is_some() && with.part(run) == Part::Train);
+    }
+    assert!(held > 10 && others > 10, "{held}, {others}");
+    // Without shares, the test is that range alone.
+    let alone = draws(&plan(range));
+    for run in 0..600 {
+        let depth = number(&alone, run, key);
+        let is_held = depth.is_some_and(|depth| (10.0..=20.0).contains(&depth));
+        assert_eq!(alone.part(run) == Part::Test, is_held, "run {run}");
+    }
+    for (split, words) in [
+        ("severity = [\"defects.0.depth_um\"]", "which severities"),
+        ("severity_range = [10, 20]", "of no key"),
+        (
+            "severity = [\"defects.0.depth\"]\nseverity_range = [10, 20]",
+            "no class draws numbers of this key",
+        ),
+        (
+            "severity = [\"defects.0.depth_um\"]\nseverity_range = [1e6, 2e6]",
+            "no run draws a severity of this range",
+        ),
+        (
+            "severity = [\"defects.0.depth_um\", \"operation.speed_rpm\"]\nseverity_range = [0, 1e6]",
+            "leaves no run to train with",
+        ),
+    ] {
+        let told = refusals(&plan(split));
+        assert!(told[0].contains(words), "{split}: {told:?}");
+    }
 }
 
 #[test]

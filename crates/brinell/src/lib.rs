@@ -136,6 +136,7 @@ pub mod lamina;
 pub mod lanes;
 #[doc(hidden)]
 pub mod model;
+mod nearest;
 pub mod observe;
 #[doc(hidden)]
 pub mod operation;

@@ -10,6 +10,7 @@ mod damage;
 mod document;
 mod examples;
 mod film;
+mod going;
 mod kernels;
 mod kinematics;
 mod lamina;

@@ -117,6 +117,9 @@ pub(crate) struct CalibrateArgs {
     /// Print the plan and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
+    /// Print the numbers of calibrate.json as JSON, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -213,7 +213,7 @@ impl<'a> Outcome<'a> {
         table
     }
 
-    fn json(&self) -> Value {
+    pub(super) fn json(&self) -> Value {
         let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
         let identified = &self.fit.identified;
         let keys = self.found.iter().zip(&self.plan.keys).enumerate().map(|(k, (f, key))| {

@@ -43,6 +43,9 @@ pub(crate) struct CompareArgs {
     /// Replace the results of other scenarios or another command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,
+    /// Print the numbers of compare.json as JSON, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -12,7 +12,7 @@ use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
 use crate::run::{make_folder, picture_files, ready_pictures, safe_name, stop_flag};
-use crate::say::{complain, say, short};
+use crate::say::{complain, document, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
 use brinell::{Error, RunResult};
@@ -74,11 +74,14 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let mut json = table::json(&sides, &compared);
     json["files"] = names_below(&folder, &files).into();
     let json = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(folder.join(COMPARISON), json)?);
+    ready.insert(0, atomic_prepare(folder.join(COMPARISON), &json)?);
     let page = brinell_report::side_by_side_html(&report);
     ready.push(atomic_prepare(folder.join(PAGE), page)?);
     ready.extend(ready_pictures(&pictures, &args.plots, &folder)?);
     let written = earlier.give_way(ready)?;
+    if args.json {
+        document(json.trim_end());
+    }
     if !args.quiet {
         for warning in page::unsettled(&sides, &all) {
             complain!("warning: {warning}");

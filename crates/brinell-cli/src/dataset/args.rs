@@ -34,6 +34,7 @@ use std::path::PathBuf;
     runs/part-00000.parquet    one row a run: signals, parameters, labels, ground truth, solver's work\n  \
     dataset.json               geometry, units, rate, licence, columns, checksums; there when all is\n  \
     held_out/                  labels of the runs that `held_out` sets apart\n  \
+    sheet.html                 a few runs of each class to look at: `brinell dataset sheet`\n  \
     work/                      finished runs of unfinished files\n\n\
     The same command resumes where it stopped, and changes nothing that is there. The files' bytes depend on the plan alone, not on --jobs, --shard or \
     interruptions. In a Slurm array: --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT, counting from 1.\n\n\
@@ -44,7 +45,8 @@ use std::path::PathBuf;
     brinell dataset plan.toml -o data\n  \
     brinell dataset plan.toml -o data --shard 3/10\n  \
     brinell dataset merge data-1 data-2 data-3 -o data\n  \
-    brinell dataset verify data"
+    brinell dataset verify data\n  \
+    brinell dataset sheet data"
 )]
 pub(crate) struct DatasetArgs {
     #[command(subcommand)]
@@ -80,6 +82,8 @@ pub(crate) enum DatasetCommand {
     Merge(MergeArgs),
     /// Check a data set: every file there, its checksum, its rows, one campaign and one version in all
     Verify(VerifyArgs),
+    /// Draw a contact sheet, sheet.html in the folder: of a few runs of each class the labels, the waveform and the envelope spectrum
+    Sheet(SheetArgs),
 }
 
 #[derive(Debug, Args)]
@@ -90,6 +94,18 @@ pub(crate) struct MergeArgs {
     /// Where they are joined: a new folder, or one of them
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SheetArgs {
+    /// The data set's folder
+    pub(crate) folder: PathBuf,
+    /// Runs of each class at most
+    #[arg(long, value_name = "N", default_value = "4")]
+    pub(crate) runs: NonZeroUsize,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

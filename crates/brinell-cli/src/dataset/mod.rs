@@ -2,6 +2,7 @@
 
 mod args;
 mod plan;
+mod sheet;
 
 use crate::failure::Failure;
 use crate::inputs::Inputs;
@@ -49,6 +50,7 @@ pub(crate) fn dataset(args: &DatasetArgs) -> Result<ExitCode, Failure> {
     match (&args.command, &args.plan) {
         (Some(DatasetCommand::Merge(args)), _) => join(args),
         (Some(DatasetCommand::Verify(args)), _) => check(args),
+        (Some(DatasetCommand::Sheet(args)), _) => sheet::draw(args),
         (None, Some(plan)) => make(args, plan),
         (None, None) => Err(Failure::Usage(
             "give a plan, for instance `brinell dataset plan.toml`".into(),

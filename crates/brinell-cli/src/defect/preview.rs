@@ -19,7 +19,11 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let loaded = source.load(&[], false)?;
     let s = &loaded.scenario;
     chosen(s, args.defect.unwrap_or(1))?;
-    let all = damages(s, args)?;
+    let mut all = damages(s, args)?;
+    let mut photos = source.photos();
+    for (index, damage) in &mut all {
+        damage.view.photo = photos.get_mut(*index).and_then(Option::take);
+    }
     let folder = args
         .output
         .clone()
@@ -91,10 +95,11 @@ fn pictures(
 ) -> Result<(), Failure> {
     let wide = brinell_report::Layout::Wide;
     let view = &damage.view;
-    let mut pictures = vec![
-        brinell_report::damage_plan(view, index, wide),
-        brinell_report::damage_passage(view, index, wide),
-    ];
+    let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, wide)
+        .into_iter()
+        .collect();
+    pictures.push(brinell_report::damage_plan(view, index, wide));
+    pictures.push(brinell_report::damage_passage(view, index, wide));
     if !view.section.is_empty() {
         pictures.push(brinell_report::damage_section(view, index, wide));
     }
@@ -143,6 +148,9 @@ fn tell(damage: &Damage) {
             fact.label,
             fact.note.replace('μ', "u")
         );
+    }
+    for note in view.photo.iter().flat_map(|photo| &photo.notes) {
+        say!("  Photo: {note}");
     }
     let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
     say!("  Passage: {plain}");

@@ -49,6 +49,9 @@ pub(crate) struct ReproduceArgs {
     /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the folder above
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,
+    /// Print the numbers of claims.json as JSON, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
-use crate::say::{complain, say, short};
+use crate::say::{complain, document, say, short};
 use crate::sweep::plural;
 use args::OtherModel;
 pub(crate) use args::ReproduceArgs;
@@ -71,6 +71,11 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<ExitCode, Failure> {
     };
     let reproduction = Reproduction::run(request, &mut runner)?;
     let written = write(args, &reproduction, &curves)?;
+    if args.json {
+        let path = args.output.join("claims.json");
+        let text = std::fs::read_to_string(&path).map_err(|error| Failure::Read(path, error))?;
+        document(text.trim_end());
+    }
     if !args.quiet {
         tell(&reproduction, &written, runner.done, begin);
     }
@@ -235,7 +240,14 @@ fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: In
         begin.elapsed().as_secs_f64()
     );
     for outcome in &reproduction.outcomes {
-        say!("  {:<15} {}", outcome.words(), outcome.claim.id);
+        let claim = outcome.claim;
+        say!(
+            "  {:<15} {} ({}; {})",
+            outcome.words(),
+            claim.sentence,
+            claim.place,
+            claim.id
+        );
     }
     let found = [reproduction.search_result(), reproduction.tilting_result()];
     for found in found.into_iter().flatten() {

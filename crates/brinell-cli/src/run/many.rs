@@ -25,6 +25,7 @@ struct Task {
     folder: PathBuf,
     earlier: Earlier,
     beforehand: Beforehand,
+    photos: Vec<Option<brinell_damage::Photo>>,
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -63,7 +64,11 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
                 // The indented rest is for a run on its own.
                 let mut lines = done.told.clone();
                 lines.retain(|line| !args.quiet && !line.starts_with(' '));
-                joint.ended(&lines, &tasks[k].folder);
+                if done.interrupted {
+                    joint.broken_off(&lines, &tasks[k].folder);
+                } else {
+                    joint.ended(&lines, &tasks[k].folder);
+                }
                 interrupted |= done.interrupted;
                 if let End::Failed(error) = done.end {
                     failures.push((k, Failure::Run(error)));
@@ -116,7 +121,7 @@ fn one(
     execute(
         args,
         replaced,
-        (simulation, &task.beforehand),
+        (simulation, &task.beforehand, &task.photos),
         progress,
         stop,
     )
@@ -165,27 +170,29 @@ fn checked(args: &RunArgs, folders: Vec<PathBuf>) -> Option<Vec<Task>> {
             loaded,
             simulation,
             beforehand,
+            photos,
         } = ready(args, path, &mut inputs)?;
         if !args.quiet && !simulation.idle_patterns().is_empty() {
             complain!("{}:", path.display());
             files::warn_idle(simulation.idle_patterns());
         }
-        Ok((loaded, beforehand))
+        Ok((loaded, beforehand, photos))
     };
     let all: Vec<Result<_, Failure>> = args.scenarios.iter().map(&mut read).collect();
     let mut tasks = Vec::new();
     for ((path, folder), loaded) in args.scenarios.iter().zip(folders).zip(all) {
-        let found = loaded.and_then(|(loaded, beforehand)| {
+        let found = loaded.and_then(|(loaded, beforehand, photos)| {
             let earlier = earlier(args, &loaded, &folder, &inputs)?;
-            Ok((loaded, earlier, beforehand))
+            Ok((loaded, earlier, beforehand, photos))
         });
         match found {
-            Ok((loaded, earlier, beforehand)) => tasks.push(Task {
+            Ok((loaded, earlier, beforehand, photos)) => tasks.push(Task {
                 path: path.clone(),
                 loaded,
                 folder,
                 earlier,
                 beforehand,
+                photos,
             }),
             Err(failure) => failure.print_of(&path.display().to_string()),
         }

@@ -115,6 +115,46 @@ fn prop_a_failed_run_is_a_row_with_its_reason() {
 }
 
 #[test]
+fn prop_a_contact_sheet_shows_runs_of_each_class_and_none_that_is_held_out() {
+    let folder = folder_with(&PLAN.replace(
+        "runs = 7",
+        &format!("runs = 12\nheld_out = 0.4\nsecret = \"{SECRET}\""),
+    ));
+    make(folder.path(), &["-o", "out"]).exits(0);
+    let out = folder.path().join("out");
+    brinell(folder.path(), &["dataset", "sheet", "out", "--runs", "2"])
+        .exits(0)
+        .says(&["sheet.html: 4 runs"]);
+    let page = fs::read_to_string(out.join("sheet.html")).unwrap();
+    let mut shown = [0, 0];
+    for part in fs::read_dir(out.join("runs")).unwrap() {
+        for row in rows(&part.unwrap().path()) {
+            let run = cell(&row, "run").to_string();
+            if !page.contains(&format!("<strong>run {run}</strong>")) {
+                continue;
+            }
+            let class = text(&row, "class").expect("a label that is open");
+            shown[usize::from(class == "outer")] += 1;
+            let Field::Double(rpm) = cell(&row, "speed_rpm") else {
+                panic!("a speed");
+            };
+            assert!(page.contains(&format!("{rpm:.0} r/min")), "run {run}");
+        }
+    }
+    assert_eq!(shown, [2, 2]);
+    // A waveform and a spectrum each.
+    assert_eq!(page.matches("<svg").count(), 8);
+    for words in ["healthy · label 0", "outer · label 1", "outer-raceway at"] {
+        assert!(page.contains(words), "{words}");
+    }
+    brinell(folder.path(), &["dataset", "verify", "out"]).exits(0);
+    std::fs::create_dir(folder.path().join("empty")).unwrap();
+    brinell(folder.path(), &["dataset", "sheet", "empty"])
+        .exits(2)
+        .complains(&["no data set is here"]);
+}
+
+#[test]
 fn prop_held_out_labels_lie_apart() {
     let folder = folder_with(&PLAN.replace(
         "runs = 7",

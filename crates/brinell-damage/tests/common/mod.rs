@@ -1,6 +1,9 @@
 //! Files made for the tests.
 #![allow(dead_code, unreachable_pub)]
 
+pub mod photos;
+pub mod surfaces;
+
 /// A PNG of these rows of samples.
 pub fn png(
     width: usize,
@@ -27,6 +30,23 @@ pub fn grey_png(width: usize, height: usize, grey: impl Fn(usize, usize) -> f64)
         png::ColorType::Grayscale,
         png::BitDepth::Eight,
         &grey_bytes(width, height, grey),
+    )
+}
+
+/// The negative of an 8-bit grey PNG.
+pub fn negative_png(bytes: &[u8]) -> Vec<u8> {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut data).unwrap();
+    data.iter_mut().for_each(|v| *v = 255 - *v);
+    png(
+        info.width as usize,
+        info.height as usize,
+        info.color_type,
+        info.bit_depth,
+        &data,
     )
 }
 

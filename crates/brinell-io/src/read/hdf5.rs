@@ -4,7 +4,6 @@
 //! MATLAB array's dimensions last to first; they are turned here, so a shape is what MATLAB shows.
 
 use std::collections::HashSet;
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
@@ -12,6 +11,7 @@ use flate2::read::ZlibDecoder;
 use hdf5_pure::{AttrValue, DType, Dataset, File as Hdf5, Group, Layout, Object, ReadSeekSource};
 
 use super::channel::{Channel, lend_rates, names_a_rate};
+use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give};
 use super::{Listing, Source};
@@ -38,7 +38,7 @@ struct Array {
 }
 
 struct Source5 {
-    file: File,
+    contents: Contents,
     arrays: Vec<Option<Array>>,
 }
 
@@ -59,24 +59,22 @@ impl From<hdf5_pure::Error> for Fault {
     }
 }
 
-pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
+pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
     let mut head = [0; 19];
-    file.read_exact(&mut head)?;
-    let length = file.metadata().map_err(Fault::Io)?.len();
-    let source = ReadSeekSource::new(file.try_clone().map_err(Fault::Io)?)
-        .map_err(|e| damaged(e.to_string()))?;
+    contents.read_exact(&mut head)?;
+    let source = ReadSeekSource::new(contents.clone()).map_err(|e| damaged(e.to_string()))?;
     let tree = Hdf5::from_source(source)?;
     let mut walk = Walk {
         matlab: &head == b"MATLAB 7.3 MAT-file",
         channels: Vec::new(),
         arrays: Vec::new(),
         metadata: Metadata::default(),
-        most: length.saturating_mul(MOST),
+        most: contents.length().saturating_mul(MOST),
         visits: 0,
     };
     walk.group(&tree.root(), "", 0)?;
     let mut source = Source5 {
-        file,
+        contents,
         arrays: walk.arrays,
     };
     let mut rates = Vec::new();
@@ -262,10 +260,10 @@ impl Source for Source5 {
                 address: Some(address),
                 ..
             } => {
-                self.file.seek(SeekFrom::Start(address))?;
+                self.contents.seek(SeekFrom::Start(address))?;
                 array
                     .stored
-                    .stream(array.big_endian, &mut self.file, count, sink)
+                    .stream(array.big_endian, &mut self.contents, count, sink)
             }
             Layout::Contiguous { address: None, .. } if count > 0 => {
                 Err(unsupported("the values were never written"))
@@ -280,10 +278,10 @@ impl Source for Source5 {
                 let filters = array.dataset.filters();
                 let long = shape.iter().filter(|&&n| n > 1).count();
                 if long <= 1 && filters.iter().all(|f| known.contains(f)) {
-                    vector(&mut self.file, array, &shape, &chunk_shape, sink)
+                    vector(&mut self.contents, array, &shape, &chunk_shape, sink)
                 } else {
                     // The crate takes memory for a stored chunk before it looks for its end.
-                    let length = self.file.metadata().map_err(Fault::Io)?.len();
+                    let length = self.contents.length();
                     for chunk in array.dataset.chunks()? {
                         if chunk.storage_size > length.saturating_sub(chunk.address) {
                             return Err(damaged("a chunk reaches past the end of the file"));
@@ -331,7 +329,7 @@ fn rows(array: &Array, shape: &[u64], chunk: u64, sink: Sink<'_>) -> Result<(), 
 
 /// Streams the chunks of an array with one long dimension.
 fn vector(
-    file: &mut File,
+    contents: &mut Contents,
     array: &Array,
     shape: &[u64],
     chunk_shape: &[u64],
@@ -361,9 +359,9 @@ fn vector(
         if chunk.storage_size > 2 * MAX_CHUNK {
             return Err(damaged("a chunk is too long"));
         }
-        file.seek(SeekFrom::Start(chunk.address))?;
+        contents.seek(SeekFrom::Start(chunk.address))?;
         stored.clear();
-        file.take(chunk.storage_size).read_to_end(&mut stored)?;
+        contents.take(chunk.storage_size).read_to_end(&mut stored)?;
         for (bit, filter) in filters.iter().enumerate().rev() {
             if chunk.filter_mask >> bit & 1 == 1 {
                 continue;

@@ -1,7 +1,6 @@
 //! Which format a file is: from its content, checked against its name.
 
 use std::fmt;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -66,9 +65,10 @@ fn promised(path: &Path) -> Option<(&'static [FileKind], &'static str)> {
 }
 
 /// The kind of a file; an error where content and name disagree.
-pub(crate) fn sniff(path: &Path, file: &mut File) -> Result<FileKind, IoError> {
+pub(crate) fn sniff(path: &Path, contents: impl Read) -> Result<FileKind, IoError> {
     let mut head = Vec::new();
-    file.take(HEAD)
+    contents
+        .take(HEAD)
         .read_to_end(&mut head)
         .map_err(|e| IoError::reading(path, e))?;
     if head.is_empty() {

@@ -1,11 +1,13 @@
 //! Measured signals from the files that instruments and other programs write.
 //!
 //! [`open`] looks at the content, lists what is there and reads nothing else yet. A channel is then read whole
-//! ([`SignalFile::read`]) or piece by piece ([`SignalFile::read_pieces`]), which holds a few megabytes whatever the file's size.
+//! ([`SignalFile::read`]) or piece by piece ([`SignalFile::read_pieces`]), which holds a few megabytes whatever the file's size. [`open_bytes`]
+//! does the same to a file that is in memory already, and needs no file system.
 //!
 //! Sample rates and units are what the file states, with the place where it does; there are no guesses.
 
 mod channel;
+mod contents;
 mod fault;
 #[cfg(feature = "hdf5")]
 mod hdf5;
@@ -18,7 +20,10 @@ mod numbers;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
 mod pick;
+#[cfg(feature = "parquet")]
+pub(crate) mod records;
 mod text;
+mod times;
 mod uff;
 mod wav;
 
@@ -31,13 +36,19 @@ use std::path::{Path, PathBuf};
 pub use channel::{Channel, Rate, RateSource};
 pub use kind::FileKind;
 pub use text::{Decimal, Delimiter, TextFormat};
+pub use times::{NoRate, rate_of_times, seconds_in};
 
 use crate::{IoError, Metadata};
+use contents::Contents;
 use fault::Fault;
 use numbers::Sink;
 
-/// The most values that [`SignalFile::read`] collects: 2 GiB of them.
-pub const MAX_VALUES: u64 = 1 << 28;
+/// The most values that [`SignalFile::read`] collects: 2 GiB of them, and 512 MiB where all memory is 4 GiB, as on WebAssembly.
+pub const MAX_VALUES: u64 = if cfg!(target_pointer_width = "32") {
+    1 << 26
+} else {
+    1 << 28
+};
 
 /// What a format's reader gives.
 struct Listing {
@@ -91,18 +102,64 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
     }
     let kind = kind::sniff(path, &mut file)?;
     file.rewind().map_err(reading)?;
+    let contents = Contents::of_file(file).map_err(reading)?;
+    listed(path, kind, contents, text)
+}
+
+/// [`open`] for a file in memory, as a browser hands it over. `name` is what errors call it; its ending is held against the content as
+/// a path's is.
+///
+/// `bytes` are a `Vec<u8>`, an `Arc<[u8]>`, or anything else that holds them; they are not copied, and kept as long as the [`SignalFile`].
+///
+/// ```
+/// let bytes = b"time [s];acc [g]\n0,0;1,5\n0,1;-2,25\n".to_vec();
+/// let mut file = brinell_io::open_bytes("run.csv", bytes)?;
+/// assert_eq!(file.read("acc [g]")?, [1.5, -2.25]);
+/// # Ok::<(), brinell_io::IoError>(())
+/// ```
+///
+/// # Errors
+/// As [`open`], without those of the file system.
+pub fn open_bytes(
+    name: &str,
+    bytes: impl AsRef<[u8]> + Send + 'static,
+) -> Result<SignalFile, IoError> {
+    open_bytes_as(name, bytes, &TextFormat::default())
+}
+
+/// [`open_bytes`], with what the caller knows of a text file that the file does not show.
+///
+/// # Errors
+/// As [`open_bytes`].
+pub fn open_bytes_as(
+    name: &str,
+    bytes: impl AsRef<[u8]> + Send + 'static,
+    text: &TextFormat,
+) -> Result<SignalFile, IoError> {
+    let path = Path::new(name);
+    let kind = kind::sniff(path, bytes.as_ref())?;
+    listed(path, kind, Contents::of_bytes(bytes), text)
+}
+
+/// The file with its channels.
+fn listed(
+    path: &Path,
+    kind: FileKind,
+    contents: Contents,
+    text: &TextFormat,
+) -> Result<SignalFile, IoError> {
     let list = || match kind {
-        FileKind::Text => text::list(file, text),
+        FileKind::Text => text::list(contents, text),
         #[cfg(feature = "parquet")]
-        FileKind::Parquet => parquet::list(file),
-        FileKind::Mat5 => mat5::list(file),
+        FileKind::Parquet => parquet::list(contents),
+        FileKind::Mat5 => mat5::list(contents),
         #[cfg(feature = "hdf5")]
-        FileKind::Hdf5 => hdf5::list(file),
-        FileKind::Npy => npy::list(file),
+        FileKind::Hdf5 => hdf5::list(contents),
+        FileKind::Npy => npy::list(contents),
         #[cfg(feature = "npz")]
-        FileKind::Npz => npz::list(file),
-        FileKind::Wav => wav::list(file),
-        FileKind::Uff58 => uff::list(file),
+        FileKind::Npz => npz::list(contents),
+        FileKind::Wav => wav::list(contents),
+        FileKind::Uff58 => uff::list(contents),
         #[cfg(not(all(feature = "parquet", feature = "hdf5", feature = "npz")))]
         _ => Err(fault::unsupported(
             "this build leaves the format out; build brinell-io with its default features",
@@ -120,7 +177,7 @@ pub fn open_as(path: impl AsRef<Path>, text: &TextFormat) -> Result<SignalFile, 
 }
 
 impl SignalFile {
-    /// The path as given.
+    /// The path, or the name of the bytes, as given.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -238,7 +295,8 @@ fn names<'a>(channels: impl Iterator<Item = &'a Channel>) -> String {
     text
 }
 
-/// Other people's readers assert some of what a damaged file can break; such a panic ends here.
+/// Other people's readers assert some of what a damaged file can break; such a panic ends here. On WebAssembly no panic can be caught: there
+/// it ends the module, and the page starts another.
 fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|_| Err(fault::damaged("a reader gave up on it")))

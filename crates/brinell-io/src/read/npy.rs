@@ -1,9 +1,9 @@
 //! One NumPy array, read. Layout: NumPy's `numpy.lib.format`, versions 1 to 3.
 
-use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
 use super::channel::Channel;
+use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::numbers::{Number, Sink};
 use super::{Listing, Source};
@@ -110,14 +110,14 @@ fn stored_as(word: &str) -> Option<Number> {
 }
 
 struct Npy {
-    file: File,
+    contents: Contents,
     start: u64,
     array: Array,
 }
 
-pub(super) fn list(file: File) -> Result<Listing, Fault> {
-    let length = file.metadata().map_err(Fault::Io)?.len();
-    let mut reader = BufReader::new(file);
+pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
+    let length = contents.length();
+    let mut reader = BufReader::new(contents);
     let array = header(&mut reader, "array")?;
     let start = reader.stream_position()?;
     if array.stored.is_some() && array.bytes > length - start {
@@ -131,7 +131,7 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
         channels: vec![array.channel.clone()],
         metadata: Metadata::default(),
         source: Box::new(Npy {
-            file: reader.into_inner(),
+            contents: reader.into_inner(),
             start,
             array,
         }),
@@ -140,10 +140,10 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
 
 impl Source for Npy {
     fn stream(&mut self, _: usize, sink: Sink<'_>) -> Result<(), Fault> {
-        self.file.seek(SeekFrom::Start(self.start))?;
+        self.contents.seek(SeekFrom::Start(self.start))?;
         let count = self.array.channel.length.unwrap_or(0);
         match self.array.stored {
-            Some(stored) => stored.stream(self.array.big_endian, &mut self.file, count, sink),
+            Some(stored) => stored.stream(self.array.big_endian, &mut self.contents, count, sink),
             None => Ok(()),
         }
     }

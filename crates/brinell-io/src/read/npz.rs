@@ -3,13 +3,13 @@
 //! A small archive may inflate to a huge one. Values are streamed, so that costs no memory; and an array may not claim more bytes than
 //! deflate can make of what is stored.
 
-use std::fs::File;
 use std::io::{BufReader, Read};
 
 use zip::ZipArchive;
 use zip::result::ZipError;
 
 use super::channel::{Channel, lend_rates, names_a_rate};
+use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::npy::{Array, header};
 use super::numbers::{Number, Sink};
@@ -22,7 +22,7 @@ const MAX_ENTRIES: usize = 100_000;
 const MAX_TEXT: usize = 1 << 20;
 
 struct Npz {
-    archive: ZipArchive<BufReader<File>>,
+    archive: ZipArchive<BufReader<Contents>>,
     /// Where each channel is in the archive.
     entries: Vec<usize>,
 }
@@ -37,8 +37,8 @@ impl From<ZipError> for Fault {
     }
 }
 
-pub(super) fn list(file: File) -> Result<Listing, Fault> {
-    let mut archive = ZipArchive::new(BufReader::new(file))?;
+pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
+    let mut archive = ZipArchive::new(BufReader::new(contents))?;
     if archive.len() > MAX_ENTRIES {
         return Err(damaged(format!("it claims {} arrays", archive.len())));
     }

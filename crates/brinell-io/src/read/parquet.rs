@@ -16,6 +16,7 @@ use parquet::schema::types::ColumnDescriptor;
 use serde_json::{Map, Value};
 
 use super::channel::{Channel, Rate, RateSource};
+use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give, half};
 use super::{Listing, Source};
@@ -27,18 +28,19 @@ const BATCH: usize = 64 << 10;
 /// Reads a whole Parquet file of numeric columns. A missing value becomes not-a-number.
 pub fn read_parquet(path: impl AsRef<Path>) -> Result<Signals, IoError> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(|e| IoError::reading(path, e))?;
+    let contents = File::open(path).and_then(Contents::of_file);
+    let contents = contents.map_err(|e| IoError::reading(path, e))?;
     // The crate asserts some of what a damaged file can break; what `check_chunks` does not foresee ends here.
     let damaged = |_| Err(ParquetError::General("the file is damaged".to_owned()));
-    let result = catch_unwind(AssertUnwindSafe(|| read(file))).unwrap_or_else(damaged);
+    let result = catch_unwind(AssertUnwindSafe(|| read(contents))).unwrap_or_else(damaged);
     result.map_err(|e| IoError::Parquet {
         path: path.to_owned(),
         why: e.to_string(),
     })
 }
 
-fn read(file: File) -> Result<Signals, ParquetError> {
-    let (reader, columns, metadata) = head(file)?;
+fn read(contents: Contents) -> Result<Signals, ParquetError> {
+    let (reader, columns, metadata) = head(contents)?;
     for (i, column) in columns.iter().enumerate() {
         if let Some(why) = unreadable(reader.metadata(), i) {
             return Err(ParquetError::NYI(format!("`{}` {why}", column.name)));
@@ -65,13 +67,10 @@ fn read(file: File) -> Result<Signals, ParquetError> {
 }
 
 /// A file that ends: the crate takes the length of a read from the file's own claims and waits at the end for bytes to come.
-struct Bounded {
-    file: File,
-    file_bytes: u64,
-}
+struct Bounded(Contents);
 
 /// Reads on after the end are errors.
-struct UntilEnd(File);
+struct UntilEnd(Contents);
 
 impl Read for UntilEnd {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
@@ -84,7 +83,7 @@ impl Read for UntilEnd {
 
 impl Length for Bounded {
     fn len(&self) -> u64 {
-        self.file_bytes
+        self.0.length()
     }
 }
 
@@ -92,25 +91,29 @@ impl ChunkReader for Bounded {
     type T = BufReader<UntilEnd>;
 
     fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
-        let mut file = self.file.try_clone()?;
-        file.seek(SeekFrom::Start(start))?;
-        Ok(BufReader::new(UntilEnd(file)))
+        let mut contents = self.0.clone();
+        contents.seek(SeekFrom::Start(start))?;
+        Ok(BufReader::new(UntilEnd(contents)))
     }
 
     fn get_bytes(&self, start: u64, length: usize) -> Result<bytes::Bytes, ParquetError> {
-        if length as u64 > self.file_bytes.saturating_sub(start) {
+        if length as u64 > self.0.length().saturating_sub(start) {
             return Err(ParquetError::EOF("a page points outside the file".into()));
         }
-        self.file.get_bytes(start, length)
+        let mut contents = self.0.clone();
+        contents.seek(SeekFrom::Start(start))?;
+        let mut bytes = vec![0; length];
+        contents.read_exact(&mut bytes)?;
+        Ok(bytes.into())
     }
 }
 
 type Head = (SerializedFileReader<Bounded>, Vec<Column>, Metadata);
 
 /// The columns and the metadata; an error where a column reaches outside the file.
-fn head(file: File) -> Result<Head, ParquetError> {
-    let file_bytes = file.metadata()?.len();
-    let reader = SerializedFileReader::new(Bounded { file, file_bytes })?;
+fn head(contents: Contents) -> Result<Head, ParquetError> {
+    let file_bytes = contents.length();
+    let reader = SerializedFileReader::new(Bounded(contents))?;
     check_chunks(reader.metadata(), file_bytes)?;
     let file_metadata = reader.metadata().file_metadata();
     let pairs = file_metadata.key_value_metadata().into_iter().flatten();
@@ -348,8 +351,8 @@ impl From<ParquetError> for Fault {
     }
 }
 
-pub(super) fn list(file: File) -> Result<Listing, Fault> {
-    let (reader, columns, metadata) = head(file)?;
+pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
+    let (reader, columns, metadata) = head(contents)?;
     let about = reader.metadata();
     let rows: i64 = about.row_groups().iter().map(|g| g.num_rows().max(0)).sum();
     let hz = metadata

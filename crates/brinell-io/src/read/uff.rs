@@ -3,10 +3,10 @@
 //! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. Real functions are read, evenly spaced or not; the
 //! abscissa of an uneven one is a channel of its own, `NAME.x`.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 
 use super::channel::{Channel, Rate, RateSource};
+use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::numbers::{Number, Sink, give};
 use super::{Listing, Source};
@@ -31,14 +31,14 @@ struct Function {
 }
 
 struct Uff {
-    file: File,
+    contents: Contents,
     /// The function of each channel, and whether its abscissa is meant.
     functions: Vec<(Function, bool)>,
 }
 
 /// The lines of a file, with where each begins.
 struct Lines {
-    reader: BufReader<File>,
+    reader: BufReader<Contents>,
     at: u64,
     number: u64,
 }
@@ -83,10 +83,10 @@ fn integer(line: &str, from: usize, width: usize, what: &str) -> Result<i64, Fau
         .map_err(|_| damaged(format!("`{text}` is no {what}")))
 }
 
-pub(super) fn list(file: File) -> Result<Listing, Fault> {
-    let length = file.metadata().map_err(Fault::Io)?.len();
+pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
+    let length = contents.length();
     let mut lines = Lines {
-        reader: BufReader::new(file),
+        reader: BufReader::new(contents),
         at: 0,
         number: 0,
     };
@@ -124,7 +124,7 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
         channels,
         metadata,
         source: Box::new(Uff {
-            file: lines.reader.into_inner(),
+            contents: lines.reader.into_inner(),
             functions,
         }),
     })
@@ -266,8 +266,8 @@ fn channel(name: String, records: &[String], function: &Function, complex: bool)
 impl Source for Uff {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
         let (function, want_x) = self.functions[index];
-        self.file.seek(SeekFrom::Start(function.start))?;
-        let mut reader = BufReader::with_capacity(256 << 10, &mut self.file);
+        self.contents.seek(SeekFrom::Start(function.start))?;
+        let mut reader = BufReader::with_capacity(256 << 10, &mut self.contents);
         // Abscissa and value alternate.
         let mut is_x = true;
         let mut picked = Vec::new();

@@ -4,12 +4,12 @@
 //! is not in the file. 8-bit PCM is unsigned with its zero at 128, which is taken off. Layout: Microsoft "Multiple Channel Audio Data
 //! and WAVE Files"; RF64: EBU Tech 3306.
 
-use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
 use serde_json::{Map, Value};
 
 use super::channel::{Channel, Rate, RateSource};
+use super::contents::Contents;
 use super::fault::{Fault, damaged, unsupported};
 use super::numbers::{Number, Sink, give};
 use super::{Listing, Source};
@@ -22,7 +22,7 @@ const FRAMES: usize = 4 << 10;
 const NO_SIZE: u64 = 0xffff_ffff;
 
 struct Wav {
-    file: File,
+    contents: Contents,
     stored: Number,
     channels: usize,
     start: u64,
@@ -35,9 +35,9 @@ struct Layout {
     rate: u32,
 }
 
-pub(super) fn list(file: File) -> Result<Listing, Fault> {
-    let length = file.metadata().map_err(Fault::Io)?.len();
-    let mut reader = BufReader::new(file);
+pub(super) fn list(contents: Contents) -> Result<Listing, Fault> {
+    let length = contents.length();
+    let mut reader = BufReader::new(contents);
     let mut word = [0; 12];
     reader.read_exact(&mut word)?;
     let (mut layout, mut data, mut long_data) = (None, None, None);
@@ -107,7 +107,7 @@ pub(super) fn list(file: File) -> Result<Listing, Fault> {
         channels,
         metadata,
         source: Box::new(Wav {
-            file: reader.into_inner(),
+            contents: reader.into_inner(),
             stored: layout.stored,
             channels: usize::from(layout.channels),
             start,
@@ -198,7 +198,7 @@ fn names_and_units(comment: &Map<String, Value>) -> Vec<(String, String)> {
 
 impl Source for Wav {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
-        self.file.seek(SeekFrom::Start(self.start))?;
+        self.contents.seek(SeekFrom::Start(self.start))?;
         let width = self.stored.bytes();
         let frame = width * self.channels;
         let per_piece = FRAMES.min((1 << 22) / frame).max(1);
@@ -208,7 +208,7 @@ impl Source for Wav {
         while left > 0 {
             let now = usize::try_from(left).map_or(per_piece, |l| l.min(per_piece));
             let piece = &mut bytes[..now * frame];
-            self.file.read_exact(piece)?;
+            self.contents.read_exact(piece)?;
             one.clear();
             values.clear();
             for frame in piece.chunks_exact(frame) {

@@ -10,7 +10,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 use super::spool::Spool;
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row, units_json};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -45,7 +45,22 @@ impl MatWriter {
         metadata: &Metadata,
         compress: bool,
     ) -> Result<Self, IoError> {
-        let path = path.as_ref();
+        Self::at(
+            Destination::Disk(path.as_ref()),
+            columns,
+            metadata,
+            compress,
+        )
+    }
+
+    /// The same on the disk or in memory.
+    pub(crate) fn at(
+        destination: Destination<'_>,
+        columns: &[Column],
+        metadata: &Metadata,
+        compress: bool,
+    ) -> Result<Self, IoError> {
+        let path = destination.path();
         check_columns(path, columns)?;
         for Column { name, .. } in columns {
             let why = if !is_matlab_name(name) {
@@ -62,10 +77,10 @@ impl MatWriter {
             });
         }
         Ok(Self {
-            file: PartialFile::create(path)?,
+            file: PartialFile::at(destination)?,
             columns: columns.to_vec(),
             metadata: metadata.clone(),
-            spool: Spool::create(path, columns.len())?,
+            spool: Spool::create(destination, columns.len())?,
             compress,
         })
     }

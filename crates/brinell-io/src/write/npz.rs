@@ -3,13 +3,11 @@
 //! Nothing is compressed: vibration compresses little. Texts are those of the MAT files: `brinell_units`, `brinell_outcome`, and the metadata.
 
 use std::io::Write;
-use std::path::Path;
-
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::spool::Spool;
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row, units_json};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -23,12 +21,12 @@ pub(crate) struct NpzWriter {
 
 impl NpzWriter {
     /// Starts the file. The names `fs` and `brinell_...` are taken.
-    pub(crate) fn create(
-        path: impl AsRef<Path>,
+    pub(crate) fn at(
+        destination: Destination<'_>,
         columns: &[Column],
         metadata: &Metadata,
     ) -> Result<Self, IoError> {
-        let path = path.as_ref();
+        let path = destination.path();
         check_columns(path, columns)?;
         let why = |name: &str| {
             if name == "fs" || name.starts_with("brinell_") {
@@ -47,10 +45,10 @@ impl NpzWriter {
             });
         }
         Ok(Self {
-            file: PartialFile::create(path)?,
+            file: PartialFile::at(destination)?,
             columns: columns.to_vec(),
             metadata: metadata.clone(),
-            spool: Spool::create(path, columns.len())?,
+            spool: Spool::create(destination, columns.len())?,
         })
     }
 }

@@ -16,7 +16,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 use zstd::bulk::Compressor;
 
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -102,7 +102,16 @@ impl ParquetWriter {
         columns: &[Column],
         metadata: &Metadata,
     ) -> Result<Self, IoError> {
-        let path = path.as_ref();
+        Self::at(Destination::Disk(path.as_ref()), columns, metadata)
+    }
+
+    /// The same on the disk or in memory.
+    pub(crate) fn at(
+        destination: Destination<'_>,
+        columns: &[Column],
+        metadata: &Metadata,
+    ) -> Result<Self, IoError> {
+        let path = destination.path();
         check_columns(path, columns)?;
         if let Some((key, _)) = metadata
             .pairs
@@ -116,7 +125,7 @@ impl ParquetWriter {
         }
         let group_rows = (GROUP_BYTES / size_of::<f64>() / columns.len()).clamp(1, MAX_GROUP_ROWS);
         let compressor = Compressor::new(ZSTD_LEVEL).map_err(|e| IoError::writing(path, e))?;
-        let mut file = PartialFile::create(path)?;
+        let mut file = PartialFile::at(destination)?;
         file.append(MAGIC)?;
         Ok(Self {
             file,

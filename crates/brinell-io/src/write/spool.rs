@@ -1,20 +1,26 @@
-//! Rows in, columns out, on the disk: for formats that store one channel after the other.
+//! Rows in, columns out: for formats that store one channel after the other.
 //!
 //! Rows are collected by column until a block is full; blocks go to a nameless temporary file beside the result, which the system removes even
-//! after a kill. It takes as much room as the result. Memory is one block, whatever the number of rows.
+//! after a kill. It takes as much room as the result. Memory is one block, whatever the number of rows; only for a result in memory the blocks
+//! are there too.
 
-use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
+use crate::atomic::Destination;
 
 /// Memory for the rows of one block.
 const BLOCK_BYTES: usize = 16 << 20;
 const MAX_BLOCK_ROWS: usize = 128 << 10;
 
+/// What keeps the full blocks.
+trait Store: Read + Write + Seek + Send {}
+
+impl<T: Read + Write + Seek + Send> Store for T {}
+
 pub(super) struct Spool {
-    file: File,
+    file: Box<dyn Store>,
     /// What errors name: the result.
     path: PathBuf,
     /// Column after column, `block_rows` places each.
@@ -27,12 +33,13 @@ pub(super) struct Spool {
 }
 
 impl Spool {
-    pub(super) fn create(path: &Path, columns: usize) -> Result<Self, IoError> {
-        let folder = path
-            .parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
-        let file = tempfile::tempfile_in(folder).map_err(|e| IoError::writing(path, e))?;
+    /// For a result at that place.
+    pub(super) fn create(destination: Destination<'_>, columns: usize) -> Result<Self, IoError> {
+        let path = destination.path();
+        let file = match destination {
+            Destination::Disk(path) => beside(path).map_err(|e| IoError::writing(path, e))?,
+            Destination::Memory(_) => Box::new(Cursor::new(Vec::new())),
+        };
         let block_rows = (BLOCK_BYTES / 8 / columns.max(1)).clamp(1, MAX_BLOCK_ROWS);
         Ok(Self {
             file,
@@ -102,4 +109,20 @@ impl Spool {
         let bytes: Vec<u8> = rest.iter().flat_map(|v| v.to_le_bytes()).collect();
         take(&bytes)
     }
+}
+
+/// A nameless file in the folder of the result.
+#[cfg(not(target_family = "wasm"))]
+fn beside(path: &Path) -> io::Result<Box<dyn Store>> {
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    Ok(Box::new(tempfile::tempfile_in(folder)?))
+}
+
+/// WebAssembly in a browser has no files.
+#[cfg(target_family = "wasm")]
+fn beside(_: &Path) -> io::Result<Box<dyn Store>> {
+    Err(io::ErrorKind::Unsupported.into())
 }

@@ -3,10 +3,8 @@
 //! Layout: University of Cincinnati, SDRL, "Universal File Datasets Summary", 58 and 58b. The abscissa's step has seven digits, as many as
 //! its place in the file holds.
 
-use std::path::Path;
-
 use super::spool::Spool;
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter};
 
@@ -28,12 +26,12 @@ pub(crate) struct UffWriter {
 impl UffWriter {
     /// Starts the file. The metadata must hold [`crate::keys::SAMPLE_RATE_HZ`]; a column `t` in seconds gives the first instant and is not
     /// written itself.
-    pub(crate) fn create(
-        path: impl AsRef<Path>,
+    pub(crate) fn at(
+        destination: Destination<'_>,
         columns: &[Column],
         metadata: &Metadata,
     ) -> Result<Self, IoError> {
-        let path = path.as_ref();
+        let path = destination.path();
         check_columns(path, columns)?;
         let refused = |why: String| IoError::NotWritable {
             path: path.to_owned(),
@@ -46,11 +44,11 @@ impl UffWriter {
             return Err(refused("there is no channel but the time".into()));
         }
         Ok(Self {
-            file: PartialFile::create(path)?,
+            file: PartialFile::at(destination)?,
             time: (0..columns.len()).find(|i| !kept.contains(i)),
             start_s: None,
             rate_hz,
-            spool: Spool::create(path, kept.len())?,
+            spool: Spool::create(destination, kept.len())?,
             columns: columns.to_vec(),
             kept,
         })

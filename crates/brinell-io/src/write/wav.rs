@@ -4,11 +4,9 @@
 //! scale will clip. The comment (LIST INFO, ICMT) holds a JSON object with name and unit of each channel, the metadata and the outcome. Floats
 //! of 32 bits keep seven digits. Past 4 GiB the file becomes an RF64 (EBU Tech 3306).
 
-use std::path::Path;
-
 use serde_json::{Map, Value, json};
 
-use crate::atomic::{Complete, PartialFile};
+use crate::atomic::{Complete, Destination, PartialFile};
 use crate::signals::{check_columns, check_row, without_time};
 use crate::{Column, IoError, Metadata, Outcome, SignalWriter, keys};
 
@@ -32,12 +30,12 @@ pub(crate) struct WavWriter {
 
 impl WavWriter {
     /// Starts the file. The metadata must hold [`keys::SAMPLE_RATE_HZ`], a whole number; a column `t` in seconds is not written.
-    pub(crate) fn create(
-        path: impl AsRef<Path>,
+    pub(crate) fn at(
+        destination: Destination<'_>,
         columns: &[Column],
         metadata: &Metadata,
     ) -> Result<Self, IoError> {
-        let path = path.as_ref();
+        let path = destination.path();
         check_columns(path, columns)?;
         let refused = |why: String| IoError::NotWritable {
             path: path.to_owned(),
@@ -70,7 +68,7 @@ impl WavWriter {
         head.extend_from_slice(&32u16.to_le_bytes());
         head.extend_from_slice(&[0; 2]);
         head.extend_from_slice(b"fact\x04\0\0\0\0\0\0\0data\0\0\0\0");
-        let mut file = PartialFile::create(path)?;
+        let mut file = PartialFile::at(destination)?;
         file.append(&head)?;
         Ok(Self {
             file,

@@ -1,6 +1,7 @@
 //! Pictures of damage: the raceway unrolled, what a roller meets on its way over it, and the ring's section under it.
 
 mod curves;
+mod photo;
 mod plan;
 mod shades;
 
@@ -8,6 +9,7 @@ use crate::data::Fact;
 use crate::font;
 use crate::picture::{Anchor, Picture, Text};
 pub use curves::{damage_passage, damage_section, load_along};
+pub use photo::damage_photo;
 pub use plan::damage_plan;
 
 /// One defect, seen before it is simulated. Vectors of a panel are as long as the panel's axis.
@@ -33,6 +35,8 @@ pub struct DamageView {
     pub against_mm: Vec<[f64; 2]>,
     /// What that shape is.
     pub against: String,
+    /// The photo that its outline was read from.
+    pub photo: Option<brinell_damage::Photo>,
     /// Depths, where the damage has more than one; drawn instead of the polygons.
     pub depths: Option<DepthPatch>,
     /// L of the roller.

@@ -5,7 +5,7 @@ use crate::{DamageCurve, DamagePanel};
 use brinell::defect::{Defect, Shape, Side, cover_slices, damaged_contact};
 use brinell::model::Model;
 use brinell::scenario::{self, Contact, EdgeReaction, Law, RollerPath, Scenario};
-use brinell::slices::{Approach, Cover};
+use brinell::slices::Cover;
 
 /// Points of a curve.
 const POINTS: usize = 1601;
@@ -164,22 +164,8 @@ impl Passage<'_> {
     fn stiffness(&self, angles: &[f64], d: &Defect, side: Side, delta: f64) -> Vec<f64> {
         let law = self.model.contact(side);
         let per_force = law.stiffness / law.healthy(delta);
-        if let Some(slices) = self.model.profiled() {
-            let mut cover = Cover::new(slices.count);
-            let at = Approach::pressed(delta);
-            let k = |u: &f64| {
-                let met = self.cover(d, side, *u, &mut cover);
-                per_force * slices.carry(law, &at, met.then_some(&cover)).force
-            };
-            return angles.iter().map(k).collect();
-        }
-        let one = || std::iter::once(d);
-        let k = |u: &f64| {
-            damaged_contact(one(), law, &d.met_at(side, *u), side, delta)
-                .map_or(law.stiffness, |a| {
-                    law.stiffness * a.elastic / law.healthy(delta)
-                })
-        };
+        let mut cover = Cover::new(self.model.profiled().map_or(0, |s| s.count));
+        let k = |u: &f64| per_force * self.model.force_over(d, side, *u, delta, &mut cover);
         angles.iter().map(k).collect()
     }
 }

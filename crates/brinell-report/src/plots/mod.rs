@@ -8,7 +8,7 @@ mod spectrum;
 mod waveform;
 
 use crate::axial::axial_section;
-use crate::damage::{damage_passage, damage_plan, damage_section};
+use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section};
 use crate::data::Report;
 use crate::load::load_distribution;
 use crate::motion::bearing_motion;
@@ -37,6 +37,7 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
         envelope_spectrum(report, Layout::Wide),
     ];
     for (index, view) in report.damage.iter().enumerate() {
+        pictures.extend(damage_photo(view, index, Layout::Wide));
         pictures.push(damage_plan(view, index, Layout::Wide));
         if !view.passage.is_empty() {
             pictures.push(damage_passage(view, index, Layout::Wide));

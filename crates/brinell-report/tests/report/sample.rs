@@ -46,6 +46,7 @@ fn damage_view(text: &str, values: &[f64]) -> DamageView {
         angle_deg: values.to_vec(),
         passage: vec![panel.clone(); 2],
         passage_note: text.into(),
+        photo: None,
         along: Some(AlongRoller {
             title: text.into(),
             // As many as slices at most.

@@ -63,13 +63,13 @@ pub use verdict::Elsewhere;
 pub use words::COLUMNS;
 
 use crate::lengths::fast_up_to;
+use crate::parallel::join;
 use crate::{
     Band, Blocks, Estimate, Indicator, Kurtogram, KurtogramBand, Rotation, Segments, Spectrum,
     Transformed, VelocityBands, kurtogram, psd,
 };
 use hypotheses::{Best, Told};
 use std::ops::RangeInclusive;
-use std::thread::{self, ScopedJoinHandle};
 use together::Envelopes;
 use verdict::Record;
 
@@ -316,32 +316,33 @@ struct Heard {
 /// All that asks for nothing but the samples, side by side; the speed's drift is sought where the record is `whole`.
 fn hear(x: &[f64], fs: f64, options: &Options, whole: bool) -> Result<Heard, AnalysisError> {
     let may_drift = whole && options.rotation.is_none() && !options.exact;
-    thread::scope(|scope| {
-        let indicators = scope.spawn(|| indicators(x, fs / options.shaft));
-        let map = scope.spawn(|| match options.band {
-            Some(_) => Ok(None),
-            None => kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH).map(Some),
-        });
-        let lines = scope.spawn(|| match options.rotation {
-            // Followed, it is known.
-            Some(_) => Ok(None),
-            None => known_lines::shaft(x, fs, options),
-        });
-        let drift = scope.spawn(|| may_drift.then(|| drift::by_shaft(x, fs, options))?);
-        // As much as is transformed fast, with a trace of noise.
-        let transformed = Transformed::of(&x[..fast_up_to(x.len())], fs);
-        Ok(Heard {
-            indicators: done(indicators),
-            map: done(map)?,
-            told: Told {
-                lines: done(lines)?,
-                drift: done(drift),
-                may_drift,
-                // Half a bin of the finest spectrum.
-                bin: 0.5 * fs / x.len() as f64,
-            },
-            transformed: transformed?.dithered(DITHER),
-        })
+    let map = || match options.band {
+        Some(_) => Ok(None),
+        None => kurtogram(&x[..x.len().min(LONGEST)], fs, DEPTH).map(Some),
+    };
+    let lines = || match options.rotation {
+        // Followed, it is known.
+        Some(_) => Ok(None),
+        None => known_lines::shaft(x, fs, options),
+    };
+    let drift = || may_drift.then(|| drift::by_shaft(x, fs, options))?;
+    // As much as is transformed fast, with a trace of noise.
+    let transformed = || Transformed::of(&x[..fast_up_to(x.len())], fs);
+    let (indicators, (map, (lines, (drift, transformed)))) = join(
+        || indicators(x, fs / options.shaft),
+        || join(map, || join(lines, || join(drift, transformed))),
+    );
+    Ok(Heard {
+        indicators,
+        map: map?,
+        told: Told {
+            lines: lines?,
+            drift,
+            may_drift,
+            // Half a bin of the finest spectrum.
+            bin: 0.5 * fs / x.len() as f64,
+        },
+        transformed: transformed?.dithered(DITHER),
     })
 }
 
@@ -383,11 +384,6 @@ fn indicators(x: &[f64], revolution: f64) -> Vec<(Indicator, Estimate)> {
         .filter(|i| *i != Indicator::Mean && *i != Indicator::StandardDeviation)
         .filter_map(|i| Some((i, blocks.estimate(i)?)))
         .collect()
-}
-
-/// What a thread came to; its panic goes on here.
-fn done<T>(thread: ScopedJoinHandle<T>) -> T {
-    (thread.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Amplitude spectrum of `x` less its mean, sampled at `fs` Hz, averaged: lines about 1 Hz apart, eight averages where the signal is long

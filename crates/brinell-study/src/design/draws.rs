@@ -174,6 +174,16 @@ impl Draws {
             .collect()
     }
 
+    /// What run `run` draws for those of the keys that its class draws, where that is a number.
+    pub(super) fn numbers(&self, run: usize, keys: &[String]) -> Vec<f64> {
+        let class = &self.classes[self.class(run)];
+        let of_grid = self.of_grid(run);
+        let axes = class.axes.iter().enumerate();
+        axes.filter(|(_, axis)| keys.contains(&self.parameters[axis.parameter].key))
+            .filter_map(|(k, _)| self.value(run, k, 0, of_grid.as_deref()).number)
+            .collect()
+    }
+
     /// What the author should know: grids whose combinations come unequally often.
     pub fn notes(&self) -> Vec<String> {
         let uneven = |(class, drawn): (&super::Class, &Drawn)| {

@@ -7,6 +7,7 @@
 mod distribution;
 mod draws;
 mod plan;
+mod schema;
 mod sequence;
 mod split;
 mod stream;
@@ -16,7 +17,8 @@ mod turns;
 
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
-pub use plan::{Class, Design, OutOfRange, Plan, Split};
+pub use plan::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};
+pub use schema::plan_schema;
 #[doc(hidden)]
 pub use sequence::Sobol;
 pub use split::Part;

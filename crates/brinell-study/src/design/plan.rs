@@ -81,6 +81,17 @@ pub struct Split {
     /// Keys that make groups: runs that are alike in all of them stay together. `None`: every drawn key of bearing and operation; empty: each run
     /// is a group.
     pub by: Option<Vec<String>>,
+    /// Severities that are for the test alone, whatever the group.
+    pub severity: Option<HeldSeverity>,
+}
+
+/// A range of severities that nothing is trained with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldSeverity {
+    /// Drawn keys; a run has a severity of the range where any of them has.
+    pub keys: Vec<String>,
+    /// Least and largest, both of them in the range; in the keys' unit.
+    pub range: [f64; 2],
 }
 
 /// A campaign of runs, as its file says it.
@@ -147,7 +158,7 @@ impl Plan {
         Ok(plan)
     }
 
-    fn blank() -> Self {
+    pub(super) fn blank() -> Self {
         Self {
             name: String::new(),
             base: String::new(),
@@ -178,7 +189,32 @@ impl Plan {
     }
 }
 
-fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
+/// The keys of `[split]`, in their order.
+type SplitKeys = (
+    Option<f64>,
+    Option<f64>,
+    Option<Vec<String>>,
+    Option<Vec<String>>,
+    Option<[f64; 2]>,
+);
+
+/// `None` where no key is given.
+fn split_of((validation, test, by, severity, range): SplitKeys) -> Option<Split> {
+    let is_given = validation.is_some() || test.is_some() || by.is_some();
+    let severity = (severity.is_some() || range.is_some()).then(|| HeldSeverity {
+        keys: severity.unwrap_or_default(),
+        range: range.unwrap_or([f64::NAN; 2]),
+    });
+    (is_given || severity.is_some()).then(|| Split {
+        validation: validation.unwrap_or(0.0),
+        test: test.unwrap_or(0.0),
+        by,
+        severity,
+    })
+}
+
+/// Every key of a plan, once.
+pub(super) fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
     k.key(
         key("name", "name of the data set"),
         stated("dataset".into(), "no name given"),
@@ -242,7 +278,7 @@ fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
         stated(String::new(), "nothing is held out"),
         &mut p.secret,
     );
-    let mut split = (None, None, None);
+    let mut split = (None, None, None, None, None);
     k.section(
         key(
             "split",
@@ -268,16 +304,23 @@ fn keys<K: Keys>(k: &mut K, p: &mut Plan) {
                 ),
                 &mut split.2,
             );
+            k.optional(
+                key(
+                    "severity",
+                    "drawn keys of damage, such as defects.0.depth_um: runs in severity_range are all for the test",
+                ),
+                &mut split.3,
+            );
+            k.optional(
+                key(
+                    "severity_range",
+                    "least and largest value of the keys in severity, in their unit",
+                ),
+                &mut split.4,
+            );
         },
     );
-    let (validation, test, by) = split;
-    if validation.is_some() || test.is_some() || by.is_some() {
-        p.split = Some(Split {
-            validation: validation.unwrap_or(0.0),
-            test: test.unwrap_or(0.0),
-            by,
-        });
-    }
+    p.split = split_of(split);
     let sensor = ["sensor_ax", "sensor_ay"].map(String::from).to_vec();
     k.key(
         key("signals", "channels to keep; * matches any characters"),

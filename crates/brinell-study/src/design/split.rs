@@ -1,7 +1,7 @@
 //! Which runs are for training, validation and test: whole groups of runs under like conditions, so that no test repeats what was trained on.
 
 use super::draws::Draws;
-use super::plan::Split;
+use super::plan::{HeldSeverity, Split};
 use super::stream::{bits, word};
 use brinell::document::Problem;
 use std::collections::BTreeMap;
@@ -49,10 +49,11 @@ impl Part {
 /// What each run is for.
 ///
 /// Groups are put in an order by chance (of the plan's seed) and go to the test until it has its share, then to validation, the rest to
-/// training; each of these has one group at least.
+/// training; each of these has one group at least. Then runs of the severities that are held out go to the test, whatever their group.
 ///
 /// # Errors
-/// Where a key of `by` is not drawn by all classes, or there are fewer groups than parts.
+/// Where a key of `by` is not drawn by all classes, there are fewer groups than parts, or the severities held out are those of no run or leave none to
+/// train with.
 pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
     let plan = draws.plan();
     let mut parts: Vec<Part> = (0..draws.runs())
@@ -118,7 +119,57 @@ pub(super) fn parts(draws: &Draws) -> Result<Vec<Part>, Vec<Problem>> {
         }
         left -= 1;
     }
+    if let Some(severity) = &split.severity {
+        hold_out(draws, severity, &mut parts)?;
+    }
     Ok(parts)
+}
+
+/// Puts the runs of the severities into the test.
+fn hold_out(
+    draws: &Draws,
+    severity: &HeldSeverity,
+    parts: &mut [Part],
+) -> Result<(), Vec<Problem>> {
+    let numeric = || draws.parameters().iter().filter(|p| p.numeric);
+    let names: Vec<&str> = numeric().map(|p| p.key.as_str()).collect();
+    let unknown = severity
+        .keys
+        .iter()
+        .filter(|key| !names.contains(&key.as_str()));
+    let problems: Vec<Problem> = unknown
+        .map(|key| {
+            Problem::error(
+                "split.severity",
+                "no class draws numbers of this key".to_owned(),
+            )
+            .value(format!("{key:?}"))
+            .allowed(names.join(", "))
+        })
+        .collect();
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let [low, high] = severity.range;
+    let mut found = 0;
+    for (run, part) in parts.iter_mut().enumerate() {
+        let values = draws.numbers(run, &severity.keys);
+        if *part != Part::HeldOut && values.iter().any(|x| (low..=high).contains(x)) {
+            *part = Part::Test;
+            found += 1;
+        }
+    }
+    let message = match (found, parts.contains(&Part::Train)) {
+        (0, _) => "no run draws a severity of this range",
+        (_, false) => "the range leaves no run to train with",
+        (_, true) => return Ok(()),
+    };
+    let problem = Problem::error("split.severity_range", message.to_owned());
+    Err(vec![
+        problem
+            .value(format!("[{low:?}, {high:?}]"))
+            .allowed("a range of some of the runs"),
+    ])
 }
 
 /// The keys that make groups.

@@ -3,7 +3,9 @@
 //! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path. Values keep the scenario
 //! file's units, which the keys name.
 
+use super::designation::{plain, readings};
 use super::kinematics::Geometry;
+use crate::nearest::nearest;
 use std::sync::LazyLock;
 
 /// One bearing.
@@ -15,14 +17,24 @@ pub struct Entry {
     pub title: String,
     /// Its numbers for the scenario, in the file's order.
     pub values: Vec<Value>,
-    /// Numbers that fill no key of the scenario: `BORE` and, where a maker's is known, `STATIC_RATING`.
+    /// Numbers that fill no key of the scenario: `BORE`, and others of `FACTS` where a maker's are known.
     pub facts: Vec<Value>,
 }
 
-/// Bore diameter, mm.
-pub(crate) const BORE: &str = "bore_diameter_mm";
+/// Bore diameter d, mm.
+pub const BORE: &str = "bore_diameter_mm";
+/// Outside diameter D, mm.
+pub const OUTSIDE: &str = "outside_diameter_mm";
+/// Width B, mm.
+pub const WIDTH: &str = "width_mm";
+/// Basic dynamic radial load rating C, N.
+pub const DYNAMIC_RATING: &str = "dynamic_load_rating_n";
 /// Basic static radial load rating C0, N.
-pub(crate) const STATIC_RATING: &str = "static_load_rating_n";
+pub const STATIC_RATING: &str = "static_load_rating_n";
+/// Mass of the bearing, kg.
+pub const MASS: &str = "mass_kg";
+/// Every fact.
+pub const FACTS: [&str; 6] = [BORE, OUTSIDE, WIDTH, DYNAMIC_RATING, STATIC_RATING, MASS];
 
 /// One number of a bearing, and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +63,7 @@ impl Entry {
         values.any(|v| v.key == "bearing.element" && v.value == ball)
     }
 
-    /// One of `BORE` and `STATIC_RATING`.
+    /// One of `FACTS`.
     pub fn fact(&self, key: &str) -> Option<f64> {
         self.fact_of(key).map(|(value, _)| value)
     }
@@ -108,17 +120,24 @@ pub fn all() -> &'static [Entry] {
     &ENTRIES
 }
 
-/// The bearing of that name; case, spaces and hyphens do not matter.
+/// The bearing of that name; case, spaces and hyphens do not matter, nor does a maker in front or what follows the size: `SKF NU 206 ECP`,
+/// `6205-2RSH/C3`.
 pub fn find(name: &str) -> Option<&'static Entry> {
+    let mut readings = readings(name).into_iter();
+    find_exactly(name).or_else(|| readings.find_map(|(base, _)| find_exactly(&base)))
+}
+
+/// The same without suffixes and maker.
+pub(super) fn find_exactly(name: &str) -> Option<&'static Entry> {
     let wanted = plain(name);
     all().iter().find(|entry| plain(&entry.name) == wanted)
 }
 
-fn plain(name: &str) -> String {
-    name.chars()
-        .filter(|c| !c.is_whitespace() && *c != '-')
-        .flat_map(char::to_lowercase)
-        .collect()
+/// The name of the catalogue that is nearest to one that it does not have.
+pub fn nearest_name(name: &str) -> Option<&'static str> {
+    let base = readings(name).into_iter().next().map(|(base, _)| base);
+    let base = base.unwrap_or_else(|| plain(name));
+    nearest(&base, all().iter().map(|entry| entry.name.as_str()))
 }
 
 fn parse(text: &str) -> Result<Vec<Entry>, String> {

@@ -3,9 +3,11 @@
 
 pub mod catalogue;
 pub mod clearance;
+mod designation;
 pub mod kinematics;
 pub mod orders;
 pub mod rating;
 
+pub use designation::clearance_of;
 pub use kinematics::Kinematics;
 pub use orders::{KnownBearing, orders_of};

@@ -3,6 +3,7 @@
 use super::catalogue::{self, Entry};
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
+use crate::nearest::nearest;
 use std::f64::consts::TAU;
 
 /// Of a bearing of the catalogue or a scenario.
@@ -35,14 +36,22 @@ impl KnownBearing {
 
     /// The bearing of this name.
     pub fn find(name: &str) -> Option<Self> {
-        let catalogued = catalogue::find(name).map(Self::Catalogue);
-        catalogued.or_else(|| NamedBearing::find(name).map(Self::DataSet))
+        // A data set's own bearing before one of the catalogue that has but the same size: 6205-2RS.
+        let catalogued =
+            |found: fn(&str) -> Option<&'static Entry>| found(name).map(Self::Catalogue);
+        let named = || NamedBearing::find(name).map(Self::DataSet);
+        catalogued(catalogue::find_exactly)
+            .or_else(named)
+            .or_else(|| catalogued(catalogue::find))
     }
 
-    /// Why there is no bearing of this name: the names that there are.
+    /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that there are.
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
-        format!("no bearing {name:?}; there are {}", names.join(", "))
+        let meant = catalogue::nearest_name(name).or_else(|| nearest(name, names.iter().copied()));
+        let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
+        let joint = if hint.is_empty() { "; there" } else { " There" };
+        format!("no bearing {name:?}{hint}{joint} are {}", names.join(", "))
     }
 
     /// Its name.

@@ -230,6 +230,10 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
         ),
         &mut class,
     );
+    let of_class = |class: ClearanceClass| {
+        let middle = bore_diameter_mm(b).and_then(|d| class.one_sided_middle(b.element, d));
+        middle.unwrap_or(f64::NAN)
+    };
     let default = match (diametral, class) {
         (Some(diametral), _) => Fallback::Instead {
             value: 0.5 * diametral,
@@ -237,10 +241,13 @@ fn clearance<K: Keys>(k: &mut K, b: &mut Bearing) {
             assumed: false,
         },
         (None, Some(class)) => Fallback::Instead {
-            value: bore_diameter_mm(b)
-                .and_then(|bore| class.one_sided_middle(b.element, bore))
-                .unwrap_or(f64::NAN),
+            value: of_class(class),
             how: "bearing.clearance_class, half of the middle of its diametral range (ISO 5753-1)",
+            assumed: true,
+        },
+        (None, None) if let Some(class) = k.named_clearance() => Fallback::Instead {
+            value: of_class(class),
+            how: "the class of clearance in the bearing's name, half of the middle of its diametral range (ISO 5753-1)",
             assumed: true,
         },
         (None, None) => match b.element {

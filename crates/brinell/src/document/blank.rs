@@ -188,6 +188,10 @@ pub(crate) fn image() -> Shape {
         edges: Leaf::blank(),
         blur_px: None,
         speck_mm2: NONE,
+        region_px: None,
+        pieces: None,
+        at_px: None,
+        scale_bar: None,
     })
 }
 
@@ -204,8 +208,8 @@ pub(crate) fn svg() -> Shape {
 pub(crate) fn scan() -> ScanFile {
     ScanFile {
         file: String::new(),
-        ds_mm: NONE,
-        dz_mm: NONE,
+        ds_mm: None,
+        dz_mm: None,
         unit: Leaf::blank(),
         nm_per_count: None,
         height_positive_up: true,

@@ -247,18 +247,11 @@ const MOST_NODES: f64 = 20_000.0;
 fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     let (mut file, mut g, mut scan) = match shape {
         Shape::DepthMap { grid } => (None, grid.clone(), blank::scan()),
-        Shape::Scan(scan) => {
-            let spacing = DepthGrid {
-                ds_mm: scan.ds_mm,
-                dz_mm: scan.dz_mm,
-                ..blank::grid()
-            };
-            (Some(scan.file.clone()), spacing, scan.clone())
-        }
+        Shape::Scan(scan) => (Some(scan.file.clone()), blank::grid(), scan.clone()),
         _ => return,
     };
     k.optional(
-        damage_files::FILE.doc("CSV, NPY or 16-bit PNG, from the scenario's folder; instead of columns, rows, depth_um"),
+        damage_files::FILE.doc("CSV, NPY, 16-bit PNG, SDF, X3P or SUR, from the scenario's folder; instead of columns, rows, depth_um"),
         &mut file,
     );
     let written = (file.is_none(), "there is no `file`");
@@ -268,16 +261,24 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
         let start = -0.5 * n.saturating_sub(1) as f64 * d;
         derived(start, "the grid's middle at the defect's centre")
     };
-    k.key(
-        spacing("ds_mm", "distance of columns, along the rolling direction"),
-        Required,
-        &mut g.ds_mm,
+    let ds = spacing(
+        "ds_mm",
+        "distance of columns, along the rolling direction; of a file that says its own, left out",
     );
-    k.key(
-        spacing("dz_mm", "distance of rows, along the axis"),
-        Required,
-        &mut g.dz_mm,
+    let dz = spacing(
+        "dz_mm",
+        "distance of rows, along the axis; of a file that says its own, left out",
     );
+    match file {
+        Some(_) => {
+            k.optional(ds, &mut scan.ds_mm);
+            k.optional(dz, &mut scan.dz_mm);
+        }
+        None => {
+            k.only_where(ds, true, written.1, &mut g.ds_mm);
+            k.only_where(dz, true, written.1, &mut g.dz_mm);
+        }
+    }
     k.key_where(
         count("columns", "nodes along s"),
         written,
@@ -314,7 +315,7 @@ fn depth_map<K: Keys>(k: &mut K, shape: &mut Shape) {
     damage_files::scan(k, file.is_some(), &mut scan);
     *shape = match file {
         Some(file) => {
-            (scan.file, scan.ds_mm, scan.dz_mm) = (file, g.ds_mm, g.dz_mm);
+            scan.file = file;
             Shape::Scan(scan)
         }
         None => Shape::DepthMap { grid: g },

@@ -44,11 +44,24 @@ fn speck<K: Keys>(k: &mut K, filed: Option<bool>, fallback: Fallback<f64>, value
 
 pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     k.key(FILE, Required, &mut i.file);
+    k.optional(
+        key(
+            "scale_bar",
+            "a length in the picture, from which mm_per_pixel follows",
+        ),
+        &mut i.scale_bar,
+    );
     let scale = key("mm_per_pixel", "the side of a pixel").above(0.0);
-    k.key(scale.to(10.0).unit("mm"), Required, &mut i.mm_per_pixel);
+    let of_bar = |bar: ScaleBar| Fallback::Instead {
+        value: bar.mm / bar.px,
+        how: "from scale_bar",
+        assumed: false,
+    };
+    let fallback = i.scale_bar.map_or(Required, of_bar);
+    k.key(scale.to(10.0).unit("mm"), fallback, &mut i.mm_per_pixel);
     let threshold = key(
         "threshold",
-        "darker is damage, 0 black, 1 white; left out: the level that divides the picture best",
+        "darker is damage, 0 black, 1 white; left out: half of the damage's contrast, the light evened out",
     );
     k.optional(threshold.above(0.0).to(1.0), &mut i.threshold);
     k.key(
@@ -79,6 +92,15 @@ pub(super) fn image<K: Keys>(k: &mut K, i: &mut ImageFile) {
     i.blur_px = (i.edges == ImageEdges::SubPixel).then_some(blur_px);
     let dirt = assumed(0.02, "dirt and grinding marks");
     speck(k, None, dirt, &mut i.speck_mm2);
+    let region = "what of the picture is read: left, top, width, height; left out: all";
+    k.optional(
+        key("region_px", region).from(0.0).to(65_535.0),
+        &mut i.region_px,
+    );
+    let pieces = "which dark pieces are damage; left out: of a photo the largest, of a mask or with a threshold all";
+    k.optional(key("pieces", pieces), &mut i.pieces);
+    let at = "a point within the piece that is damage, from the upper left corner";
+    k.optional(key("at_px", at).from(0.0).to(65_535.0), &mut i.at_px);
 }
 
 pub(super) fn svg<K: Keys>(k: &mut K, d: &mut SvgFile) {

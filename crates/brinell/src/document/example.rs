@@ -1,6 +1,7 @@
 //! The scenario that `brinell init` starts from: the NN3007 with the rectangle defect.
 
-use super::load::{Loaded, by_key, read, write};
+use super::load::{by_key, read, write};
+use super::problem::Problem;
 use super::writer::Style;
 use crate::scenario::Scenario;
 
@@ -30,20 +31,25 @@ const HEAD: &str = "\
 
 ";
 
-fn example() -> Loaded {
-    read(SHORTEST, &[]).expect("the example reads: a test holds it to that")
-}
-
 /// A commented scenario to edit, which reads without problems.
 pub fn template() -> String {
-    let example = example();
-    let style = Style::Template(by_key(&example.provenance));
-    HEAD.to_string() + &write(&example.scenario, style)
+    explained(SHORTEST).expect("the example reads: a test holds it to that")
+}
+
+/// A scenario file with every key in it, explained: those that the text leaves out are comments that show what holds then.
+///
+/// # Errors
+/// Every problem of the text.
+pub fn explained(text: &str) -> Result<String, Vec<Problem>> {
+    let loaded = read(text, &[])?;
+    let style = Style::Template(by_key(&loaded.provenance));
+    Ok(HEAD.to_string() + &write(&loaded.scenario, style))
 }
 
 impl Scenario {
     /// The NN3007 with the paper's rectangle defect, 3 x 4 mm on the outer raceway.
     pub fn example() -> Scenario {
-        example().scenario
+        let example = read(SHORTEST, &[]).expect("the example reads: a test holds it to that");
+        example.scenario
     }
 }

@@ -7,6 +7,7 @@
 use std::fmt;
 
 use super::leaf::Leaf;
+use crate::bearing::clearance::ClearanceClass;
 
 /// Name, meaning, unit and range of one key.
 #[derive(Debug, Clone, Copy)]
@@ -291,6 +292,11 @@ pub trait Keys: Sized {
     /// The key that names the catalogue bearing, whose values replace keys left out after it.
     fn preset(&mut self, spec: Spec, value: &mut Option<String>) {
         self.optional(spec, value);
+    }
+
+    /// The class of clearance that the catalogue bearing's name gives.
+    fn named_clearance(&self) -> Option<ClearanceClass> {
+        None
     }
 
     /// A table of keys.

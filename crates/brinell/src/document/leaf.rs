@@ -3,8 +3,8 @@
 use serde_json::{Value as Json, json};
 
 use super::keys::Spec;
+use super::quantity;
 use super::source::{Node, Value, float, quote};
-use crate::scenario::Speed;
 
 /// A value that does not fit its key.
 #[derive(Debug)]
@@ -115,6 +115,18 @@ fn json_number(x: f64) -> Json {
     }
 }
 
+fn not_a_quantity(words: String, spec: &Spec) -> Misfit {
+    let others = quantity::examples(spec.unit).join(", ");
+    let allowed = match others.as_str() {
+        "" => format!(
+            "a number, or a string with a unit that converts to {}",
+            spec.unit
+        ),
+        _ => format!("a number, or a string with a unit: {}, {others}", spec.unit),
+    };
+    Misfit::new(words, allowed)
+}
+
 fn out_of_range(x: f64, spec: &Spec) -> Misfit {
     let allowed = spec.range.to_string();
     if x.is_finite() {
@@ -140,6 +152,9 @@ impl Leaf for f64 {
             Value::HugeInteger(_) => {
                 return Err(Misfit::new("number too large", spec.range.to_string()));
             }
+            Value::Text(text) if quantity::begins(text) && quantity::is_convertible(spec.unit) => {
+                quantity::read(text, spec.unit).map_err(|words| not_a_quantity(words, spec))?
+            }
             _ => return Err(wrong_type::<f64>(node, spec)),
         };
         if spec.range.contains(x) {
@@ -154,7 +169,13 @@ impl Leaf for f64 {
     }
 
     fn schema(spec: &Spec) -> Json {
-        number_schema("number", spec)
+        let mut schema = number_schema("number", spec);
+        if quantity::is_convertible(spec.unit) {
+            // Bounds are about numbers, the pattern about strings.
+            schema["type"] = json!(["number", "string"]);
+            schema["pattern"] = json!(quantity::PATTERN);
+        }
+        schema
     }
 
     fn range(spec: &Spec) -> String {
@@ -306,22 +327,25 @@ impl Leaf for Vec<f64> {
     }
 }
 
-impl Leaf for [f64; 2] {
-    fn blank() -> [f64; 2] {
-        [f64::NAN; 2]
+impl<const N: usize> Leaf for [f64; N] {
+    fn blank() -> Self {
+        [f64::NAN; N]
     }
 
     fn expected(spec: &Spec) -> String {
-        in_unit("a list [x, y] of two numbers", spec)
+        match N {
+            2 => in_unit("a list [x, y] of two numbers", spec),
+            _ => in_unit(&format!("a list of {N} numbers"), spec),
+        }
     }
 
-    fn read(node: &Node, spec: &Spec) -> Result<[f64; 2], Misfit> {
-        let items = elements::<[f64; 2]>(node, spec)?;
+    fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit> {
+        let items = elements::<Self>(node, spec)?;
         let numbers: Vec<f64> = read_each(items, spec)?;
         numbers.try_into().map_err(|numbers: Vec<f64>| {
-            let expected = <[f64; 2]>::expected(spec);
+            let expected = Self::expected(spec);
             let message = format!("expected {expected}, found {} of them", numbers.len());
-            Misfit::new(message, <[f64; 2]>::range(spec))
+            Misfit::new(message, Self::range(spec))
         })
     }
 
@@ -330,7 +354,7 @@ impl Leaf for [f64; 2] {
     }
 
     fn schema(spec: &Spec) -> Json {
-        json!({ "type": "array", "items": f64::schema(spec), "minItems": 2, "maxItems": 2 })
+        json!({ "type": "array", "items": f64::schema(spec), "minItems": N, "maxItems": N })
     }
 
     fn range(spec: &Spec) -> String {
@@ -357,53 +381,6 @@ impl Leaf for Vec<String> {
 
     fn schema(spec: &Spec) -> Json {
         json!({ "type": "array", "items": String::schema(spec) })
-    }
-}
-
-impl Leaf for Speed {
-    fn blank() -> Speed {
-        Speed::Constant(f64::NAN)
-    }
-
-    fn expected(spec: &Spec) -> String {
-        format!(
-            "{} or a list of points [t in s, speed in {}]",
-            f64::expected(spec),
-            spec.unit
-        )
-    }
-
-    fn read(node: &Node, spec: &Spec) -> Result<Speed, Misfit> {
-        match &node.value {
-            Value::Array(items) => {
-                let point = |item: &Node| match &item.value {
-                    Value::Array(_) => <[f64; 2]>::read(item, spec),
-                    _ => Err(wrong_type::<Speed>(item, spec)),
-                };
-                let points = items
-                    .iter()
-                    .map(|item| point(item).map_err(|misfit| misfit.in_element(item)));
-                Ok(Speed::Profile(points.collect::<Result<_, _>>()?))
-            }
-            Value::Integer(_) | Value::HugeInteger(_) | Value::Float(_) => {
-                f64::read(node, spec).map(Speed::Constant)
-            }
-            _ => Err(wrong_type::<Speed>(node, spec)),
-        }
-    }
-
-    fn write(&self) -> String {
-        match self {
-            Speed::Constant(speed) => speed.write(),
-            Speed::Profile(points) => write_each(points),
-        }
-    }
-
-    fn schema(spec: &Spec) -> Json {
-        json!({ "oneOf": [
-            f64::schema(spec),
-            { "type": "array", "items": <[f64; 2]>::schema(spec), "minItems": 1 },
-        ] })
     }
 }
 
@@ -448,7 +425,7 @@ impl<T: Choice> Leaf for T {
             let words = T::WORDS.iter().map(|(word, ..)| *word);
             let hint = match T::RENAMED {
                 Some((old, new)) if old == text => format!("; it is called {} now", quote(new)),
-                _ => super::nearest::nearest(text, words)
+                _ => crate::nearest::nearest(text, words)
                     .map(|word| format!("; did you mean {}?", quote(word)))
                     .unwrap_or_default(),
             };

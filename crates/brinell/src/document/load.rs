@@ -113,7 +113,9 @@ impl Loaded {
             key: of("threshold"),
             value: source::float(level),
             unit: "",
-            origin: Origin::Derived("found in the image: the level that divides it best"),
+            origin: Origin::Derived(
+                "found in the image, its light evened out where that is uneven",
+            ),
             assumed: true,
         };
         let place = place.map_or(self.provenance.len(), |place| place + 1);

@@ -12,27 +12,28 @@ mod example;
 mod keys;
 mod leaf;
 mod load;
-mod nearest;
 mod pointed;
 mod problem;
 mod problems;
 mod profile_leaf;
 mod provenance;
+mod quantity;
 mod reader;
 mod recorded;
+mod scale_leaf;
 mod schema;
 mod sections;
 mod sensor;
 mod shape_leaf;
 mod source;
+mod speed_leaf;
 mod words;
 mod writer;
 
-pub use example::template;
+pub use example::{explained, template};
 #[doc(hidden)]
 pub use keys::unit_of_key;
 pub use load::{Loaded, read, read_bytes};
-pub(crate) use nearest::nearest;
 pub use pointed::pointed_out;
 #[doc(hidden)]
 pub use pointed::{on_one_line, one_line};
@@ -51,6 +52,7 @@ pub mod reading {
     pub use super::keys::{Fallback, Keys, Range, Spec, Variant, key, stated};
     pub use super::leaf::{Choice, Leaf, Misfit};
     pub use super::reader::Reader;
+    pub use super::schema::{Schema, schema_of};
     pub use super::source::{
         Entry, Node, Table, Value as Toml, brief_path, key_text, parse, path_parts, quote,
     };

@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use super::keys::{Fallback, Spec, unit_of_key};
 use super::leaf::{Leaf, Misfit};
-use super::nearest::nearest;
 use super::problem::{Problem, Severity};
 use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
@@ -15,6 +14,8 @@ use super::recorded::{self, Assumed};
 use super::schema::known_keys;
 use super::source::{Entry, Node, Table, Value, brief_path, override_value};
 use crate::bearing::catalogue;
+use crate::bearing::clearance::ClearanceClass;
+use crate::nearest::nearest;
 
 /// Tables of one list, such as `[[defects]]`, at most.
 const MOST_TABLES: usize = 5000;
@@ -35,6 +36,8 @@ struct Frame<'a> {
 pub struct Reader<'a> {
     frames: Vec<Frame<'a>>,
     preset: Option<&'static catalogue::Entry>,
+    /// The class of clearance in the preset's name: C3 of `6205-2RS/C3`.
+    named_clearance: Option<ClearanceClass>,
     /// A preset was asked for and is unknown: what it would have filled is not worth a word.
     preset_unknown: bool,
     /// Section and name of every key there is, for hints on unknown ones.
@@ -81,6 +84,7 @@ impl<'a> Reader<'a> {
         Reader {
             frames: vec![root],
             preset: None,
+            named_clearance: None,
             preset_unknown: false,
             vocabulary,
             recorded: HashMap::new(),

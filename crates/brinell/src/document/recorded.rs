@@ -11,10 +11,10 @@ use serde_json::{Value as Json, json};
 
 use super::keys::{Keys, Spec, key};
 use super::leaf::{Leaf, Misfit, elements, wrong_type};
-use super::nearest::nearest;
 use super::provenance::Provenance;
 use super::schema::known_keys;
 use super::source::{Node, Value, quote};
+use crate::nearest::nearest;
 
 /// Name of the section.
 pub(crate) const SECTION: &str = "provenance";

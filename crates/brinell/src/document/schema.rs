@@ -8,6 +8,7 @@ use super::keys::{Fallback, Keys, Spec, Variant};
 use super::leaf::Leaf;
 use super::{blank, recorded, sections};
 
+/// Keys of a table, as far as the walk has come.
 #[derive(Default)]
 struct Object {
     properties: Map<String, Json>,
@@ -44,7 +45,8 @@ impl Object {
     }
 }
 
-struct Schema {
+/// The walk; [`schema_of`] makes it.
+pub struct Schema {
     objects: Vec<Object>,
 }
 
@@ -201,23 +203,30 @@ impl Keys for Schema {
     }
 }
 
-/// JSON Schema (draft 2020-12) of a scenario file; TOML tables are objects.
-pub fn json_schema() -> Json {
+/// JSON Schema (draft 2020-12) of the file whose keys `list` names; TOML tables are objects.
+pub fn schema_of(title: &str, doc: &str, list: impl FnOnce(&mut Schema)) -> Json {
     let mut walk = Schema {
         objects: vec![Object::default()],
     };
-    sections::scenario(&mut walk, &mut blank::scenario());
-    recorded::provenance(&mut walk, &mut None);
+    list(&mut walk);
     let root = walk.objects.pop().unwrap_or_default();
     let mut schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "brinell scenario",
+        "title": title,
     });
-    let body = root.schema("one run of brinell, completely described");
-    if let (Json::Object(schema), Json::Object(body)) = (&mut schema, body) {
+    if let (Json::Object(schema), Json::Object(body)) = (&mut schema, root.schema(doc)) {
         schema.extend(body);
     }
     schema
+}
+
+/// JSON Schema (draft 2020-12) of a scenario file; TOML tables are objects.
+pub fn json_schema() -> Json {
+    let doc = "one run of brinell, completely described";
+    schema_of("brinell scenario", doc, |walk| {
+        sections::scenario(walk, &mut blank::scenario());
+        recorded::provenance(walk, &mut None);
+    })
 }
 
 /// Every key as (section, name); the section of a table in a list is written without index.

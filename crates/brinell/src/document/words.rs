@@ -94,6 +94,11 @@ words! { ImageEdges:
     PixelEdges = "pixel-edges", "along pixels: masks drawn pixel by pixel";
 }
 
+words! { ImagePieces:
+    Largest = "largest", "the largest that is set apart from the surface around it";
+    All = "all", "all of them";
+}
+
 words! { ScanUnit:
     Um = "um", "micrometres";
     Mm = "mm", "millimetres";

@@ -1,7 +1,7 @@
 //! Several numbers at a time, and the elementary functions that the right-hand side spends its time in.
 //!
 //! [`Lanes`] is what the equations of motion are written in: a group of numbers as wide as a register, or as two ([`Lanes::Pair`]). `one` is a single
-//! number, `portable` an array, `x86` a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
+//! number, `portable` an array (`wasm` two registers of WebAssembly), `x86` a register of AVX2 (four) or AVX-512 (eight). Functions over lanes do not branch on a lane's value. The implementations differ
 //! in round-off alone: the portable one rounds every product, the others fuse products with sums.
 //!
 //! The lanes of `x86` are this crate's own: whoever makes one must have asked the processor first, which safe code elsewhere need not.
@@ -18,14 +18,20 @@ mod ninth;
 mod one;
 #[cfg(target_arch = "x86_64")]
 mod pair;
+#[cfg(not(target_feature = "simd128"))]
 mod portable;
+#[cfg(target_feature = "simd128")]
+mod wasm;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use blend::{blend, inner_products, positive, weighted_square};
 pub use column::Column;
 pub(crate) use ninth::eight_ninths;
+#[cfg(not(target_feature = "simd128"))]
 pub use portable::Portable;
+#[cfg(target_feature = "simd128")]
+pub use wasm::Portable;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::{Avx2, Avx512};
 
@@ -157,6 +163,25 @@ pub trait Lanes:
         functions::ten_ninths(self)
     }
 }
+
+/// `+=` and `-=` by `+` and `-`.
+macro_rules! assigning {
+    ($type:ident) => {
+        impl std::ops::AddAssign for $type {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl std::ops::SubAssign for $type {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+use assigning;
 
 /// What [`Lanes`] says of groups, for arrays of `$count`.
 macro_rules! grouped {

@@ -1,7 +1,7 @@
 //! Two groups as one: what is worked on side by side shares its constants and does not wait for itself.
 
-use super::{Avx2, Lanes, grouped};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use super::{Avx2, Lanes, assigning, grouped};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Eight numbers in two registers of AVX2.
 #[derive(Debug, Clone, Copy)]
@@ -34,19 +34,7 @@ impl Neg for Avx2Pair {
     }
 }
 
-impl AddAssign for Avx2Pair {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Avx2Pair {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+assigning!(Avx2Pair);
 
 /// Functions of [`Lanes`] that do the same to both halves.
 macro_rules! halved {

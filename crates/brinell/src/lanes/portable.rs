@@ -1,7 +1,7 @@
 //! Lanes as an array: scalar code, or whatever the compiler makes of it.
 
-use super::{Lanes, grouped};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use super::{Lanes, assigning, grouped};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Numbers in a group: what fits the fewest registers without spilling.
 const COUNT: usize = 4;
@@ -76,19 +76,7 @@ impl Neg for Portable {
     }
 }
 
-impl AddAssign for Portable {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Portable {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+assigning!(Portable);
 
 impl Lanes for Portable {
     type Pair = Self;

@@ -4,9 +4,9 @@
 //! entered through such functions alone, after the processor has been asked.
 
 use super::pair::Avx2Pair;
-use super::{Lanes, grouped};
+use super::{Lanes, assigning, grouped};
 use std::arch::x86_64::*;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 macro_rules! operators {
     ($type:ident, $($trait:ident $method:ident $body:expr;)*) => {
@@ -25,18 +25,7 @@ macro_rules! operators {
                 self.xor(Self::splat(-0.0))
             }
         }
-        impl AddAssign for $type {
-            #[inline(always)]
-            fn add_assign(&mut self, other: Self) {
-                *self = *self + other;
-            }
-        }
-        impl SubAssign for $type {
-            #[inline(always)]
-            fn sub_assign(&mut self, other: Self) {
-                *self = *self - other;
-            }
-        }
+        assigning!($type);
     };
 }
 

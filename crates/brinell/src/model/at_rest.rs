@@ -1,8 +1,8 @@
 //! One contact at rest without tilt, even or along a profile: for what is said of a model before anything moves.
 
 use super::Model;
-use crate::defect::Side;
-use crate::slices::{Approach, Slices};
+use crate::defect::{Defect, Side, cover_slices, damaged_contact};
+use crate::slices::{Approach, Cover, Slices};
 
 impl Model {
     /// Deformation at the roller's middle of a healthy contact under `force` (N), m.
@@ -20,6 +20,29 @@ impl Model {
         match self.profiled() {
             Some(slices) => slices.carry(law, &Approach::pressed(delta), None).stiffness[0],
             None => law.tangent(delta, None),
+        }
+    }
+
+    /// Elastic force (N) of a contact deformed by `delta` (m) at the roller's middle, at the angle `u` (rad) from the centre of `defect`, which
+    /// need not be of this model; `cover` is room for what damage covers of the slices.
+    pub fn force_over(
+        &self,
+        defect: &Defect,
+        side: Side,
+        u: f64,
+        delta: f64,
+        cover: &mut Cover,
+    ) -> f64 {
+        let (law, angles) = (self.contact(side), defect.met_at(side, u));
+        let one = || std::iter::once(defect);
+        match self.profiled() {
+            Some(slices) => {
+                let met = cover_slices(one(), &angles, side, cover);
+                let covered = met.then_some(&*cover);
+                slices.carry(law, &Approach::pressed(delta), covered).force
+            }
+            None => damaged_contact(one(), law, &angles, side, delta)
+                .map_or(law.healthy(delta), |a| a.elastic),
         }
     }
 

@@ -3,14 +3,15 @@
 use super::stability::stable_step;
 use super::{Model, Power, Workspace};
 use crate::solver::System;
+use std::borrow::BorrowMut;
 
-/// A model and the workspace of its evaluations.
+/// A model and the workspace of its evaluations, its own or somebody's.
 #[derive(Debug)]
-pub struct Motion<'a> {
+pub struct Motion<'a, W = Workspace> {
     /// The bearing.
     pub model: &'a Model,
     /// Forces and flows of the last evaluation.
-    pub ws: Workspace,
+    pub ws: W,
 }
 
 impl<'a> Motion<'a> {
@@ -28,7 +29,7 @@ impl<'a> Motion<'a> {
     }
 }
 
-impl System for Motion<'_> {
+impl<W: BorrowMut<Workspace>> System for Motion<'_, W> {
     type Flow = Power;
 
     fn size(&self) -> usize {
@@ -37,14 +38,15 @@ impl System for Motion<'_> {
 
     #[inline]
     fn accelerations(&mut self, t: f64, y: &[f64], a: &mut [f64]) {
-        self.model.accelerations(t, y, a, &mut self.ws);
+        self.model.accelerations(t, y, a, self.ws.borrow_mut());
     }
 
     fn stable_step(&self) -> f64 {
-        stable_step(self.model, self.ws.max_elastic(), self.ws.film_damping())
+        let ws = self.ws.borrow();
+        stable_step(self.model, ws.max_elastic(), ws.film_damping())
     }
 
     fn flow(&self) -> Power {
-        self.ws.power
+        self.ws.borrow().power
     }
 }

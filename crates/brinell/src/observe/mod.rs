@@ -13,6 +13,7 @@ pub mod time_frequency;
 pub mod waveform;
 
 use crate::channel::Frame;
+use crate::model::Model;
 use crate::scenario::{Defect, Scenario, Speed};
 use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
@@ -171,6 +172,22 @@ const BAND_LATEST: f64 = 0.1;
 /// It ends where the anti-alias filter's passband does.
 const BAND_END: f64 = 0.4;
 
+/// The band whose envelope is taken, at the bearing's highest speed.
+#[doc(hidden)]
+pub fn envelope_band(model: &Model, sample_rate: f64) -> Band {
+    let top = model.kinematics(model.rotation.max_speed());
+    envelope_band_above(top.bpfi.max(top.bpfo).max(2.0 * top.bsf), sample_rate)
+}
+
+/// The same by the highest defect frequency, Hz.
+#[doc(hidden)]
+pub fn envelope_band_above(highest: f64, sample_rate: f64) -> Band {
+    Band::between(
+        (BAND_HARMONIC * highest).min(BAND_LATEST * sample_rate),
+        BAND_END * sample_rate,
+    )
+}
+
 impl Watch {
     /// For one run.
     pub fn new(scenario: &Scenario, simulation: &Simulation) -> Self {
@@ -203,12 +220,7 @@ impl Watch {
         );
         let load = model.load.full;
         let duration = scenario.simulation.duration_s;
-        let top = model.kinematics(model.rotation.max_speed());
-        let highest = top.bpfi.max(top.bpfo).max(2.0 * top.bsf);
-        let band = Band::between(
-            (BAND_HARMONIC * highest).min(BAND_LATEST * sample_rate),
-            BAND_END * sample_rate,
-        );
+        let band = envelope_band(model, sample_rate);
         // One segment where the run is short, for resolution; the longest allowed otherwise.
         let expected = (0.75 * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
         let segment = (expected / 2 * 2).max(8);

@@ -50,8 +50,7 @@ impl Motion {
     /// at rest.
     pub fn new(model: &Model, duration: f64, sample_rate: f64) -> Self {
         let l = &model.layout;
-        let (rollers, rows) = (l.rollers(), l.rows);
-        let capacity = (FRAMES * ROLLERS / rollers.max(1)).clamp(FEWEST, FRAMES);
+        let capacity = (FRAMES * ROLLERS / l.rollers().max(1)).clamp(FEWEST, FRAMES);
         let last = model.rotation.at(duration).0.abs();
         let speed = if last > 0.0 {
             last
@@ -63,6 +62,14 @@ impl Motion {
         } else {
             duration
         };
+        let stride = ((span * sample_rate / capacity as f64).round() as u64).max(1);
+        Self::every(model, stride, capacity)
+    }
+
+    /// A frame every `stride` samples, the latest `capacity` of them.
+    #[doc(hidden)]
+    pub fn every(model: &Model, stride: u64, capacity: usize) -> Self {
+        let (rollers, rows) = (model.layout.rollers(), model.layout.rows);
         let still = RollerState {
             orbit: 0.0,
             spin: 0.0,
@@ -73,7 +80,7 @@ impl Motion {
             rollers,
             rows,
             capacity,
-            stride: ((span * sample_rate / capacity as f64).round() as u64).max(1),
+            stride,
             seen: 0,
             taken: 0,
             times: vec![0.0; capacity],
@@ -123,6 +130,12 @@ impl Motion {
         if let Some(sections) = &mut self.sections {
             sections.take(at, f);
         }
+    }
+
+    /// Frames taken since the start.
+    #[doc(hidden)]
+    pub fn taken(&self) -> usize {
+        self.taken
     }
 
     /// Frames held.

@@ -10,7 +10,7 @@ use super::fields::{
     LINES, LOAD, NOT_SETTLED, SLIP, WORK, exact, indicator, record,
 };
 use super::impacts::impacts;
-use crate::document::nearest;
+use crate::nearest::nearest;
 use crate::observe::{Findings, Kind};
 use crate::scenario::{Scenario, Speed};
 use crate::signal::spectrum::{Peak, peak_near};

@@ -135,6 +135,32 @@ pub struct ImageFile {
     pub blur_px: Option<f64>,
     /// Spots and holes smaller than this are dropped, mm^2.
     pub speck_mm2: f64,
+    /// What of the picture is read: left, top, width, height, pixels; `None`: all.
+    pub region_px: Option<[f64; 4]>,
+    /// Which pieces are damage; `None`: of a photo the largest, of a mask or with a threshold all.
+    pub pieces: Option<ImagePieces>,
+    /// A point within the piece that is damage, pixels from the upper left corner.
+    pub at_px: Option<[f64; 2]>,
+    /// A length in the picture, from which `mm_per_pixel` follows.
+    pub scale_bar: Option<ScaleBar>,
+}
+
+/// A length that is known in a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScaleBar {
+    /// As it is in the picture, pixels.
+    pub px: f64,
+    /// As it is, mm.
+    pub mm: f64,
+}
+
+/// Which dark pieces of an image are damage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImagePieces {
+    /// The largest.
+    Largest,
+    /// All.
+    All,
 }
 
 /// `svg`: damage drawn in a vector editor.
@@ -205,15 +231,15 @@ pub enum FirstRow {
     Bottom,
 }
 
-/// `depth_map` with `file`: heights in CSV, NPY or 16-bit PNG.
+/// `depth_map` with `file`: heights in CSV, NPY, 16-bit PNG, SDF, X3P or SUR.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScanFile {
     /// Path, from the scenario's folder.
     pub file: String,
-    /// From point to point along the rolling direction, mm.
-    pub ds_mm: f64,
-    /// From point to point along the axis, mm.
-    pub dz_mm: f64,
+    /// From point to point along the rolling direction, mm; `None`: as the file says.
+    pub ds_mm: Option<f64>,
+    /// From point to point along the axis, mm; `None`: as the file says.
+    pub dz_mm: Option<f64>,
     /// What the numbers count.
     pub unit: ScanUnit,
     /// nm, where `unit` is `Counts`.

@@ -8,8 +8,8 @@ mod damage;
 mod sensor;
 
 pub use damage::{
-    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, RollingDirection, ScanFile, ScanFill,
-    ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
+    Defect, DepthGrid, FirstRow, ImageEdges, ImageFile, ImagePieces, RollingDirection, ScaleBar,
+    ScanFile, ScanFill, ScanForm, ScanUnit, ScanZero, Shape, Surface, SvgFile,
 };
 pub use sensor::{NoiseColour, PathMode, Range, Sensor};
 

@@ -7,17 +7,18 @@ use super::{End, EnergyAudit, Observer, Outcome, Simulation, SolverWork};
 use crate::accuracy::settings;
 use crate::channel::Frame;
 use crate::model::energy::{ContactState, parametric_work};
-use crate::model::{Energy, Motion, Power, imbalance};
+use crate::model::{Energy, Motion, Power, Workspace, imbalance};
 use crate::sensor::Sensing;
 use crate::signal::decimate::FACTOR;
 use crate::slices::Cover;
 use crate::solver::{Stepper, System};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 
 /// Steps between two reports of progress.
 const PROGRESS: u64 = 32;
 
 /// Rows that wait for their filtered samples.
+#[derive(Debug)]
 struct Pending {
     width: usize,
     rows: Vec<f64>,
@@ -25,17 +26,29 @@ struct Pending {
 }
 
 impl Pending {
+    fn new(simulation: &Simulation, decimator: &Decimator) -> Self {
+        let width = simulation.channels.len();
+        let depth = decimator.half_length() / FACTOR + 2;
+        Self {
+            width,
+            rows: vec![0.0; depth * width],
+            depth,
+        }
+    }
+
     fn row(&mut self, index: u64) -> &mut [f64] {
         let at = (index % self.depth as u64) as usize * self.width;
         &mut self.rows[at..at + self.width]
     }
 }
 
-/// A simulation under way.
-pub(super) struct Run<'a> {
-    simulation: &'a Simulation,
-    observer: &'a mut dyn Observer,
-    motion: Motion<'a>,
+/// A run under way: [`Simulation::start`]. It stops after any sample and goes on with the same bits.
+///
+/// `S` is how it holds its simulation: a reference, or an [`Arc`](std::sync::Arc) or `Box` where the run is kept.
+#[derive(Debug)]
+pub struct Run<S> {
+    simulation: S,
+    ws: Workspace,
     stepper: Stepper<Power>,
     decimator: Decimator,
     /// Input of the decimator.
@@ -47,6 +60,8 @@ pub(super) struct Run<'a> {
     /// Next instant of the fast grid.
     next: u64,
     rows: u64,
+    /// Rows of a complete run.
+    last: u64,
     work: SolverWork,
     energy: EnergyAudit,
     imbalance: Option<f64>,
@@ -58,29 +73,33 @@ pub(super) struct Run<'a> {
     a: Vec<f64>,
 }
 
-impl<'a> Run<'a> {
-    pub(super) fn new(simulation: &'a Simulation, observer: &'a mut dyn Observer) -> Self {
+/// Why a run cannot go on in another simulation: what differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CannotGoOn {
+    /// Rows, rollers, or whether they tilt: the states have other entries.
+    Layout,
+    /// The sample rate.
+    SampleRate,
+    /// The channels behind the anti-alias filter.
+    Filtered,
+}
+
+impl<S: Deref<Target = Simulation>> Run<S> {
+    /// At t = 0.
+    pub(super) fn new(simulation: S) -> Self {
         let model = &simulation.model;
-        let mut motion = Motion::new(model);
+        let mut ws = Workspace::new(model);
+        let mut motion = Motion { model, ws: &mut ws };
         let settings = settings(model, simulation.accuracy);
         let stepper = Stepper::new(&mut motion, settings, 0.0, &simulation.initial);
-        let initial = Energy::of(model, 0.0, &simulation.initial, &motion.ws);
-        let mut contact_state = ContactState::new(&model.layout);
-        contact_state.store(model, 0.0, &simulation.initial, &motion.ws);
-        let mut switches = Switches::new(&model.layout);
-        switches.store(&motion.ws);
-        let decimator = Decimator::new(simulation.filtered.len());
-        let width = simulation.channels.len();
-        let depth = decimator.half_length() / FACTOR + 2;
         let n = motion.size();
+        let mut contact_state = ContactState::new(&model.layout);
+        contact_state.store(model, 0.0, &simulation.initial, &ws);
+        let mut switches = Switches::new(&model.layout);
+        switches.store(&ws);
+        let decimator = Decimator::new(simulation.filtered.len());
         Self {
-            pending: Pending {
-                width,
-                rows: vec![0.0; depth * width],
-                depth,
-            },
-            simulation,
-            observer,
+            pending: Pending::new(&simulation, &decimator),
             stepper,
             decimator,
             fast: vec![0.0; simulation.filtered.len()],
@@ -88,33 +107,83 @@ impl<'a> Run<'a> {
             sensing: simulation.sensor.as_ref().map(Sensing::new),
             next: 0,
             rows: 0,
+            last: simulation.samples,
             work: SolverWork::default(),
-            energy: EnergyAudit {
-                initial,
-                last: initial,
-                ..EnergyAudit::default()
-            },
-            imbalance: if model.outer_ring_is_fixed() {
-                None
-            } else {
-                Some(0.0)
-            },
+            energy: EnergyAudit::from(Energy::of(model, 0.0, &simulation.initial, &ws)),
+            imbalance: (!model.outer_ring_is_fixed()).then_some(0.0),
             contact_states: [contact_state.clone(), contact_state],
             cover: Cover::new(model.slices.as_ref().map_or(0, |s| s.count)),
             switches,
             y: vec![0.0; n],
             a: vec![0.0; model.layout.dof()],
-            motion,
+            ws,
+            simulation,
         }
     }
 
-    pub(super) fn go(mut self) -> Outcome {
-        let end = self.advance();
+    /// The simulation that it goes on in.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// Time that the solver has reached, s.
+    pub fn t(&self) -> f64 {
+        self.stepper.t()
+    }
+
+    /// Rows given so far.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// Gives `rows` more rows at most. `None`: there are more to come. However a run is cut, its bits are the same.
+    pub fn advance(&mut self, rows: u64, observer: &mut dyn Observer) -> Option<End> {
+        let stop = self.rows.saturating_add(rows);
+        let fast_rate = self.simulation.sample_rate * FACTOR as f64;
+        loop {
+            // Dense output: every instant of the fast grid that the last step covered.
+            loop {
+                if self.rows == self.last {
+                    return Some(End::Complete);
+                }
+                if self.rows == stop {
+                    return None;
+                }
+                let t = self.next as f64 / fast_rate;
+                if t > self.stepper.t() {
+                    break;
+                }
+                if self.sample(t, observer).is_break() {
+                    return Some(End::Stopped);
+                }
+                self.next += 1;
+            }
+            let model = &self.simulation.model;
+            let ws = &mut self.ws;
+            match self.stepper.step(&mut Motion { model, ws }) {
+                Ok(flows) => {
+                    self.book(flows, observer);
+                    // Steps rather than samples: a stiff run may take minutes from one sample to the next.
+                    self.work.solver = self.stepper.work();
+                    let due = self.work.solver.steps.is_multiple_of(PROGRESS);
+                    if due && observer.progress(self.stepper.t(), &self.work).is_break() {
+                        return Some(End::Stopped);
+                    }
+                }
+                Err(error) => {
+                    return Some(End::Failed(explain(error, &model.layout, &self.ws)));
+                }
+            }
+        }
+    }
+
+    /// How it went so far, the end given.
+    pub fn outcome(&mut self, end: End) -> Outcome {
         let model = &self.simulation.model;
         let t = self.stepper.t();
         self.y.copy_from_slice(self.stepper.y());
-        self.motion.accelerations(t, &self.y, &mut self.a);
-        self.energy.last = Energy::of(model, t, &self.y, &self.motion.ws);
+        model.accelerations(t, &self.y, &mut self.a, &mut self.ws);
+        self.energy.last = Energy::of(model, t, &self.y, &self.ws);
         self.work.solver = self.stepper.work();
         Outcome {
             end,
@@ -124,66 +193,62 @@ impl<'a> Run<'a> {
             work: self.work,
             energy: self.energy,
             momentum_imbalance: self.imbalance,
-            sensor: self.sensing.map_or(Vec::new(), |s| s.records().to_vec()),
+            sensor: (self.sensing.as_ref()).map_or(Vec::new(), |s| s.records().to_vec()),
         }
     }
 
-    fn advance(&mut self) -> End {
-        let simulation = self.simulation;
-        let fast_rate = simulation.sample_rate * FACTOR as f64;
-        loop {
-            // Dense output: every instant of the fast grid that the last step covered.
-            loop {
-                if self.rows == simulation.samples {
-                    return End::Complete;
-                }
-                let t = self.next as f64 / fast_rate;
-                if t > self.stepper.t() {
-                    break;
-                }
-                if self.sample(t).is_break() {
-                    return End::Stopped;
-                }
-                self.next += 1;
-            }
-            match self.stepper.step(&mut self.motion) {
-                Ok(flows) => {
-                    self.book(flows);
-                    // Steps rather than samples: a stiff run may take minutes from one sample to the next.
-                    self.work.solver = self.stepper.work();
-                    let due = self.work.solver.steps.is_multiple_of(PROGRESS);
-                    if due
-                        && self
-                            .observer
-                            .progress(self.stepper.t(), &self.work)
-                            .is_break()
-                    {
-                        return End::Stopped;
-                    }
-                }
-                Err(error) => {
-                    return End::Failed(explain(error, &simulation.model.layout, &self.motion.ws));
-                }
-            }
+    /// Goes on in another simulation, without an end: places, rates, filter and time stay, forces change at once. Such a run is no run of
+    /// the other scenario from t = 0. The sensor of the other starts from rest; the audits start anew.
+    ///
+    /// # Errors
+    /// Where the states or the filtered channels of the two do not correspond; the run stays as it is.
+    pub fn go_on_in(&mut self, other: S) -> Result<(), CannotGoOn> {
+        if other.model.layout != self.simulation.model.layout {
+            return Err(CannotGoOn::Layout);
         }
+        if other.sample_rate != self.simulation.sample_rate {
+            return Err(CannotGoOn::SampleRate);
+        }
+        let names =
+            |s: &Simulation| -> Vec<String> { s.filtered.iter().map(|c| c.name.clone()).collect() };
+        if names(&other) != names(&self.simulation) {
+            return Err(CannotGoOn::Filtered);
+        }
+        let model = &other.model;
+        let mut ws = Workspace::new(model);
+        let settings = settings(model, other.accuracy);
+        let motion = &mut Motion { model, ws: &mut ws };
+        self.stepper.go_on_in(motion, settings);
+        let (t, y) = (self.stepper.t(), self.stepper.y());
+        self.energy = EnergyAudit::from(Energy::of(model, t, y, &ws));
+        self.imbalance = (!model.outer_ring_is_fixed()).then_some(0.0);
+        self.contact_states[0].store(model, t, y, &ws);
+        self.cover = Cover::new(model.slices.as_ref().map_or(0, |s| s.count));
+        self.switches.store(&ws);
+        self.pending = Pending::new(&other, &self.decimator);
+        self.sensing = other.sensor.as_ref().map(Sensing::new);
+        self.last = u64::MAX;
+        self.ws = ws;
+        self.simulation = other;
+        Ok(())
     }
 
     /// Audits of an accepted step.
-    fn book(&mut self, flows: Power) {
+    fn book(&mut self, flows: Power, observer: &mut dyn Observer) {
         let model = &self.simulation.model;
         let (t, y) = (self.stepper.t(), self.stepper.y());
         self.energy.flows += flows;
         let [before, after] = &mut self.contact_states;
-        after.store(model, t, y, &self.motion.ws);
+        after.store(model, t, y, &self.ws);
         self.energy.parametric += parametric_work(model, before, after, &mut self.cover);
         self.contact_states.swap(0, 1);
-        self.switches.count(&self.motion.ws, &mut self.work);
-        self.observer.step(&Frame {
+        self.switches.count(&self.ws, &mut self.work);
+        observer.step(&Frame {
             model,
             t,
             y,
             a: self.stepper.accelerations(),
-            ws: &self.motion.ws,
+            ws: &self.ws,
         });
     }
 
@@ -191,40 +256,38 @@ impl<'a> Run<'a> {
     ///
     /// What passes the anti-alias filter are slopes of the interpolated rates, not right-hand sides at interpolated states: an eighth of the
     /// evaluations. They keep the momentum of every step, so they differ from those above the filter's band alone.
-    fn sample(&mut self, t: f64) -> ControlFlow<()> {
+    fn sample(&mut self, t: f64, observer: &mut dyn Observer) -> ControlFlow<()> {
+        let simulation: &Simulation = &self.simulation;
+        let model = &simulation.model;
         if self.next.is_multiple_of(FACTOR as u64) {
-            let model = &self.simulation.model;
             self.stepper.interpolate(t, &mut self.y);
-            self.motion.accelerations(t, &self.y, &mut self.a);
+            model.accelerations(t, &self.y, &mut self.a, &mut self.ws);
             self.work.sample_evaluations += 1;
             let frame = Frame {
                 model,
                 t,
                 y: &self.y,
                 a: &self.a,
-                ws: &self.motion.ws,
+                ws: &self.ws,
             };
             let index = self.next / FACTOR as u64;
             let row = self.pending.row(index);
-            for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
+            for (value, channel) in row.iter_mut().zip(&simulation.channels) {
                 *value = channel.value(&frame);
             }
             if let (Some(worst), Some(now)) = (
                 &mut self.imbalance,
-                imbalance(model, t, &self.y, &self.a, &self.motion.ws),
+                imbalance(model, t, &self.y, &self.a, &self.ws),
             ) {
                 *worst = worst.max(now);
             }
-            if index < self.simulation.samples {
-                self.observer.sample(index, &frame);
+            if index < self.last {
+                observer.sample(index, &frame);
             }
         }
-        self.stepper.interpolated_accelerations(
-            t,
-            &self.simulation.filtered_entries,
-            &mut self.fast,
-        );
-        if let (Some(sensing), Some(chain)) = (&mut self.sensing, &self.simulation.sensor) {
+        self.stepper
+            .interpolated_accelerations(t, &simulation.filtered_entries, &mut self.fast);
+        if let (Some(sensing), Some(chain)) = (&mut self.sensing, &simulation.sensor) {
             if let Some(own) = chain.along([self.fast[0], self.fast[1]]) {
                 self.fast[2] = own;
             }
@@ -233,16 +296,16 @@ impl<'a> Run<'a> {
         if let Some(filtered) = self.decimator.push(&self.fast) {
             self.filtered.copy_from_slice(filtered);
             if let Some(sensing) = &mut self.sensing {
-                let at = self.rows as f64 / self.simulation.sample_rate;
-                sensing.sample(&mut self.filtered, at >= self.simulation.model.load.ramp);
+                let at = self.rows as f64 / simulation.sample_rate;
+                sensing.sample(&mut self.filtered, at >= model.load.ramp);
             }
             let row = self.pending.row(self.rows);
-            for (value, channel) in row.iter_mut().zip(&self.simulation.channels) {
+            for (value, channel) in row.iter_mut().zip(&simulation.channels) {
                 if let Some(axis) = channel.sensor_axis() {
                     *value = self.filtered[axis];
                 }
             }
-            self.observer.row(self.rows, row, &self.filtered)?;
+            observer.row(self.rows, row, &self.filtered)?;
             self.rows += 1;
         }
         ControlFlow::Continue(())

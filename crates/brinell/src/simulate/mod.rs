@@ -17,11 +17,11 @@ use crate::scenario::{Accuracy, Scenario};
 use crate::sensor::{Chain, ChannelRecord};
 use crate::solver::Work;
 use crate::start;
-use going::Run;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Deref};
 
 #[doc(hidden)]
 pub use anti_alias::Decimator;
+pub use going::{CannotGoOn, Run};
 pub use signals::Signals;
 
 /// Receives a run as it goes.
@@ -89,6 +89,17 @@ pub struct EnergyAudit {
     pub flows: Power,
     /// Parametric work of damage under the rollers (section 3).
     pub parametric: f64,
+}
+
+impl From<Energy> for EnergyAudit {
+    /// Before anything flowed.
+    fn from(held: Energy) -> Self {
+        Self {
+            initial: held,
+            last: held,
+            ..Self::default()
+        }
+    }
 }
 
 impl EnergyAudit {
@@ -234,6 +245,18 @@ impl Simulation {
 
     /// Runs to the end, or until the observer breaks off or the solver fails.
     pub fn run(&self, observer: &mut dyn Observer) -> Outcome {
-        Run::new(self, observer).go()
+        let mut run = self.start();
+        let end = run.advance(u64::MAX, observer);
+        run.outcome(end.unwrap_or(End::Complete))
+    }
+
+    /// A run at t = 0, to be advanced a few rows at a time.
+    pub fn start(&self) -> Run<&Self> {
+        Run::new(self)
+    }
+
+    /// The same, which keeps its simulation.
+    pub fn start_in<S: Deref<Target = Self>>(simulation: S) -> Run<S> {
+        Run::new(simulation)
     }
 }

@@ -6,6 +6,7 @@ use crate::model::{Layout, Workspace};
 
 /// Which forces act, to count the changes: closed contacts by side and pockets pressed from behind and from before, a bit a slot; and
 /// which contacts are on damage.
+#[derive(Debug)]
 pub(super) struct Switches {
     active: [Vec<u8>; 4],
     now: [Vec<u8>; 4],

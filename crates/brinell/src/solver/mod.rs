@@ -132,6 +132,19 @@ impl<F: Copy + Default + AddAssign + Mul<f64, Output = F>> Stepper<F> {
         stepper
     }
 
+    /// Goes on from the present state in a system with as many entries: accelerations are evaluated anew, the controller seeks its step
+    /// anew, and the last step's dense output and the counted work stay.
+    pub fn go_on_in<S: System<Flow = F>>(&mut self, system: &mut S, settings: Settings) {
+        let mut next = Self::new(system, settings, self.t, &self.y);
+        std::mem::swap(&mut next.previous, &mut self.previous);
+        std::mem::swap(&mut next.stages[STAGES], &mut self.stages[STAGES]);
+        next.t_previous = self.t_previous;
+        next.work.evaluations += self.work.evaluations;
+        next.work.steps = self.work.steps;
+        next.work.rejections = self.work.rejections;
+        *self = next;
+    }
+
     /// Time of the current state.
     pub fn t(&self) -> f64 {
         self.t

@@ -28,7 +28,7 @@ fn regress_each_bad_line_is_named_with_its_line_and_remedy() {
         ("pitch_diameter_mm", "pitch_diameter = 49.0", "bearing.pitch_diameter", "did you mean `pitch_diameter_mm`", ""),
         ("pitch_diameter_mm", "speed_rpm = 1", "bearing.speed_rpm", "it belongs in [operation]", ""),
         ("pitch_diameter_mm", "viscosity = 1", "bearing.viscosity", "did you mean `viscosity_pa_s` in [lubricant]", ""),
-        ("pitch_diameter_mm", "pitch_diameter_mm = \"49\"", "bearing.pitch_diameter_mm", "expected a number in mm, found a string", "> 0 mm"),
+        ("pitch_diameter_mm", "pitch_diameter_mm = \"49\"", "bearing.pitch_diameter_mm", "no unit: a string needs one; without quotes the number is in mm", "a string with a unit: mm"),
         ("pitch_diameter_mm", "pitch_diameter_mm = 1979-05-27", "bearing.pitch_diameter_mm", "found a date", "> 0 mm"),
         ("pitch_diameter_mm", "pitch_diameter_mm = -49", "bearing.pitch_diameter_mm", "out of range", "> 0 mm"),
         ("pitch_diameter_mm", "pitch_diameter_mm = nan", "bearing.pitch_diameter_mm", "not a finite number", "> 0 mm"),

@@ -13,19 +13,29 @@ fn misfit(schema: &Value, value: &Value, path: &str) -> Option<String> {
         let number = value.as_f64();
         let bad = match keyword.as_str() {
             "$schema" | "title" | "description" | "default" | "x-unit" => false,
-            "type" => !match rule.as_str().expect("type") {
-                "object" => value.is_object(),
-                "array" => value.is_array(),
-                "string" => value.is_string(),
-                "number" => value.is_number(),
-                "integer" => value.is_i64() || value.is_u64(),
-                other => panic!("type {other}"),
-            },
+            "type" => {
+                let of = |word: &Value| match word.as_str().expect("type") {
+                    "object" => value.is_object(),
+                    "array" => value.is_array(),
+                    "string" => value.is_string(),
+                    "number" => value.is_number(),
+                    "integer" => value.is_i64() || value.is_u64(),
+                    other => panic!("type {other}"),
+                };
+                !rule
+                    .as_array()
+                    .map_or_else(|| of(rule), |words| words.iter().any(of))
+            }
+            // The only one: a number, then a unit. Strings of TOML that are quantities here begin with a digit.
+            "pattern" => value.as_str().is_some_and(|text| {
+                let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+                unit.len() == text.len() || unit.trim().is_empty()
+            }),
             "const" => value != rule,
-            "minimum" => number < rule.as_f64(),
-            "maximum" => number > rule.as_f64(),
-            "exclusiveMinimum" => number <= rule.as_f64(),
-            "exclusiveMaximum" => number >= rule.as_f64(),
+            "minimum" => number.is_some() && number < rule.as_f64(),
+            "maximum" => number.is_some() && number > rule.as_f64(),
+            "exclusiveMinimum" => number.is_some() && number <= rule.as_f64(),
+            "exclusiveMaximum" => number.is_some() && number >= rule.as_f64(),
             "minItems" | "maxItems" | "minProperties" | "maxProperties" => {
                 let count = value.as_array().map(Vec::len);
                 let count = count
@@ -106,6 +116,10 @@ fn regress_schema_accepts_what_reads() {
     }
     let shapes = "[[defects]]\non = \"roller\"\nroller = 2\nshape = { li2023_irregular = {} }\ndepth_um = 3\n";
     assert_eq!(check(&format!("{BARE}{shapes}")), None);
+    let units = BARE
+        .replace("1800.0", "\"30 Hz\"")
+        .replace("43.0", "\"43 mm\"");
+    assert_eq!(check(&units), None);
     let profile = BARE.replace("1800.0", "[[0.0, 10.0], [1, 20]]");
     assert_eq!(check(&profile), None);
 }

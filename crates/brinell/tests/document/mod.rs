@@ -6,6 +6,7 @@ mod clearance;
 mod defaults;
 mod json;
 mod limits;
+mod quantities;
 mod recorded;
 mod robust;
 mod tilting;

@@ -1,6 +1,5 @@
 //! The channel meant.
 
-use super::rate::{is_time, time_unit};
 use super::{Wanted, usage};
 use crate::failure::Failure;
 use brinell::document::Loaded;
@@ -145,7 +144,7 @@ pub(super) fn channel(
         }
     }
     let signals: Vec<&Channel> = (file.channels().iter())
-        .filter(|c| c.may_be_signal() && time_unit(c).is_none() && !is_time(c))
+        .filter(|c| c.may_be_signal() && !c.is_time())
         .collect();
     let among = |words: String| {
         let signals = signals.iter().map(|c| (*c).clone()).collect();

@@ -4,64 +4,17 @@ use super::channel::resolve;
 use super::{Wanted, stretch, usage};
 use crate::failure::Failure;
 use crate::say::short;
-use brinell_io::{Channel, RateSource, SignalFile};
-
-/// Steps between times may differ by so much from their mean, relative, before a rate is refused.
-const UNEVEN: f64 = 0.02;
+use brinell_io::{Channel, NoRate, RateSource, SignalFile, rate_of_times, seconds_in};
 
 /// A rate given and one stated may differ by so much, relative, before it is worth a word.
 const DIFFERS: f64 = 1e-4;
-
-/// What a column of times is called: `t`, `Time [s]`, `time_ms`.
-const TIMES: [&str; 5] = ["t", "time", "times", "timestamp", "zeit"];
-
-/// Whether a channel is called like a column of times.
-pub(super) fn is_time(channel: &Channel) -> bool {
-    let name = bare(channel);
-    TIMES.contains(&name.as_str()) || named_unit(&name).is_some()
-}
-
-/// A channel's name, in small letters, without a unit in brackets.
-fn bare(channel: &Channel) -> String {
-    let name = channel.name.to_lowercase();
-    name.split(['[', '('])
-        .next()
-        .unwrap_or("")
-        .trim()
-        .to_owned()
-}
-
-/// Seconds in the unit that the name of a column of times ends in.
-fn named_unit(bare: &str) -> Option<f64> {
-    let (name, unit) = bare.rsplit_once('_')?;
-    TIMES.contains(&name).then(|| seconds(unit))?
-}
-
-/// Seconds in the unit of a column of times, where it states one.
-fn unit_of(channel: &Channel) -> Option<f64> {
-    (channel.unit.as_deref().and_then(seconds)).or_else(|| named_unit(&bare(channel)))
-}
-
-/// The same of what is called like one.
-pub(super) fn time_unit(channel: &Channel) -> Option<f64> {
-    is_time(channel).then(|| unit_of(channel))?
-}
-
-fn seconds(unit: &str) -> Option<f64> {
-    Some(match unit.trim().to_lowercase().as_str() {
-        "s" | "sec" | "second" | "seconds" => 1.0,
-        "ms" | "msec" => 1e-3,
-        "us" | "µs" | "μs" | "usec" => 1e-6,
-        _ => return None,
-    })
-}
 
 /// What a column of times whose unit the file states says of the rate: hertz, or what is wrong with the times; and the column's name.
 fn by_times(file: &mut SignalFile) -> Option<(Result<f64, String>, String)> {
     let channels = file.channels().iter();
     let (name, unit) = channels
         .filter(|c| c.may_be_signal())
-        .find_map(|c| Some((c.name.clone(), time_unit(c)?)))?;
+        .find_map(|c| Some((c.name.clone(), c.time_unit()?)))?;
     let (times, _) = stretch(file, &name, 0, 1 << 16).ok()?;
     Some((even(&times, unit), name))
 }
@@ -123,7 +76,7 @@ pub(super) fn rate(
         None => file
             .channels()
             .iter()
-            .find(|c| is_time(c) && c.may_be_signal())
+            .find(|c| c.is_time() && c.may_be_signal())
             .cloned(),
     };
     let Some(time) = time else {
@@ -131,8 +84,8 @@ pub(super) fn rate(
             "the file states no sample rate; give {option} HZ"
         )));
     };
-    let unit = match (wanted.time_unit, unit_of(&time)) {
-        (Some(text), _) => seconds(text)
+    let unit = match (wanted.time_unit, time.seconds_in_unit()) {
+        (Some(text), _) => seconds_in(text)
             .ok_or_else(|| usage(format!("--time-unit {text}: expected s, ms or us")))?,
         (None, Some(unit)) => unit,
         // By brinell's own contract.
@@ -161,49 +114,15 @@ pub(super) fn rate(
     Ok(Ok((hz, place)))
 }
 
-/// The rate of evenly spaced times; `Err` says what is wrong with them.
+/// [`rate_of_times`], what is wrong in words.
 fn even(times: &[f64], unit: f64) -> Result<f64, String> {
-    let n = times.len();
-    if n < 3 {
-        return Err("it has fewer than three values".into());
-    }
-    let step = (times[n - 1] - times[0]) / (n - 1) as f64;
-    if !(step > 0.0 && step.is_finite()) {
-        return Err("its values do not increase".into());
-    }
-    // Printed times are rounded: allow for the digits that large values lose.
-    let largest = times[0].abs().max(times[n - 1].abs());
-    let allowed = (UNEVEN * step).max(4e-16 * largest);
-    let off = (times.windows(2).enumerate()).find(|(_, w)| {
-        let off = (w[1] - w[0] - step).abs();
-        off.is_nan() || off > allowed
-    });
-    let rounded = times
-        .iter()
-        .enumerate()
-        .all(|(i, t)| (t - times[0] - i as f64 * step).abs() <= 0.6 * step);
-    if off.is_some() && !rounded {
-        let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
-        let middle = steps.len() / 2;
-        let usual = *steps
-            .clone()
-            .select_nth_unstable_by(middle, f64::total_cmp)
-            .1;
-        let away = |(_, step): &(usize, &f64)| (*step - usual).abs();
-        let worst = (steps.iter().enumerate()).max_by(|a, b| away(a).total_cmp(&away(b)));
-        let (i, step) = worst.unwrap_or((0, &usual));
-        return Err(format!(
-            "its steps are uneven ({} after {} values, where {} is usual)",
-            short(*step, 5),
-            i + 1,
+    rate_of_times(times, unit).map_err(|why| match why {
+        NoRate::TooFew => "it has fewer than three values".into(),
+        NoRate::NotIncreasing => "its values do not increase".into(),
+        NoRate::Uneven { step, after, usual } => format!(
+            "its steps are uneven ({} after {after} values, where {} is usual)",
+            short(step, 5),
             short(usual, 5)
-        ));
-    }
-    let hz = 1.0 / (step * unit);
-    let round = hz.round();
-    Ok(if (hz / round - 1.0).abs() < 1e-5 {
-        round
-    } else {
-        hz
+        ),
     })
 }

@@ -1,10 +1,10 @@
 //! The bytes of one variable, plain or inflated as they are asked for.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Take};
 
 use flate2::bufread::ZlibDecoder;
 
+use crate::read::contents::Contents;
 use crate::read::fault::{Fault, damaged};
 
 /// Reads one variable from front to back.
@@ -18,8 +18,8 @@ pub(super) struct Input<'a> {
 }
 
 enum Body<'a> {
-    Plain(BufReader<&'a mut File>),
-    Inflate(Box<ZlibDecoder<BufReader<Take<&'a mut File>>>>),
+    Plain(BufReader<&'a mut Contents>),
+    Inflate(Box<ZlibDecoder<BufReader<Take<&'a mut Contents>>>>),
 }
 
 /// The head of a data element.
@@ -32,17 +32,17 @@ pub(super) struct Tag {
 }
 
 impl<'a> Input<'a> {
-    pub(super) fn plain(file: &'a mut File, bytes: u64, big_endian: bool) -> Self {
+    pub(super) fn plain(contents: &'a mut Contents, bytes: u64, big_endian: bool) -> Self {
         Self {
-            body: Body::Plain(BufReader::with_capacity(32 << 10, file)),
+            body: Body::Plain(BufReader::with_capacity(32 << 10, contents)),
             big_endian,
             at: 0,
             end: bytes,
         }
     }
 
-    pub(super) fn inflate(file: &'a mut File, bytes: u64, big_endian: bool) -> Self {
-        let stored = BufReader::with_capacity(32 << 10, file.take(bytes));
+    pub(super) fn inflate(contents: &'a mut Contents, bytes: u64, big_endian: bool) -> Self {
+        let stored = BufReader::with_capacity(32 << 10, contents.take(bytes));
         Self {
             body: Body::Inflate(Box::new(ZlibDecoder::new(stored))),
             big_endian,

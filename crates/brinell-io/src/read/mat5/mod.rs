@@ -7,10 +7,10 @@
 mod input;
 mod walk;
 
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
 use super::channel::{Channel, lend_labels, lend_rates};
+use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::numbers::Sink;
 use super::{Listing, Source};
@@ -35,29 +35,29 @@ struct Place {
 }
 
 struct Mat5 {
-    file: File,
+    contents: Contents,
     big_endian: bool,
     /// The variable of each channel, and the channel's number within it.
     places: Vec<(Place, usize)>,
 }
 
-pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
-    let length = file.metadata().map_err(Fault::Io)?.len();
+pub(super) fn list(mut contents: Contents) -> Result<Listing, Fault> {
+    let length = contents.length();
     let mut header = [0; HEADER as usize];
-    file.read_exact(&mut header)?;
+    contents.read_exact(&mut header)?;
     let big_endian = &header[126..] == b"MI";
     let mut found = Found::default();
     let mut mat = Mat5 {
-        file,
+        contents,
         big_endian,
         places: Vec::new(),
     };
     let mut at = HEADER;
     let mut variables = 0;
     while at < length {
-        mat.file.seek(SeekFrom::Start(at))?;
+        mat.contents.seek(SeekFrom::Start(at))?;
         let mut tag = [0; 8];
-        mat.file
+        mat.contents
             .read_exact(&mut tag)
             .map_err(|_| damaged(format!("it ends within the tag at byte {at}")))?;
         let number = |b: [u8; 4]| {
@@ -112,11 +112,11 @@ pub(super) fn list(mut file: File) -> Result<Listing, Fault> {
 
 impl Mat5 {
     fn walk(&mut self, place: Place, aim: Aim<'_>) -> Result<(), Fault> {
-        self.file.seek(SeekFrom::Start(place.start))?;
+        self.contents.seek(SeekFrom::Start(place.start))?;
         let mut input = if place.compressed {
-            Input::inflate(&mut self.file, place.bytes, self.big_endian)
+            Input::inflate(&mut self.contents, place.bytes, self.big_endian)
         } else {
-            Input::plain(&mut self.file, place.bytes, self.big_endian)
+            Input::plain(&mut self.contents, place.bytes, self.big_endian)
         };
         let mut bytes = place.bytes;
         if place.compressed {

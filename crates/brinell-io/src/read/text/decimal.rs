@@ -65,6 +65,7 @@ pub(super) fn short(_: &[u8], _: usize) -> Option<([f64; 2], usize)> {
 const TENS: [f64; 8] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7];
 
 /// The same of either sign.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 const SIGNED_TENS: [[f64; 8]; 2] = [TENS, [-1.0, -10.0, -100.0, -1e3, -1e4, -1e5, -1e6, -1e7]];
 
 /// The number that `text` begins with, and its length: a sign or none, one to eight digits, a point and up to seven more. `None` for all else.

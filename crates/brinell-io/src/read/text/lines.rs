@@ -1,7 +1,8 @@
 //! One column of a text file, streamed: while one block of lines is parsed, on as many threads as there are cores, the next one is read.
+//! On WebAssembly, which has no threads, one is done after the other.
 
 use std::io::{self, Read};
-use std::thread::{self, ScopedJoinHandle};
+use std::thread::{self, Scope, ScopedJoinHandle};
 
 use memchr::{memchr, memchr_iter, memchr2, memrchr};
 
@@ -32,15 +33,17 @@ pub(super) fn column(
         block: BLOCK,
         share: SHARE,
         threads: cores.min(BLOCK / SHARE),
+        single: cfg!(target_family = "wasm"),
     };
     in_blocks(reader, &Wanted::of(layout, field), sink, &cut)
 }
 
-/// How a file is cut up: bytes of a block, the fewest for a thread, and threads at most.
+/// How a file is cut up: bytes of a block, the fewest for a thread, and threads at most; whether none is started at all.
 struct Cut {
     block: usize,
     share: usize,
     threads: usize,
+    single: bool,
 }
 
 fn in_blocks(
@@ -71,10 +74,10 @@ fn in_blocks(
             let read = (!end).then(|| {
                 next.resize(cut.block.max(2 * rest.len()), 0);
                 next[..rest.len()].copy_from_slice(rest);
-                scope.spawn(|| fill(reader, &mut next, rest.len()))
+                Job::start(scope, cut, || fill(reader, &mut next, rest.len()))
             });
-            let found = wanted.parse(text, &mut line, cut.share, &mut shares);
-            (found, read.map(joined))
+            let found = wanted.parse(text, &mut line, cut, &mut shares);
+            (found, read.map(Job::result))
         });
         for (share, fault) in shares.iter_mut().zip(found) {
             values.append(share);
@@ -107,9 +110,33 @@ fn fill(reader: &mut impl Read, buffer: &mut [u8], mut filled: usize) -> Result<
     Ok(filled)
 }
 
-/// What a thread came to; its panic goes on here.
-fn joined<T>(thread: ScopedJoinHandle<T>) -> T {
-    (thread.join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+/// Work on a thread of its own, or done at once.
+enum Job<'scope, T> {
+    Thread(ScopedJoinHandle<'scope, T>),
+    Done(T),
+}
+
+impl<'scope, T: Send + 'scope> Job<'scope, T> {
+    fn start(
+        scope: &'scope Scope<'scope, '_>,
+        cut: &Cut,
+        work: impl FnOnce() -> T + Send + 'scope,
+    ) -> Self {
+        match cut.single {
+            true => Self::Done(work()),
+            false => Self::Thread(scope.spawn(work)),
+        }
+    }
+
+    /// What it came to; a thread's panic goes on here.
+    fn result(self) -> T {
+        match self {
+            Self::Thread(thread) => thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Self::Done(result) => result,
+        }
+    }
 }
 
 /// The field that is wanted of every line.
@@ -135,19 +162,19 @@ impl<'a> Wanted<'a> {
         }
     }
 
-    /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `least` bytes or more to each: a
-    /// thread has a list of its own to write to, and a result. `line` is then the number of the line after.
+    /// The values of the lines in `text`, the first of which is number `line`, shared out among threads, `cut.share` bytes or more to each:
+    /// a thread has a list of its own to write to, and a result. `line` is then the number of the line after.
     fn parse(
         &self,
         text: &[u8],
         line: &mut u64,
-        least: usize,
+        cut: &Cut,
         shares: &mut [Vec<f64>],
     ) -> Vec<Result<(), Fault>> {
-        let length = (text.len() / shares.len()).max(least);
+        let length = (text.len() / shares.len()).max(cut.share);
         let mut rest = text;
         thread::scope(|scope| {
-            let mut threads = Vec::new();
+            let mut jobs = Vec::new();
             for values in shares {
                 if rest.is_empty() {
                     break;
@@ -155,9 +182,9 @@ impl<'a> Wanted<'a> {
                 let end = memchr(b'\n', rest.get(length..).unwrap_or_default());
                 let (mine, others) = rest.split_at(end.map_or(rest.len(), |end| length + end + 1));
                 rest = others;
-                threads.push(scope.spawn(move || self.lines(mine, values)));
+                jobs.push(Job::start(scope, cut, move || self.lines(mine, values)));
             }
-            let found = threads.into_iter().map(joined);
+            let found = jobs.into_iter().map(Job::result);
             let told = found.map(|(lines, result)| {
                 let first = *line;
                 *line += lines;
@@ -406,16 +433,19 @@ mod tests {
             expected.push(value);
         }
         let cuts = [
-            (50, 10, 1),
-            (64, 1, 3),
-            (700, 100, 4),
-            (4096, 1000, 2),
-            (1 << 20, 5000, 8),
+            (50, 10, 1, false),
+            (64, 1, 3, false),
+            (700, 100, 4, false),
+            (4096, 1000, 2, false),
+            (1 << 20, 5000, 8, false),
+            (50, 10, 1, true),
+            (4096, 1000, 2, true),
         ];
-        let cuts = cuts.map(|(block, share, threads)| Cut {
+        let cuts = cuts.map(|(block, share, threads, single)| Cut {
             block,
             share,
             threads,
+            single,
         });
         for cut in &cuts {
             assert_eq!(

@@ -8,10 +8,10 @@ mod layout;
 mod lines;
 mod lvm;
 
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
 use super::channel::{Channel, Rate, RateSource};
+use super::contents::Contents;
 use super::fault::{Fault, damaged};
 use super::numbers::Sink;
 use super::{Listing, Source};
@@ -65,15 +65,15 @@ pub struct TextFormat {
 }
 
 struct Text {
-    file: File,
+    contents: Contents,
     layout: Layout,
     /// The field of each channel.
     fields: Vec<usize>,
 }
 
-pub(super) fn list(mut file: File, format: &TextFormat) -> Result<Listing, Fault> {
+pub(super) fn list(mut contents: Contents, format: &TextFormat) -> Result<Listing, Fault> {
     let mut sample = Vec::new();
-    (&mut file).take(SAMPLE).read_to_end(&mut sample)?;
+    (&mut contents).take(SAMPLE).read_to_end(&mut sample)?;
     if sample.len() as u64 == SAMPLE {
         // The last line is cut.
         match memchr::memrchr(b'\n', &sample) {
@@ -107,7 +107,7 @@ pub(super) fn list(mut file: File, format: &TextFormat) -> Result<Listing, Fault
         channels,
         metadata: Metadata::default(),
         source: Box::new(Text {
-            file,
+            contents,
             layout,
             fields,
         }),
@@ -116,7 +116,7 @@ pub(super) fn list(mut file: File, format: &TextFormat) -> Result<Listing, Fault
 
 impl Source for Text {
     fn stream(&mut self, index: usize, sink: Sink<'_>) -> Result<(), Fault> {
-        self.file.seek(SeekFrom::Start(self.layout.start))?;
-        lines::column(&mut self.file, &self.layout, self.fields[index], sink)
+        self.contents.seek(SeekFrom::Start(self.layout.start))?;
+        lines::column(&mut self.contents, &self.layout, self.fields[index], sink)
     }
 }

@@ -104,6 +104,26 @@ impl Checker<'_> {
                 "validation + test < 1",
             );
         }
+        if let Some(severity) = &split.severity {
+            let [low, high] = severity.range;
+            if severity.keys.is_empty() {
+                self.add(
+                    "split.severity",
+                    "[]",
+                    "severity_range is of no key".into(),
+                    "keys of damage that are drawn, such as [\"defects.0.depth_um\"]",
+                );
+            }
+            // Not a number where it is left out.
+            if low.is_nan() || low > high {
+                self.add(
+                    "split.severity_range",
+                    "",
+                    "which severities are for the test alone?".into(),
+                    "[least, largest], in the unit of the keys in severity",
+                );
+            }
+        }
         if self.plan.out_of_range == OutOfRange::Redraw {
             self.add(
                 "split",

@@ -19,6 +19,7 @@ impl Checker<'_> {
                 Shape::DepthMap { grid } => self.depth_map(i, defect, grid),
                 Shape::Grown { .. } => self.grown(i, defect),
                 Shape::Scan(scan) => self.scan(i, scan),
+                Shape::Image(image) => self.image(i, image),
                 _ => {}
             }
             self.depth_scale(i, defect);

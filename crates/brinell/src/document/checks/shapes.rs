@@ -3,9 +3,7 @@
 use super::{Checker, short};
 use crate::defect::{self, Fault};
 use crate::document::{Problem, Severity};
-use crate::scenario::{
-    Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, ScanFile, ScanForm, Shape,
-};
+use crate::scenario::{Defect, DepthGrid, EdgeReaction, Law, ModelKind, RollerPath, Shape};
 
 const LENGTH: &str = "bearing.roller_length_mm";
 /// Pieces that the slices of one depth map may take at a point: 400 MB; along an envelope twice as much.
@@ -19,7 +17,7 @@ fn at([s, z]: [f64; 2]) -> String {
 
 impl Checker<'_> {
     /// Path of one key of a shape.
-    fn shape_key(&self, i: usize, shape: &str, name: &str) -> String {
+    pub(super) fn shape_key(&self, i: usize, shape: &str, name: &str) -> String {
         format!("defects.{i}.shape.{shape}.{name}")
     }
 
@@ -369,19 +367,6 @@ impl Checker<'_> {
                 ),
                 format!("<= {} um", short(most)),
                 &["bearing.roller_diameter_mm"],
-            );
-        }
-    }
-
-    /// Keys that mean something only beside others.
-    pub(super) fn scan(&mut self, i: usize, scan: &ScanFile) {
-        if scan.radius_mm.is_some() && scan.remove_form != ScanForm::Cylinder {
-            let form = self.shape_key(i, "depth_map", "remove_form");
-            self.error(
-                &self.shape_key(i, "depth_map", "radius_mm"),
-                "has a meaning only where remove_form = \"cylinder\"".into(),
-                String::new(),
-                &[&form],
             );
         }
     }

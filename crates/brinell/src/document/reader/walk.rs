@@ -2,11 +2,13 @@
 
 use super::super::keys::{Fallback, Keys, Spec, Variant, key};
 use super::super::leaf::Leaf;
-use super::super::nearest::nearest;
 use super::super::problem::{Problem, Severity};
 use super::super::source::{Node, Value, brief_path, quote};
 use super::{MOST_TABLES, Reader, join};
 use crate::bearing::catalogue;
+use crate::bearing::clearance::ClearanceClass;
+use crate::bearing::clearance_of;
+use crate::nearest::nearest;
 
 impl Keys for Reader<'_> {
     fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, value: &mut T) {
@@ -112,12 +114,13 @@ impl Keys for Reader<'_> {
         };
         if let Some(entry) = catalogue::find(name) {
             self.preset = Some(entry);
+            self.named_clearance = clearance_of(name);
             value.replace(entry.name.clone());
             return;
         }
         self.preset_unknown = true;
         let names = || catalogue::all().iter().map(|entry| entry.name.as_str());
-        let hint = nearest(name, names())
+        let hint = catalogue::nearest_name(name)
             .map(|known| format!("; did you mean {}?", quote(known)))
             .unwrap_or_default();
         let path = join(&self.frame().path, spec.name);
@@ -126,6 +129,10 @@ impl Keys for Reader<'_> {
             .value(quote(name))
             .allowed(names().collect::<Vec<_>>().join(", "));
         self.problems.add(problem, span);
+    }
+
+    fn named_clearance(&self) -> Option<ClearanceClass> {
+        self.named_clearance
     }
 
     fn section(&mut self, spec: Spec, mut keys: impl FnMut(&mut Self)) {

@@ -1,0 +1,161 @@
+//! `brinell diff`: what differs between two scenarios, key by key, defaults included.
+
+use crate::args::ScenarioArgs;
+use crate::failure::Failure;
+use crate::files;
+use crate::results::SCENARIO;
+use crate::say::{document, one_line, say};
+use brinell::document::{Loaded, Origin, Provenance};
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A value that a file leaves out is shown with what holds instead: its default, or the catalogue's. The exit code is 0 whether or not they differ.\n\n\
+    Examples:\n  \
+    brinell diff bearing.toml other.toml\n  \
+    brinell diff out/first out/second"
+)]
+pub(crate) struct DiffArgs {
+    /// A scenario (TOML), or a folder with the results of a run
+    a: PathBuf,
+    /// Another
+    b: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn diff(args: &DiffArgs) -> Result<ExitCode, Failure> {
+    let [a, b] = [read(&args.a)?, read(&args.b)?];
+    let differences = differences(&a, &b);
+    if args.json {
+        let all: Vec<Value> = differences.iter().map(Difference::json).collect();
+        let json = json!({
+            "a": args.a.display().to_string(),
+            "b": args.b.display().to_string(),
+            "differences": all,
+        });
+        document(&serde_json::to_string_pretty(&json).unwrap_or_default());
+        return Ok(ExitCode::SUCCESS);
+    }
+    if differences.is_empty() {
+        say!("no difference: the same run");
+    }
+    let names = [&args.a, &args.b].map(|path| one_line(&path.display().to_string()));
+    tell(&differences, &names);
+    Ok(ExitCode::SUCCESS)
+}
+
+fn read(path: &Path) -> Result<Loaded, Failure> {
+    let scenario = match path.is_dir() {
+        true => path.join(SCENARIO),
+        false => path.to_owned(),
+    };
+    let set = Vec::new();
+    files::scenario(&ScenarioArgs { scenario, set }, true)
+}
+
+/// A key that has not the same value in both; `None` where one has no such key.
+struct Difference<'a> {
+    key: &'a str,
+    unit: &'static str,
+    sides: [Option<&'a Provenance>; 2],
+}
+
+fn differences<'a>(a: &'a Loaded, b: &'a Loaded) -> Vec<Difference<'a>> {
+    let of = |loaded: &'a Loaded, key: &str| loaded.provenance.iter().find(|p| p.key == key);
+    let own = a.provenance.iter().map(|p| Difference {
+        key: &p.key,
+        unit: p.unit,
+        sides: [Some(p), of(b, &p.key)],
+    });
+    let others = b.provenance.iter().filter(|p| of(a, &p.key).is_none());
+    let others = others.map(|p| Difference {
+        key: &p.key,
+        unit: p.unit,
+        sides: [None, Some(p)],
+    });
+    let value = |side: Option<&'a Provenance>| side.map(|p| p.value.as_str());
+    let all = own.chain(others);
+    all.filter(|d| value(d.sides[0]) != value(d.sides[1]))
+        .collect()
+}
+
+impl Difference<'_> {
+    fn json(&self) -> Value {
+        let side = |p: Option<&Provenance>| {
+            p.map(|p| {
+                // Most of TOML's values are JSON's.
+                let value = serde_json::from_str(&p.value);
+                json!({
+                    "value": value.unwrap_or_else(|_| Value::String(p.value.clone())),
+                    "origin": origin(p).0,
+                    "reason": p.reason(),
+                })
+            })
+        };
+        json!({ "key": self.key, "unit": self.unit, "a": side(self.sides[0]), "b": side(self.sides[1]) })
+    }
+}
+
+/// Who gave a value, in JSON's word and behind the value of a table.
+fn origin(p: &Provenance) -> (&'static str, &'static str) {
+    match &p.origin {
+        Origin::File | Origin::Override => ("file", ""),
+        Origin::Preset { .. } => ("catalogue", " (catalogue)"),
+        Origin::DamageFile(_) => ("damage file", " (from its file)"),
+        Origin::Derived(_) => ("derived", " (derived)"),
+        Origin::Default(_) => ("default", " (default)"),
+        Origin::Recorded(_) => ("recorded", " (assumed)"),
+    }
+}
+
+/// A table: key, a's value, b's, unit.
+fn tell(differences: &[Difference], names: &[String; 2]) {
+    let cell = |side: Option<&Provenance>, other: Option<&Provenance>| match side {
+        None => "-".to_owned(),
+        Some(p) => shown(&p.value, other.map(|p| p.value.as_str())) + origin(p).1,
+    };
+    let [a, b] = names.clone();
+    let mut rows = vec![["key".to_owned(), a, b, "unit".to_owned()]];
+    rows.extend(differences.iter().map(|d| {
+        let [a, b] = d.sides;
+        [d.key.to_owned(), cell(a, b), cell(b, a), d.unit.to_owned()]
+    }));
+    if rows.len() == 1 {
+        return;
+    }
+    let width = |column: usize| {
+        let widths = rows.iter().map(|row| row[column].chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let widths = [0, 1, 2].map(width);
+    for row in &rows {
+        let [key, a, b, unit] = row;
+        let [w0, w1, w2] = widths;
+        let line = format!("{key:w0$}  {a:w1$}  {b:w2$}  {unit}");
+        say!("{}", line.trim_end());
+    }
+}
+
+/// A value on one short line: to 12 digits where that still tells it from the other's.
+fn shown(value: &str, other: Option<&str>) -> String {
+    const LONGEST: usize = 40;
+    let rounded = |text: &str| match text.parse::<f64>() {
+        Ok(x) if x.is_finite() => crate::say::plain_number(x),
+        _ => text.to_owned(),
+    };
+    let short = rounded(value);
+    let short = match other.map(rounded) {
+        Some(other) if other == short => value.to_owned(),
+        _ => short,
+    };
+    let short = one_line(&short);
+    match short.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &short[..end]),
+        None => short,
+    }
+}

@@ -1,0 +1,352 @@
+//! `brinell init`: a scenario to start from, small or with every key, and the files that it names.
+
+use crate::failure::Failure;
+use crate::say::{document, say};
+use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
+use brinell::bearing::{KnownBearing, clearance_of};
+use brinell::document::toml_quote;
+use brinell_io::atomic_write;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What an editor explains the keys with; the first line of each scenario names it.
+const SCHEMA: &str = "brinell-schema.json";
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    brinell init bearing.toml                                  a spall on the outer raceway of the paper's NN3007\n  \
+    brinell init bearing.toml --bearing NU206 --template inner-spall\n  \
+    brinell init bearing.toml --full                           every key, with its meaning and range\n\n\
+    Beside FILE it writes brinell-schema.json, with which editors that know #:schema (Even Better TOML, Taplo) complete and explain keys, and \
+    what the template names: a photo, a scan, or the scenario of a data set's plan.")]
+pub(crate) struct InitArgs {
+    /// File to write; standard output where left out
+    file: Option<PathBuf>,
+    /// What to start from
+    #[arg(long, value_name = "TEMPLATE", default_value = "outer-spall")]
+    template: Template,
+    /// The bearing, by name; load and damage are fitted to it [default: NN3007, of the template ball 6205]
+    #[arg(long, value_name = "NAME")]
+    bearing: Option<String>,
+    /// Write every key with its meaning, the ones left out as comments
+    #[arg(long)]
+    full: bool,
+    /// Overwrite existing files
+    #[arg(long)]
+    force: bool,
+}
+
+/// What a new scenario is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Template {
+    /// A spall on the outer raceway
+    OuterSpall,
+    /// A spall on the inner raceway
+    InnerSpall,
+    /// A spall as a photo shows it
+    Photo,
+    /// A spall as a profilometer measured it
+    Scan,
+    /// A speed that rises from standstill
+    RunUp,
+    /// A sensor on a housing, to be held against a recording
+    Measured,
+    /// The plan of a data set, with its scenario
+    DataSet,
+    /// A deep groove ball bearing
+    Ball,
+}
+
+impl Template {
+    fn text(self) -> &'static str {
+        match self {
+            Self::OuterSpall => include_str!("outer-spall.toml"),
+            Self::InnerSpall => include_str!("inner-spall.toml"),
+            Self::Photo => include_str!("photo.toml"),
+            Self::Scan => include_str!("scan.toml"),
+            Self::RunUp => include_str!("run-up.toml"),
+            Self::Measured => include_str!("measured.toml"),
+            Self::DataSet => include_str!("data-set.toml"),
+            Self::Ball => include_str!("ball.toml"),
+        }
+    }
+
+    fn word(self) -> String {
+        let word = self.to_possible_value();
+        word.map_or(String::new(), |word| word.get_name().to_owned())
+    }
+
+    /// Example files that the scenario names.
+    fn examples(self) -> &'static [&'static str] {
+        match self {
+            Self::Photo => &["photo-spall.png"],
+            Self::Scan => &["scan.csv"],
+            _ => &[],
+        }
+    }
+}
+
+pub(crate) fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
+    let template = args.template;
+    let bearing = bearing(args)?;
+    let names = Names::of(args);
+    let mut text = filled(template.text(), &names, &bearing);
+    if args.full {
+        text = full(template, &text)?;
+    }
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+    let Some(file) = &args.file else {
+        if template == Template::DataSet || !template.examples().is_empty() {
+            return Err(Failure::Usage(format!(
+                "--template {} writes files beside the scenario: give the scenario's name, for instance {0}.toml",
+                template.word()
+            )));
+        }
+        document(text.trim_end());
+        return Ok(ExitCode::SUCCESS);
+    };
+    let beside = |name: &str| file.with_file_name(name);
+    let schema = serde_json::to_string_pretty(&brinell::document::json_schema());
+    files.push((beside(SCHEMA), (schema.unwrap_or_default() + "\n").into()));
+    for name in template.examples() {
+        let bytes = brinell_studio::example_file(name).expect("templates name the studio's files");
+        files.push((beside(name), bytes.to_vec()));
+    }
+    if template == Template::DataSet {
+        let base = filled(include_str!("base.toml"), &names, &bearing);
+        files.push((beside(&names.base), base.into()));
+    }
+    // Last what names the others.
+    files.push((file.clone(), text.into()));
+    write(&files, args.force)?;
+    let next = match template {
+        Template::DataSet => "brinell dataset",
+        _ => "brinell run",
+    };
+    for (beside, _) in &files[1..files.len() - 1] {
+        say!("wrote {}", beside.display());
+    }
+    say!("wrote {0}; edit it, then: {next} {0}", file.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the files, all of them or none: one that is there with other content is spared unless `force`. The schema, which nobody edits, is made anew.
+fn write(files: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
+    for (path, bytes) in files {
+        let schema = path.ends_with(SCHEMA) && is_schema(path);
+        let same = || std::fs::read(path).is_ok_and(|there| there == *bytes);
+        let scenario = path == &files[files.len() - 1].0;
+        if path.exists() && !force && !schema && (scenario || !same()) {
+            return Err(Failure::Usage(format!(
+                "{} exists; --force overwrites it",
+                path.display()
+            )));
+        }
+    }
+    for (path, bytes) in files {
+        atomic_write(path, bytes)?;
+    }
+    Ok(())
+}
+
+/// Whether a file is an earlier schema of brinell's.
+fn is_schema(path: &Path) -> bool {
+    let text = std::fs::read(path).unwrap_or_default();
+    let json = serde_json::from_slice::<serde_json::Value>(&text).unwrap_or_default();
+    json["title"] == "brinell scenario"
+}
+
+/// The template with every key in it.
+fn full(template: Template, text: &str) -> Result<String, Failure> {
+    if template == Template::DataSet {
+        return Err(Failure::Usage(
+            "--full is about scenarios; --template data-set writes a plan".into(),
+        ));
+    }
+    let head = text.lines().next().unwrap_or_default();
+    let explained = brinell::document::explained(text).map_err(|problems| Failure::Scenario {
+        name: "the template".into(),
+        text: text.to_owned(),
+        problems,
+    })?;
+    Ok(format!("{head}\n{explained}"))
+}
+
+/// The bearing of a template, and what is fitted to it.
+struct Fitted {
+    preset: String,
+    /// Load, N.
+    load: f64,
+    /// Size of a spall in the rolling direction and along the axis, mm.
+    spall: [f64; 2],
+    /// Diameter of a pit, mm.
+    pit: f64,
+    /// Size of the example photo and scan over that on the paper's bearing.
+    scale: f64,
+}
+
+/// The paper's bearing, load and spall.
+const PAPER: (&str, f64, [f64; 2]) = ("NN3007", 300.0, [3.0, 4.0]);
+/// Load of a bearing that is asked for over its static rating.
+const LOAD_OVER_RATING: f64 = 0.02;
+/// Size of a spall on it over the rolling element's diameter, and over the roller's length.
+const SPALL: [f64; 2] = [0.3, 0.5];
+/// Diameter of a pit over the ball's.
+const PIT: f64 = 0.1;
+/// Length of the paper's rollers, mm, that the example photo was made for.
+const PAPER_LENGTH: f64 = 6.0;
+
+fn bearing(args: &InitArgs) -> Result<Fitted, Failure> {
+    let usual = match args.template {
+        Template::Ball => "6205",
+        _ => PAPER.0,
+    };
+    let name = args.bearing.as_deref().unwrap_or(usual);
+    let unknown = || Failure::Usage(format!("--bearing {name}: {}", KnownBearing::unknown(name)));
+    let entry = match (catalogue::find(name), KnownBearing::find(name)) {
+        (Some(entry), _) => entry,
+        (None, Some(_)) => {
+            return Err(Failure::Usage(format!(
+                "--bearing {name}: of this bearing of a data set only the defect frequencies are known; `brinell bearing list` names those of the catalogue"
+            )));
+        }
+        (None, None) => return Err(unknown()),
+    };
+    if args.template == Template::Ball && !entry.has_balls() {
+        return Err(Failure::Usage(format!(
+            "--bearing {name}: rollers are in it; the template ball takes a ball bearing, such as 6205"
+        )));
+    }
+    // The class of clearance is part of the name.
+    let preset = match clearance_of(name) {
+        Some(class) => format!("{}/{}", entry.name, class.name()),
+        None => entry.name.clone(),
+    };
+    Ok(fitted(entry, preset))
+}
+
+fn fitted(entry: &Entry, preset: String) -> Fitted {
+    let number = |key| entry.number(key).unwrap_or(PAPER_LENGTH);
+    let diameter = number("roller_diameter_mm");
+    let width = match entry.has_balls() {
+        true => SPALL[0] * diameter,
+        false => SPALL[1] * number("roller_length_mm"),
+    };
+    let load = entry.fact(STATIC_RATING).map(|c0| LOAD_OVER_RATING * c0);
+    let mut of = Fitted {
+        preset,
+        load: one_digit(load.unwrap_or(100.0)),
+        spall: [tenth(SPALL[0] * diameter), tenth(width)],
+        pit: tenth(PIT * diameter),
+        scale: match entry.has_balls() {
+            true => tenth(0.8 * diameter / PAPER_LENGTH).min(1.0),
+            false => 1.0,
+        },
+    };
+    if entry.name == PAPER.0 {
+        (of.load, of.spall) = (PAPER.1, PAPER.2);
+    }
+    of
+}
+
+fn tenth(x: f64) -> f64 {
+    (10.0 * x).round() / 10.0
+}
+
+fn one_digit(x: f64) -> f64 {
+    let power = 10_f64.powi(x.log10().floor() as i32);
+    (x / power).round() * power
+}
+
+/// Names within the files.
+struct Names {
+    name: String,
+    plan: String,
+    base: String,
+}
+
+impl Names {
+    fn of(args: &InitArgs) -> Self {
+        let word = args.template.word();
+        let stem = args.file.as_deref().and_then(Path::file_stem);
+        let stem = stem.map_or_else(|| word.clone(), |s| s.to_string_lossy().into_owned());
+        Self {
+            plan: format!("{stem}.toml"),
+            base: format!("{stem}-base.toml"),
+            name: match args.file {
+                Some(_) => stem,
+                None => word,
+            },
+        }
+    }
+}
+
+/// A template with its places filled.
+fn filled(text: &str, names: &Names, of: &Fitted) -> String {
+    /// r/min.
+    const SPEED: f64 = 1800.0;
+    // Within quotes of the template.
+    let inside = |text: &str| {
+        let quoted = toml_quote(text);
+        quoted[1..quoted.len() - 1].to_owned()
+    };
+    let number = |x: f64| format!("{x:?}");
+    let places = [
+        ("{name}", inside(&names.name)),
+        ("{plan}", names.plan.replace('\n', " ")),
+        ("{base}", inside(&names.base)),
+        ("{preset}", of.preset.clone()),
+        ("{speed}", number(SPEED)),
+        ("{slow}", number(0.5 * SPEED)),
+        ("{load}", number(of.load)),
+        ("{light}", number(0.5 * of.load)),
+        ("{length}", number(of.spall[0])),
+        ("{width}", number(of.spall[1])),
+        ("{small}", number(tenth(0.25 * of.spall[0]).max(0.1))),
+        ("{pit}", number(of.pit)),
+        (
+            "{scale}",
+            number((1000.0 * 0.02 * of.scale).round() / 1000.0),
+        ),
+        (
+            "{step}",
+            number((1000.0 * 0.06 * of.scale).round() / 1000.0),
+        ),
+    ];
+    let mut text = text.to_owned();
+    for (place, value) in places {
+        text = text.replace(place, &value);
+    }
+    aligned(&text)
+}
+
+/// Comments that stand behind keys, in one column for each block of lines.
+fn aligned(text: &str) -> String {
+    /// Keys that are longer keep their comment right behind them.
+    const WIDEST: usize = 48;
+    let parted: Vec<(&str, Option<&str>)> = text
+        .lines()
+        .map(|line| match line.split_once("  # ") {
+            Some((code, comment)) if !line.starts_with('#') => (code, Some(comment)),
+            _ => (line, None),
+        })
+        .collect();
+    let mut out = String::new();
+    for block in parted.split_inclusive(|(code, _)| code.is_empty()) {
+        let widths = block.iter().filter(|(_, comment)| comment.is_some());
+        let widths = widths.map(|(code, _)| code.chars().count());
+        let column = widths.filter(|w| *w <= WIDEST).max().unwrap_or(0);
+        for (code, comment) in block {
+            out.push_str(code);
+            if let Some(comment) = comment {
+                let gap = column.saturating_sub(code.chars().count()) + 2;
+                out.push_str(&" ".repeat(gap));
+                out.push_str("# ");
+                out.push_str(comment);
+            }
+            out.push('\n');
+        }
+    }
+    out
+}

@@ -1,0 +1,68 @@
+//! `brinell open`, and `run --open`: a page of results in the browser.
+
+use crate::failure::Failure;
+use crate::results::pages;
+use crate::say::say;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// How long the system's opener may take to say that it cannot. One that still runs has the page.
+const PATIENCE: Duration = Duration::from_millis(1500);
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    brinell open out/rectangle              its report.html\n  \
+    brinell open out/sweep/sweep.html")]
+pub(crate) struct OpenArgs {
+    /// A folder of results, or a page
+    #[arg(value_name = "FOLDER_OR_PAGE")]
+    place: PathBuf,
+}
+
+pub(crate) fn open(args: &OpenArgs) -> Result<ExitCode, Failure> {
+    let page = page_of(&args.place)?;
+    show(&page).map_err(Failure::NotOpened)?;
+    say!("opened {}", page.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The page itself, or that of a folder of results.
+fn page_of(place: &Path) -> Result<PathBuf, Failure> {
+    let there = place.metadata();
+    let there = there.map_err(|error| Failure::Read(place.to_owned(), error))?;
+    if there.is_dir() {
+        let page = pages().map(|name| place.join(name)).find(|p| p.is_file());
+        return page.ok_or_else(|| {
+            let names: Vec<&str> = pages().collect();
+            Failure::Usage(format!(
+                "{} holds no page of results: none of {}",
+                place.display(),
+                names.join(", ")
+            ))
+        });
+    }
+    let ending = place.extension().unwrap_or_default();
+    if ending != "html" && ending != "htm" {
+        return Err(Failure::Usage(format!(
+            "{} is no page: expected a folder of results or an .html file",
+            place.display()
+        )));
+    }
+    Ok(place.to_owned())
+}
+
+/// Hands a page to the system's opener.
+///
+/// # Errors
+/// In words, where there is none or it refuses.
+pub(crate) fn show(page: &Path) -> Result<(), String> {
+    let whole = page.canonicalize().unwrap_or_else(|_| page.to_owned());
+    open::that_detached_with_timeout(&whole, PATIENCE).map_err(|error| {
+        format!(
+            "nothing on this system opened the page ({error}); open it in a browser: {}",
+            whole.display()
+        )
+    })
+}

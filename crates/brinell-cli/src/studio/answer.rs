@@ -1,0 +1,119 @@
+//! Who may ask the studio's server for what.
+
+const FORBIDDEN: &str = "403 Forbidden";
+
+/// Where the page is served, and the token that its address carries.
+#[derive(Debug)]
+pub(super) struct Door {
+    port: u16,
+    token: String,
+}
+
+/// What a request comes to.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Asked<'a> {
+    /// A file of the page; none of them is a secret.
+    Page(&'a str),
+    /// A message for the engine.
+    Engine,
+    /// Neither: status and words.
+    Refused(&'static str, &'static str),
+}
+
+impl Door {
+    pub(super) fn new(port: u16, token: String) -> Self {
+        Self { port, token }
+    }
+
+    /// What a browser opens.
+    pub(super) fn address(&self) -> String {
+        format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
+    }
+
+    /// The host must be this machine by name or number, so that no page can reach it by a name of its own (DNS rebinding); where a
+    /// browser says which page asks, it must be this one; and the engine answers those alone who have the token.
+    pub(super) fn asked<'a>(
+        &self,
+        method: &str,
+        url: &'a str,
+        host: Option<&str>,
+        origin: Option<&str>,
+    ) -> Asked<'a> {
+        let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
+        if !host.is_some_and(|host| own.iter().any(|own| own == host)) {
+            return Asked::Refused(FORBIDDEN, "this server answers to 127.0.0.1 alone");
+        }
+        let from_here = |origin: &str| own.iter().any(|own| format!("http://{own}") == origin);
+        if !origin.is_none_or(from_here) {
+            return Asked::Refused(FORBIDDEN, "another page asks");
+        }
+        let (path, query) = url.split_once('?').unwrap_or((url, ""));
+        let mut pairs = query.split('&');
+        let token = pairs.find_map(|pair| pair.strip_prefix("token="));
+        match (method, path) {
+            ("GET", "/") => Asked::Page("index.html"),
+            ("GET", path) => Asked::Page(path.trim_start_matches('/')),
+            ("POST", "/ask") if token.is_some_and(|t| same(t, &self.token)) => Asked::Engine,
+            ("POST", "/ask") => Asked::Refused(FORBIDDEN, "the address lacks its token"),
+            _ => Asked::Refused(
+                "405 Method Not Allowed",
+                "only GET of the page and POST of /ask",
+            ),
+        }
+    }
+}
+
+/// In a time that tells nothing of where they differ.
+fn same(a: &str, b: &str) -> bool {
+    let differ = a.bytes().zip(b.bytes()).fold(0, |d, (x, y)| d | (x ^ y));
+    a.len() == b.len() && differ == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_only_this_machines_page_with_the_token_reaches_the_engine() {
+        let door = Door::new(4000, "5ec3e7".into());
+        let here = Some("127.0.0.1:4000");
+        let ask = |url, host, origin| door.asked("POST", url, host, origin);
+        let good = "/ask?token=5ec3e7";
+        assert_eq!(ask(good, here, None), Asked::Engine);
+        assert_eq!(
+            ask(good, Some("localhost:4000"), Some("http://localhost:4000")),
+            Asked::Engine
+        );
+        for (url, host, origin) in [
+            ("/ask", here, None),
+            ("/ask?token=", here, None),
+            ("/ask?token=5ec3e", here, None),
+            ("/ask?token=5ec3e8", here, None),
+            ("/ask?token=5ec3e77", here, None),
+            (good, None, None),
+            (good, Some("127.0.0.1"), None),
+            (good, Some("evil.example:4000"), None),
+            (good, Some("127.0.0.1:4001"), None),
+            (good, here, Some("http://evil.example")),
+            (good, here, Some("https://127.0.0.1:4000")),
+            (good, here, Some("null")),
+        ] {
+            assert!(
+                matches!(ask(url, host, origin), Asked::Refused(FORBIDDEN, _)),
+                "{url}"
+            );
+        }
+        assert_eq!(
+            door.asked("GET", "/?token=x", here, None),
+            Asked::Page("index.html")
+        );
+        assert_eq!(
+            door.asked("GET", "/src/main.js", here, None),
+            Asked::Page("src/main.js")
+        );
+        assert!(matches!(
+            door.asked("PUT", good, here, None),
+            Asked::Refused("405 Method Not Allowed", _)
+        ));
+    }
+}

@@ -1,0 +1,119 @@
+//! `brinell studio`: the studio's page on this machine, with the native engine behind it.
+
+mod answer;
+mod http;
+
+use crate::failure::Failure;
+use answer::{Asked, Door};
+use brinell_studio::{PAGE, SharedStudio};
+use clap::Args;
+use http::{Reply, Request};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+#[derive(Debug, Args)]
+pub(crate) struct StudioArgs {
+    /// Port on 127.0.0.1 [default: one that is free]
+    #[arg(long, value_name = "PORT")]
+    port: Option<u16>,
+}
+
+/// After a connection that the system could not give.
+const PAUSE: Duration = Duration::from_millis(50);
+/// Connections at a time: a browser opens six. More are closed.
+const MOST: usize = 32;
+
+/// What every connection shares.
+struct Shared {
+    door: Door,
+    engine: SharedStudio,
+    connections: AtomicUsize,
+}
+
+/// A connection under way.
+struct Counted(Arc<Shared>);
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.0.connections.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Serves until the process ends.
+pub(crate) fn studio(args: &StudioArgs) -> Result<ExitCode, Failure> {
+    let port = args.port.unwrap_or(0);
+    let no_port = |e: std::io::Error| {
+        Failure::Usage(format!(
+            "--port {port}: 127.0.0.1 cannot be listened on: {e}"
+        ))
+    };
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
+    let port = listener.local_addr().map_err(no_port)?.port();
+    let shared = Arc::new(Shared {
+        door: Door::new(port, token()?),
+        engine: SharedStudio::default(),
+        connections: AtomicUsize::new(0),
+    });
+    crate::say::line(format_args!(
+        "The studio is at {} until Ctrl-C. Only this machine can reach it.",
+        shared.door.address()
+    ));
+    loop {
+        let accepted = listener.accept();
+        let busy = shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST;
+        let counted = Counted(Arc::clone(&shared));
+        match accepted {
+            // A page that went away is no failure, and one that finds no thread asks again.
+            Ok((stream, _)) if !busy => {
+                let serving = move || drop(serve(&counted.0, stream));
+                drop(thread::Builder::new().spawn(serving));
+            }
+            // Dropped: whoever holds so many open is no page.
+            Ok(_) => {}
+            // No file is left for a connection, for one.
+            Err(_) => thread::sleep(PAUSE),
+        }
+    }
+}
+
+/// 128 bits that nobody guesses.
+fn token() -> Result<String, Failure> {
+    let mut bytes = [0_u8; 16];
+    getrandom::fill(&mut bytes)
+        .map_err(|e| Failure::Usage(format!("no random numbers for the address: {e}")))?;
+    Ok(bytes.iter().map(|b| format!("{b:02x}")).collect())
+}
+
+/// One connection: one request and its reply.
+fn serve(shared: &Shared, stream: TcpStream) -> std::io::Result<()> {
+    let mut request = match Request::read(stream)? {
+        Ok(request) => request,
+        Err(reply) => return reply.send(),
+    };
+    let host = request.host.take();
+    let origin = request.origin.take();
+    let (method, url) = (request.method.clone(), request.url.clone());
+    let asked = shared
+        .door
+        .asked(&method, &url, host.as_deref(), origin.as_deref());
+    let reply = match asked {
+        Asked::Page(name) => match PAGE.iter().find(|(n, ..)| *n == name) {
+            Some((_, kind, bytes)) => Reply::of(request.stream, kind, bytes.to_vec()),
+            None => Reply::refusal(request.stream, "404 Not Found", "there is no such file"),
+        },
+        Asked::Engine => {
+            let (stream, body) = match request.body()? {
+                Ok(body) => body,
+                Err(reply) => return reply.send(),
+            };
+            let answer = shared.engine.ask(&body);
+            Reply::of(stream, "application/octet-stream", answer)
+        }
+        Asked::Refused(status, words) => Reply::refusal(request.stream, status, words),
+    };
+    reply.send()
+}

@@ -1,0 +1,174 @@
+//! Names of bearings, quantities with units and JSON, over the commands that take them.
+
+use crate::common::{SHORT, brinell, json, with_blocks};
+use serde_json::Value;
+use std::fs;
+use tempfile::tempdir;
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).expect("it is JSON")
+}
+
+#[test]
+fn prop_every_command_finds_bearings_however_they_are_written() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    for (name, found) in [
+        ("NU 206 ECP", "NU206"),
+        ("nu206", "NU206"),
+        ("SKF NU-206 ECP", "NU206"),
+        ("6205 2RSH/C3", "6205"),
+        ("62052RS", "6205"),
+    ] {
+        let shown = brinell(here, &["bearing", "show", name]).exits(0).out;
+        // The drive end of the Case Western rig has an entry of its own.
+        let data_set = name == "62052RS" && shown.starts_with("6205-2RS: ");
+        assert!(
+            shown.starts_with(&format!("{found}: ")) || data_set,
+            "{shown}"
+        );
+        brinell(here, &["frequencies", name])
+            .exits(0)
+            .says(&["BPFO"]);
+        fs::write(
+            here.join("s.toml"),
+            SHORT.replace("NU206", name).replace(
+                "length_mm = 2.0, width_mm = 4.0",
+                "length_mm = 1.0, width_mm = 1.0",
+            ),
+        )
+        .unwrap();
+        brinell(here, &["check", "s.toml"])
+            .exits(0)
+            .says(&[&format!("{found}: 1 row(s)")]);
+        brinell(here, &["init", "--bearing", name])
+            .exits(0)
+            .says(&[found]);
+    }
+    for args in [
+        &["bearing", "show", "NU2O6"][..],
+        &["frequencies", "NU2O6"],
+        &["init", "--bearing", "NU2O6"],
+        &["check", "s.toml", "--set", "bearing.preset=NU260"],
+    ] {
+        let call = brinell(here, args).exits(2);
+        assert!(
+            call.err.contains("did you mean") && call.err.contains("NU206"),
+            "{call:?}"
+        );
+    }
+}
+
+#[test]
+fn lit_the_class_of_clearance_in_a_name_is_used() {
+    // ISO 5753-1, deep groove, bore over 24 to 30 mm: C3 is 13 to 28 um on the diameter.
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    let text = SHORT
+        .replace("NU206", "6205-2RSH/C3")
+        .replace("width_mm = 4.0", "width_mm = 2.0");
+    fs::write(here.join("s.toml"), &text).unwrap();
+    brinell(here, &["check", "s.toml", "-a"]).exits(0).says(&[
+        "10.25 um on one side, 20.5 um on the diameter",
+        "bearing.radial_clearance_um = 10.25 um  (derived: the class of clearance in the bearing's name",
+    ]);
+    // What the file says outranks the name.
+    let own = text.replace("[operation]", "radial_clearance_um = 3.0\n[operation]");
+    fs::write(here.join("s.toml"), own).unwrap();
+    brinell(here, &["check", "s.toml"])
+        .exits(0)
+        .says(&["3 um on one side"]);
+}
+
+#[test]
+fn prop_quantities_with_units_are_the_numbers() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("s.toml"), SHORT).unwrap();
+    let units = SHORT
+        .replace("1500.0", "\"25 Hz\"")
+        .replace("[300.0, 0.0]", "[\"0.3 kN\", 0]")
+        .replace("depth_um = 20.0", "depth_um = \"0.02 mm\"");
+    fs::write(here.join("u.toml"), units).unwrap();
+    let check = |args: &[&str]| brinell(here, &[&["check"], args].concat()).exits(0).out;
+    let plain = check(&["s.toml"]);
+    assert_eq!(check(&["u.toml"]), plain);
+    let set = [
+        "s.toml",
+        "--set",
+        "operation.speed_rpm=25 Hz",
+        "--set",
+        "operation.load_n=[\"300 N\", \"0 N\"]",
+    ];
+    assert_eq!(check(&set), plain);
+    brinell(
+        here,
+        &["check", "s.toml", "--set", "operation.speed_rpm=2 kN"],
+    )
+    .exits(2)
+    .complains(&[
+        "operation.speed_rpm",
+        "does not convert to r/min",
+        "rpm, Hz",
+    ]);
+}
+
+#[test]
+fn prop_json_is_what_the_files_hold() {
+    let folder = with_blocks("s.toml");
+    let here = folder.path();
+    let run = ["run", "s.toml", "-o", "o", "--no-report", "--json"];
+    let told = parsed(&brinell(here, &run).exits(0).keeps_quiet().out);
+    assert_eq!(told, json(&here.join("o/summary.json")));
+    fs::copy(here.join("s.toml"), here.join("t.toml")).unwrap();
+    let variant = "deep:defects.0.depth_um=40";
+    let compare = [
+        "compare",
+        "s.toml",
+        "--variant",
+        variant,
+        "-o",
+        "c",
+        "--json",
+    ];
+    let told = parsed(&brinell(here, &compare).exits(0).keeps_quiet().out);
+    assert_eq!(told, json(&here.join("c/compare.json")));
+    let both = ["run", "s.toml", "t.toml", "--json"];
+    brinell(here, &both)
+        .exits(2)
+        .complains(&["of one scenario; here are 2"]);
+}
+
+#[test]
+fn prop_bearings_as_json_have_every_number_with_its_source() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    let list = parsed(&brinell(here, &["bearing", "list", "--json"]).exits(0).out);
+    let list = list.as_array().unwrap();
+    let catalogued = list.iter().filter(|b| b["kind"] == "catalogue").count();
+    assert!(catalogued >= 40, "{catalogued}");
+    let rated = |b: &&Value| {
+        b["dynamic_load_rating_n"].is_number() && b["static_load_rating_n"].is_number()
+    };
+    assert!(list.iter().filter(rated).count() >= 40);
+    let shown = parsed(
+        &brinell(here, &["bearing", "show", "N 206", "--json"])
+            .exits(0)
+            .out,
+    );
+    // SKF General catalogue: N 206 ECP has E = 55.5 mm, C = 44 kN, C0 = 36.5 kN.
+    let outer = &shown["numbers"]["bearing.outer_raceway_diameter_mm"];
+    assert_eq!(
+        (&outer["value"], &outer["estimated"]),
+        (&55.5.into(), &false.into())
+    );
+    assert!(outer["source"].as_str().unwrap().contains("E of N 206 ECP"));
+    assert_eq!(shown["dynamic_load_rating_n"], 44000.0);
+    assert_eq!(shown["static_load_rating_n"], 36500.0);
+    assert_eq!(
+        shown["diametral_clearance_um"]["C3"],
+        serde_json::json!([35.0, 60.0])
+    );
+    let counted = &shown["numbers"]["bearing.rollers_per_row"];
+    assert_eq!(counted["estimated"], true, "{counted}");
+}

@@ -1,0 +1,172 @@
+//! What joins the command to a system: `completions`, `man`, `--version`, `open`.
+
+use crate::common::{SHORT, brinell, command, files};
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+/// The subcommands that `--help` lists.
+fn subcommands() -> Vec<String> {
+    let help = brinell(Path::new("."), &["--help"]).exits(0).out;
+    let (_, list) = help.split_once("Commands:\n").unwrap();
+    let (list, _) = list.split_once("\n\n").unwrap();
+    let names = list.lines().filter(|line| !line.starts_with("   "));
+    let names: Vec<String> = names
+        .filter_map(|line| Some(line.split_whitespace().next()?.to_owned()))
+        .filter(|name| name != "help")
+        .collect();
+    assert!(names.len() > 10, "{names:?}");
+    names
+}
+
+#[test]
+fn prop_completions_know_every_command_in_every_shell() {
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let script = brinell(Path::new("."), &["completions", shell])
+            .exits(0)
+            .keeps_quiet()
+            .out;
+        for name in subcommands() {
+            assert!(script.contains(&name), "{shell}: no {name}");
+        }
+        assert!(script.contains("line-loads"), "{shell}: no options");
+    }
+    brinell(Path::new("."), &["completions", "tcsh"])
+        .exits(2)
+        .complains(&["tcsh", "bash", "powershell"]);
+}
+
+#[test]
+fn prop_every_command_has_a_manual_page() {
+    let folder = tempdir().unwrap();
+    brinell(folder.path(), &["man", "man1"])
+        .exits(0)
+        .keeps_quiet()
+        .says(&["pages into man1"]);
+    let pages = files(&folder.path().join("man1"));
+    for name in subcommands() {
+        assert!(pages.contains(&format!("brinell-{name}.1")), "{pages:?}");
+    }
+    for name in [
+        "brinell.1",
+        "brinell-bearing-show.1",
+        "brinell-defect-preview.1",
+    ] {
+        assert!(
+            pages.iter().any(|page| page == name),
+            "no {name} in {pages:?}"
+        );
+    }
+    let run = fs::read_to_string(folder.path().join("man1/brinell-run.1")).unwrap();
+    assert!(
+        run.contains(".TH brinell-run 1") && run.contains("overwrite"),
+        "{run}"
+    );
+    // Where no folder can be.
+    fs::write(folder.path().join("file"), "").unwrap();
+    brinell(folder.path(), &["man", "file"])
+        .exits(2)
+        .complains(&["file"]);
+}
+
+#[test]
+fn regress_version_tells_the_commit_and_the_kernel() {
+    let told = command(Path::new("."), &["--version"])
+        .env("BRINELL_KERNEL", "portable")
+        .output()
+        .unwrap();
+    let told = String::from_utf8(told.stdout).unwrap();
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!(lines[0], concat!("brinell ", env!("CARGO_PKG_VERSION")));
+    let commit = lines[1].strip_prefix("commit ").unwrap();
+    let digits = commit.len() == 12 && commit.chars().all(|c| c.is_ascii_hexdigit());
+    assert!(commit == "unknown" || digits, "{told}");
+    assert_eq!(lines[2], "kernel portable");
+    let short = brinell(Path::new("."), &["-V"]).exits(0).out;
+    assert_eq!(short.trim_end(), lines[0]);
+}
+
+/// An opener that notes what it is given, in a folder that is all of PATH.
+#[cfg(target_os = "linux")]
+fn opener(folder: &Path) -> std::path::PathBuf {
+    use std::os::unix::fs::PermissionsExt;
+    let bin = folder.join("bin");
+    fs::create_dir_all(&bin).unwrap();
+    let note = folder.join("opened");
+    for name in ["xdg-open", "wslview"] {
+        let script = format!("#!/bin/sh\necho \"$1\" > '{}'\n", note.display());
+        fs::write(bin.join(name), script).unwrap();
+        fs::set_permissions(bin.join(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    bin
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn prop_pages_are_handed_to_the_systems_opener() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("s.toml"), SHORT).unwrap();
+    let bin = opener(here);
+    let call = |args: &[&str], path: &Path| -> crate::common::Call {
+        command(here, args)
+            .env("PATH", path)
+            .output()
+            .unwrap()
+            .into()
+    };
+    call(&["run", "s.toml", "-o", "o", "-q", "--open"], &bin).exits(0);
+    let note = here.join("opened");
+    let page = here.join("o/report.html").canonicalize().unwrap();
+    // The opener is not waited for.
+    let noted = || {
+        for _ in 0..1000 {
+            match fs::read_to_string(&note) {
+                Ok(text) if text.ends_with('\n') => return text.trim().to_owned(),
+                _ => std::thread::sleep(std::time::Duration::from_millis(10)),
+            }
+        }
+        panic!("nothing was opened");
+    };
+    assert_eq!(noted(), page.display().to_string());
+    fs::remove_file(&note).unwrap();
+    call(&["open", "o"], &bin)
+        .exits(0)
+        .says(&["opened o/report.html"]);
+    assert_eq!(noted(), page.display().to_string());
+    // No opener: the page's place is told; a run is not failed by that.
+    let none = here.join("none");
+    fs::create_dir(&none).unwrap();
+    call(&["open", "o/report.html"], &none)
+        .exits(1)
+        .complains(&[
+            "error: nothing on this system opened the page",
+            &page.display().to_string(),
+        ]);
+    call(&["run", "s.toml", "-o", "o", "-q", "--open"], &none)
+        .exits(0)
+        .complains(&["warning: nothing on this system opened the page"]);
+}
+
+#[test]
+fn regress_what_is_no_page_is_not_opened() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("s.toml"), SHORT).unwrap();
+    for (args, words) in [
+        (&["open", "none"][..], "cannot read none"),
+        (&["open", "."], ". holds no page of results: none of"),
+        (&["open", "s.toml"], "s.toml is no page"),
+        (
+            &["run", "s.toml", "s.toml", "--open"],
+            "--open shows the report of one scenario; here are 2",
+        ),
+        (
+            &["run", "s.toml", "--open", "--no-report"],
+            "cannot be used with",
+        ),
+    ] {
+        brinell(here, args).exits(2).complains(&[words]);
+    }
+    assert_eq!(files(here), ["s.toml"]);
+}

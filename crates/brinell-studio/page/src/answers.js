@@ -1,0 +1,25 @@
+// Answers of an engine, and how they fail.
+
+/** @typedef {{key: string | null, line: number | null, message: string}} Trouble */
+/** @typedef {{ask: (request: Record<string, unknown>) => Promise<any>, close: () => void, kill: () => void, slots: boolean}} Engine */
+
+/** The engine refused a request, in its own words. */
+export class Refused extends Error {
+  /** @param {Trouble[]} problems */
+  constructor(problems) {
+    super(problems.map((p) => p.message).join("; "));
+    this.problems = problems;
+  }
+}
+
+/** The engine is gone; another must be started. */
+export class Lost extends Error {}
+
+/**
+ * The answer, or an error with the engine's words.
+ * @param {any} answer
+ */
+export function accepted(answer) {
+  if (!answer.ok) throw new Refused(answer.problems ?? [{ key: null, line: null, message: "the engine gave no reason" }]);
+  return answer;
+}

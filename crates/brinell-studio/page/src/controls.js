@@ -1,0 +1,180 @@
+// Controls of keys: a range and a number with its unit, its reason, and the engine's words where a value is refused.
+import { h, short } from "./dom.js";
+import { mainSpecs, moreSpecs } from "./schema.js";
+import { get } from "./state.js";
+
+/** @typedef {import("./schema.js").Spec} Spec */
+/** @typedef {(spec: Spec, value: any, live: boolean) => void} Changed  live: the hand is still on it */
+
+const STEPS = 400;
+let count = 0;
+
+export class Field {
+  /** @type {HTMLInputElement | HTMLSelectElement | null} */
+  #input = null;
+  /** @type {HTMLInputElement | null} */
+  #range = null;
+  #trouble;
+  #clear;
+  /** @type {[number, number]} */
+  #span = [0, 1];
+
+  /** @param {Spec} spec @param {Changed} changed @param {{note?: boolean, range?: boolean}} [show] words below, and a range where none is stated */
+  constructor(spec, changed, { note: noted = true, range = true } = {}) {
+    this.spec = spec;
+    this.changed = changed;
+    this.id = `field-${++count}`;
+    this.#span = spec.span ?? [0, 1];
+    this.#trouble = h("p", { className: "trouble", role: "alert", id: `${this.id}-trouble` });
+    this.#clear = h("button", { type: "button", className: "clear", hidden: true, title: "Back to the default", "aria-label": `${spec.label}: back to the default`,
+      onclick: () => changed(spec, undefined, false) }, "default");
+    this.#make(range);
+    const label = h("span", { className: "name" }, h("label", { htmlFor: this.id }, spec.label), this.#clear);
+    const note = !noted || !spec.note ? null : h("p", { className: "note", id: `${this.id}-note` }, spec.note);
+    this.#input?.setAttribute("aria-describedby", `${note ? `${note.id} ` : ""}${this.#trouble.id}`);
+    this.element = h("div", { className: this.#range ? "field" : "field plain", title: spec.note }, label, this.#range, this.#input,
+      h("span", { className: "unit" }, spec.unit), note, this.#trouble);
+  }
+
+  /** @param {boolean} ranged */
+  #make(ranged) {
+    const { spec, id } = this, take = (/** @type {any} */ value, live = false) => this.changed(spec, value, live);
+    if (spec.kind === "choice") this.#input = h("select", { id, onchange: () => take(this.#input?.value || undefined) },
+      ...(spec.options ?? []).map(([value, words]) => h("option", { value }, words)));
+    else if (spec.kind === "flag") {
+      const box = h("input", { id, type: "checkbox", onchange: () => take(box.checked) });
+      this.#input = box;
+    } else if (spec.kind === "text") {
+      const box = h("input", { id, type: "text", spellcheck: false, onchange: () => take(parsed(box.value)) });
+      this.#input = box;
+    } else {
+      const box = h("input", { id, type: "number", step: spec.integer ? "1" : "any", inputMode: "decimal",
+        oninput: () => { if (box.value !== "" && Number.isFinite(box.valueAsNumber)) take(box.valueAsNumber, true); },
+          onchange: () => take(box.value === "" ? undefined : box.valueAsNumber) });
+      this.#input = box;
+      if (spec.span || ranged) this.#range = this.#slider(take);
+    }
+  }
+
+  /** @param {(value: number, live: boolean) => void} take */
+  #slider(take) {
+    const range = h("input", { type: "range", min: "0", max: String(STEPS), "aria-label": `${this.spec.label}, range` });
+    const value = () => {
+      const w = range.valueAsNumber / STEPS, [a, b] = this.#span;
+      const v = this.spec.log && a > 0 ? a * (b / a) ** w : a + w * (b - a);
+      // Round numbers: three digits, or a step of the span.
+      const rounded = this.spec.log && a > 0 ? Number(v.toPrecision(3)) : Number((Math.round(v / nice((b - a) / STEPS)) * nice((b - a) / STEPS)).toPrecision(10));
+      return this.spec.integer ? Math.round(rounded) : rounded;
+    };
+    range.addEventListener("input", () => take(value(), true));
+    range.addEventListener("change", () => take(value(), false));
+    return range;
+  }
+
+  /** Shows what is wanted, or what holds where nothing is stated. @param {any} wanted @param {any} all */
+  update(wanted, all) {
+    const read = this.spec.read(wanted), input = this.#input;
+    // A number that is stated as a text with its unit shows as the engine read it.
+    const stated = this.spec.kind === "number" && typeof read === "string" ? undefined : read, holds = stated ?? this.spec.read(all) ?? this.spec.fallback;
+    this.#clear.hidden = get(wanted, this.spec.path) === undefined || !!this.spec.required || !(typeof this.spec.path[0] === "string") || this.spec.path[0] === "defects";
+    if (!input) return;
+    if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = holds === true;
+    else if (input !== document.activeElement || (input instanceof HTMLInputElement && input.type === "number" && input.valueAsNumber !== holds)) {
+      const text = holds === undefined || holds === null ? "" : this.spec.kind === "text" && typeof holds !== "string" ? JSON.stringify(holds) : String(holds);
+      if (input.value !== text && !(input === document.activeElement && Number(input.value) === holds)) input.value = text;
+    }
+    if (this.#range) this.#place(holds);
+  }
+
+  /** @param {any} holds */
+  #place(holds) {
+    const range = /** @type {HTMLInputElement} */ (this.#range), known = typeof holds === "number";
+    range.disabled = !known;
+    if (!known) return;
+    if (!this.spec.span && range !== document.activeElement) this.#span = spanOf(holds, this.spec);
+    // A value beyond the range widens it, unless the hand is on it.
+    if (this.spec.span && range !== document.activeElement) this.#span = [Math.min(this.spec.span[0], this.spec.log && holds <= 0 ? this.spec.span[0] : holds),
+      Math.max(this.spec.span[1], holds)];
+    const [a, b] = this.#span, w = this.spec.log && a > 0 ? Math.log(Math.max(holds, a) / a) / Math.log(b / a) : (holds - a) / (b - a);
+    const at = String(Math.round(STEPS * Math.min(1, Math.max(0, w))));
+    if (range.value !== at && range !== document.activeElement) range.value = at;
+    range.setAttribute("aria-valuetext", `${short(holds, 4)} ${this.spec.unit}`);
+  }
+
+  /** The engine's words about this key, or nothing. @param {string} words */
+  say(words) {
+    if (this.#trouble.textContent !== words) this.#trouble.textContent = words;
+    if (words) this.#input?.setAttribute("aria-invalid", "true");
+    else this.#input?.removeAttribute("aria-invalid");
+  }
+
+  focus() { this.#input?.focus(); }
+}
+
+/** Lists and tables are typed as JSON; anything else is a word. @param {string} text */
+function parsed(text) {
+  if (text.trim() === "") return undefined;
+  try {
+    return JSON.parse(text);
+  } catch {
+    return text;
+  }
+}
+
+/** A round step at most this wide. @param {number} width */
+function nice(width) {
+  const power = 10 ** Math.floor(Math.log10(width));
+  return power * ([5, 2, 1].find((m) => m * power <= width * (1 + 1e-9)) ?? 1);
+}
+
+/** @param {number} value @param {Spec} spec @returns {[number, number]} */
+function spanOf(value, spec) {
+  if (spec.log && value > 0) return [value / 10, Math.min(value * 10, spec.max ?? Infinity)];
+  const reach = Math.abs(value) || 1, low = spec.min ?? (value < 0 ? 4 * value : 0);
+  return [low, Math.min(spec.max !== undefined && spec.max <= 1000 * reach ? spec.max : Infinity, value > 0 ? 4 * value : reach)];
+}
+
+export class Controls {
+  /** @type {Field[]} */
+  fields = [];
+
+  /** @param {HTMLElement} root @param {any} schema @param {Changed} changed */
+  constructor(root, schema, changed) {
+    const make = (/** @type {Spec} */ s) => {
+      const field = new Field(s, changed);
+      this.fields.push(field);
+      return field.element;
+    };
+    const name = h("div", { className: "fields" }, ...mainSpecs(schema).map(make));
+    const sections = moreSpecs(schema).map((section) => h("details", { className: "section" },
+      h("summary", {}, section.name.charAt(0).toUpperCase() + section.name.slice(1)), h("p", { className: "note" }, section.note),
+        h("div", { className: "fields" }, ...section.specs.map(make))));
+    const why = h("button", { type: "button", className: "why", "aria-pressed": "false",
+      onclick: () => why.setAttribute("aria-pressed", String(root.classList.toggle("reasons"))) }, "Explain");
+    root.replaceChildren(h("div", { className: "tools" }, h("h2", {}, "Run"), h("span", { className: "spacer" }), why), name,
+      h("details", {}, h("summary", {}, "More: every key of the scenario"), ...sections));
+  }
+
+  /** @param {any} wanted @param {any} all */
+  update(wanted, all) { for (const field of this.fields) field.update(wanted, all); }
+}
+
+/**
+ * Lays the engine's problems beside the fields that they are about, and gives back those that have none.
+ * @param {Field[]} fields
+ * @param {{path: (string | number)[], message: string}[]} problems
+ */
+export function lay(fields, problems) {
+  const rest = new Set(problems);
+  for (const field of fields) {
+    const path = field.spec.path;
+    const mine = problems.filter((p) => p.path.length > 0 && rest.has(p) && path.every((key, k) => k >= p.path.length || p.path[k] === key)
+      && p.path.length >= Math.min(path.length, 2) && path.length <= p.path.length + 1);
+    const own = mine.filter((p) => p.path.length >= path.length);
+    for (const p of own) rest.delete(p);
+    field.say(own.map((p) => p.message).join(" "));
+    const closed = own.length ? field.element.closest("details:not([open])") : null;
+    for (let node = closed; node; node = node.parentElement?.closest("details:not([open])") ?? null) /** @type {HTMLDetailsElement} */ (node).open = true;
+  }
+  return [...rest];
+}

@@ -1,0 +1,59 @@
+// Gives the curve views what came last: this bearing, and behind or beside it the healthy one, the other one or a measured signal.
+import { still } from "./dom.js";
+
+/** @typedef {import("./side.js").Side} Side */
+
+// Shown of a live signal, s.
+const WINDOW_S = 0.1;
+const WAVE_MS = 50, STILL_MS = 1000;
+
+export class CurveViews {
+  #wave = -Infinity;
+  #views = /** @type {any[]} */ (["waveform", "spectrum", "envelope"].map((kind) => document.querySelector(`#curves brinell-curve[kind="${kind}"]`)));
+  #shown = /** @type {any[]} */ ([]);
+
+  /**
+   * Whether all was drawn; else it is to be asked again in the next frame.
+   * @param {Side} side the one that is edited, whose lines are shown
+   * @param {Side[]} sides
+   * @param {any} healthy
+   * @param {any} measured
+   * @param {number} now
+   */
+  draw(side, sides, healthy, measured, now) {
+    const [waveform, spectrum, envelope] = this.#views, [first, second] = sides;
+    const inputs = [side, first, second, first.spectra, second?.spectra, healthy, measured];
+    if (inputs.some((v, k) => v !== this.#shown[k])) {
+      this.#shown = inputs;
+      spectrum.data = this.#spectrum(side, sides, healthy, measured, "spectrum");
+      envelope.data = this.#spectrum(side, sides, healthy, measured, "envelope");
+    }
+    if (now - this.#wave < (still() ? STILL_MS : WAVE_MS)) return false;
+    this.#wave = now;
+    waveform.data = first.opened ? this.#waveform(first, second, healthy) : null;
+    return true;
+  }
+
+  /** @param {Side} side @param {Side | undefined} other @param {any} healthy */
+  #waveform(side, other, healthy) {
+    const rate = side.opened.rate_hz, whole = side.live.state === "done",
+      cut = (/** @type {Side} */ s) => s.trace.last(whole ? Infinity : Math.round(WINDOW_S * s.opened.rate_hz)).values;
+    const { first } = side.trace.last(whole ? Infinity : Math.round(WINDOW_S * rate)), values = cut(side), x0 = first / rate;
+    const behind = side.damage.length && healthy?.rate_hz === rate
+      ? { x0, dx: 1 / rate, values: whole ? healthy.x.subarray(0, values.length) : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)) } : null;
+    const second = other?.opened ? { x0, dx: 1 / other.opened.rate_hz, values: cut(other) } : null;
+    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: ["A", "B"] };
+  }
+
+  /** @param {Side} side @param {Side[]} sides @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
+  #spectrum(side, [first, other], healthy, measured, kind) {
+    const got = first.spectra?.[kind];
+    if (!got) return null;
+    const curve = (/** @type {any} */ one) => (one?.values?.length ? { x0: 0, dx: one.df, values: one.values } : null);
+    return {
+      x0: 0, dx: got.df, values: got.values, unit: first.opened.unit, lines: side.spectra?.lines ?? [], band_hz: got.band_hz,
+        behind: first.damage.length ? curve(healthy?.[kind]) : null,
+      second: curve(measured?.[kind]) ?? curve(other?.spectra?.[kind]), names: measured ? ["simulated", "measured"] : ["A", "B"],
+    };
+  }
+}

@@ -1,0 +1,62 @@
+// Small helpers for elements and numbers on the page.
+
+/**
+ * An element with properties (aria-* and data-* as attributes) and children.
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {Record<string, unknown>} [props]
+ * @param {...(Node | string | null | undefined)} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
+export function h(tag, props = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [key, value] of Object.entries(props)) {
+    if (value === undefined || value === null) continue;
+    if (key.startsWith("on") && typeof value === "function") node.addEventListener(key.slice(2), /** @type {EventListener} */ (value));
+    else if (key in node && !key.includes("-")) /** @type {any} */ (node)[key] = value;
+    else node.setAttribute(key, String(value));
+  }
+  for (const child of children) if (child !== null && child !== undefined) node.append(child);
+  return node;
+}
+
+/**
+ * The element with this id, which index.html has.
+ * @param {string} id
+ * @returns {any}
+ */
+export function byId(id) {
+  const node = document.getElementById(id);
+  if (!node) throw new Error(`no #${id} in the page`);
+  return node;
+}
+
+/**
+ * A number for reading: so many digits, a true minus.
+ * @param {number | null | undefined} value
+ */
+export function short(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  const text = value !== 0 && (size >= 1e6 || size < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  return text.replace("-", "−");
+}
+
+/** @param {string} unit */
+export const spelled = (unit) => unit.replaceAll("^2", "²").replaceAll("^3", "³").replaceAll("^n", "ⁿ").replace(/\bdeg\b/g, "°").replace(/\bum\b/g, "µm");
+
+/** Whether the reader asked for little motion. */
+export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+/**
+ * A table of the engine's columns and rows.
+ * @param {{columns: string[], rows: unknown[][]} | null | undefined} table
+ */
+export function tableOf(table) {
+  if (!table) return null;
+  const cell = (/** @type {unknown} */ v) => (typeof v === "number" ? short(v, 4) : v === null || v === undefined ? "" : String(v));
+  return h("table", {},
+    h("thead", {}, h("tr", {}, ...table.columns.map((c) => h("th", { scope: "col" }, c)))),
+    h("tbody", {}, ...table.rows.map((row) => h("tr", {},
+      ...row.map((v, k) => (k === 0 ? h("th", { scope: "row" }, cell(v)) : h("td", { className: typeof v === "number" ? "number" : "" }, cell(v))))))));
+}

@@ -1,0 +1,247 @@
+// One bearing that runs. It never stops for an edit: the newest edit is opened after the slice in progress, and the bearing goes on in it.
+import { Lost, Refused } from "./answers.js";
+
+/** @typedef {import("./answers.js").Engine} Engine */
+/** @typedef {import("./state.js").Scenario} Scenario */
+/** @typedef {{scenario?: Scenario, toml?: string, carry: boolean, made: number, again?: boolean}} Edit  again: nothing was edited, the same bearing goes on */
+/** @typedef {"loading" | "live" | "paused" | "running" | "done" | "lost"} State */
+/** @typedef {(kind: string, data?: any) => void} Report */
+
+const ROWS = 256, RUN_ROWS = 1024, FIRST_WINDOW = 1024, LAST_WINDOW = 32768;
+// Samples between two sets of indicators. A verdict takes as long as many slices, so it is given anew each time their number has doubled.
+const SENTENCE = 8192, LONGEST_SENTENCE = 65536;
+// A bearing that loses its engine so often on one scenario is not tried again.
+const TRIES = 2;
+
+export class Live {
+  /** @type {State} */
+  state = "loading";
+  /** @type {any} the opened bearing */
+  opened = null;
+  /** @type {Edit | null} */
+  #edit = null;
+  /** @type {Edit | null} */
+  #good = null;
+  #run = false;
+  #urgent = 0;
+  #paused = false;
+  #wake = () => {};
+  #window = FIRST_WINDOW;
+  #spoken = 0;
+  #judged = 0;
+  #losses = 0;
+  #closed = false;
+
+  /**
+   * @param {() => Promise<Engine>} start
+   * @param {number} slot
+   * @param {Report} report
+   */
+  constructor(start, slot, report) {
+    this.#start = start;
+    this.slot = slot;
+    this.report = report;
+    /** @type {Promise<Engine>} */
+    this.engine = start();
+    this.#loop();
+  }
+
+  #start;
+
+  /** @param {Record<string, unknown>} request */
+  async ask(request) { return (await this.engine).ask({ slot: this.slot, ...request }); }
+
+  /** An answer that makes an edit: no slice is begun until it is there. @param {Record<string, unknown>} request */
+  async urgent(request) {
+    this.#urgent += 1;
+    try {
+      return await this.ask(request);
+    } finally {
+      // Who asked goes on before the loop does.
+      setTimeout(() => {
+        this.#urgent -= 1;
+        this.#wake();
+      });
+    }
+  }
+
+  /** The scenario from now on. Only the newest of those that wait is opened. @param {{scenario?: Scenario, toml?: string}} what */
+  edit(what, carry = true) {
+    // An edit that starts anew is not undone by a later one that would carry.
+    this.#edit = { ...what, carry: carry && this.#edit?.carry !== false, made: performance.now() };
+    this.#run = false;
+    this.#wake();
+  }
+
+  /** A run from t = 0 to its end, as `brinell run` does it. */
+  run() {
+    if (!this.#good) return;
+    this.#edit = { ...(this.#edit ?? { ...this.#good, again: true }), carry: false, made: performance.now() };
+    this.#run = true;
+    this.#paused = false;
+    this.#wake();
+  }
+
+  pause() {
+    this.#paused = true;
+    if (this.state === "live" || this.state === "running") this.#say("paused");
+  }
+
+  live() {
+    this.#paused = false;
+    if (this.state === "done" || this.#run) {
+      this.#run = false;
+      if (this.#good) this.#edit ??= { ...this.#good, again: true };
+    }
+    if (this.state === "lost" && this.#good) {
+      this.#losses = 0;
+      this.#edit ??= { ...this.#good, carry: false, again: true };
+    }
+    this.#wake();
+  }
+
+  close() {
+    this.#closed = true;
+    this.#wake();
+    this.engine.then((engine) => { if (!engine.slots) engine.close(); }, () => {});
+  }
+
+  async kill() { (await this.engine).kill(); }
+
+  /** @param {State} state */
+  #say(state, data = {}) {
+    this.state = state;
+    this.report("state", { state, ...data });
+  }
+
+  async #loop() {
+    while (!this.#closed) {
+      try {
+        if (this.#edit) await this.#open(this.#edit);
+        else if (!this.opened || this.#paused || this.#urgent || this.state === "done"
+          || this.state === "lost") await new Promise((done) => { this.#wake = () => done(null); });
+        else await this.#slice();
+      } catch (error) {
+        if (this.#closed) return;
+        if (error instanceof Lost) await this.#recover(error);
+        else {
+          this.#paused = true;
+          this.report("problems", { problems: error instanceof Refused ? error.problems : [{ key: null, line: null, message: String(error) }], edit: null });
+          this.#say("paused");
+        }
+      }
+    }
+  }
+
+  /** @param {Edit} edit */
+  async #open(edit) {
+    this.#edit = null;
+    let opened;
+    try {
+      const { scenario, toml } = edit;
+      opened = await this.ask({ do: "open", ...(toml === undefined ? { scenario } : { toml }), carry: edit.carry });
+    } catch (error) {
+      if (!(error instanceof Refused)) {
+        if (error instanceof Lost) this.#edit ??= this.#good ? { ...this.#good, again: true } : edit;
+        throw error;
+      }
+      // The engine is as it was: the last good bearing runs on.
+      this.#run = false;
+      this.report("problems", { problems: error.problems, edit });
+      return;
+    }
+    this.#good = { scenario: opened.scenario, carry: true, made: edit.made };
+    this.opened = opened;
+    [this.#window, this.#spoken, this.#judged] = [FIRST_WINDOW, 0, 0];
+    this.report("opened", { opened, edit, took: performance.now() - edit.made });
+    this.#say(this.#paused ? "paused" : this.#run ? "running" : "live", { part: 0 });
+    this.report("damage", (await this.ask({ do: "damage" })).defects);
+  }
+
+  async #slice() {
+    const opened = this.opened, got = await this.ask({ do: "advance", rows: this.#run ? RUN_ROWS : ROWS, frames: true });
+    if (opened !== this.opened) return;
+    this.#losses = 0;
+    this.report("slice", got);
+    const samples = got.first + got.x.length;
+    if (this.#run) this.#say(this.#paused ? "paused" : "running", { part: samples / opened.samples });
+    else if (this.state !== "live" && !this.#paused) this.#say("live");
+    if (samples >= this.#window && !this.#edit) await this.#spectra(samples);
+    if (this.#edit) return;
+    if (got.done) await this.#finish(samples);
+    else if (samples - this.#spoken >= SENTENCE && !this.#run) await this.#sentence(samples);
+  }
+
+  /** @param {number} samples */
+  async #spectra(samples) {
+    const longest = Math.min(LAST_WINDOW, 2 ** Math.floor(Math.log2(samples)));
+    const spectra = await this.#perhaps({ do: "spectra", longest });
+    if (spectra.ok) this.report("spectra", spectra);
+    // Up to the longest window the picture sharpens; from then on it is renewed.
+    this.#window = longest < LAST_WINDOW ? 2 * longest : samples + LAST_WINDOW / 4;
+    if (this.#edit) return;
+    const sound = await this.#perhaps({ do: "sound" });
+    if (sound.ok) this.report("sound", sound);
+  }
+
+  /** An answer that may not be there yet: then the engine says why. @param {Record<string, unknown>} request */
+  async #perhaps(request) {
+    try {
+      return await this.ask(request);
+    } catch (error) {
+      if (error instanceof Refused) return { ok: false, headline: error.message };
+      throw error;
+    }
+  }
+
+  /** @param {number} samples */
+  async #sentence(samples) {
+    this.#spoken = samples;
+    const indicators = await this.#perhaps({ do: "indicators" });
+    if (indicators.ok) this.report("indicators", indicators);
+    if (this.#edit || samples < Math.min(2 * this.#judged, this.#judged + LONGEST_SENTENCE)) return;
+    this.#judged = samples;
+    this.report("verdict", await this.#perhaps({ do: "verdict" }));
+  }
+
+  /** @param {number} samples */
+  async #finish(samples) {
+    await this.#spectra(samples);
+    this.#judged = 0;
+    await this.#sentence(samples);
+    if (this.#run) {
+      this.#run = false;
+      this.#say("done");
+      return;
+    }
+    // A live bearing goes on from the end of its run.
+    if (this.#good) this.#edit ??= { ...this.#good, again: true };
+  }
+
+  /** @param {Lost} error @returns {Promise<void>} */
+  async #recover(error) {
+    const from = performance.now();
+    this.#losses += 1;
+    this.report("lost", { why: error.message });
+    (await this.engine.catch(() => null))?.close();
+    this.engine = this.#start();
+    this.engine.catch(() => {});
+    if (this.#losses > TRIES) {
+      this.#edit = null;
+      this.#say("lost");
+      return;
+    }
+    const wanted = this.#edit ?? this.#good;
+    if (!wanted) return;
+    try {
+      // What was being opened when the engine went may be what ended it, so the last good bearing goes first.
+      const { scenario, toml } = this.#good ?? wanted;
+      this.opened = await this.ask({ do: "open", ...(scenario ? { scenario } : { toml }), carry: false });
+    } catch (again) {
+      if (again instanceof Lost) return this.#recover(again);
+      throw again;
+    }
+    this.#edit = wanted === this.#good ? { ...wanted, again: true } : wanted;
+    this.report("recovered", { took: performance.now() - from });
+  }
+}

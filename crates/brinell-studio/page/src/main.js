@@ -1,0 +1,453 @@
+// The studio: one page that simulates a damaged bearing live. Starts the engine, joins bearings, controls and views.
+import { Refused } from "./answers.js";
+import { NoWasm } from "./assets.js";
+import { Controls, lay } from "./controls.js";
+import { CurveViews } from "./curves.js";
+import { DamagePanel } from "./damage-panel.js";
+import { byId, h, short } from "./dom.js";
+import { engines } from "./engine.js";
+import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, shapeOf } from "./files.js";
+import { Healthy } from "./healthy.js";
+import { judged, showMeasured } from "./measured.js";
+import { showKeys } from "./help.js";
+import { notice, readout, speak } from "./readout.js";
+import { Side } from "./side.js";
+import { LINK_LIMIT, fromLink, pathOf, remember, remembered, toLink } from "./state.js";
+
+/** @typedef {import("./side.js").Show} Show */
+
+const START = "rectangle", KEPT_MS = 400, SLOW_READOUT_MS = 200, PASSAGE_MS = 120;
+const VIEWS = ["waveform", "spectrum", "envelope"];
+
+class Studio {
+  /** @type {any} */
+  about = null;
+  /** @type {Side[]} */
+  sides = [];
+  active = 0;
+  beside = false;
+  /** @type {Controls | null} */
+  controls = null;
+  /** @type {any} */
+  measured = null;
+  #dirty = new Set();
+  #read = -Infinity;
+  #keep = 0;
+  #pass = 0;
+  #preset = "";
+  #warned = "";
+
+  constructor() {
+    this.panel = new DamagePanel(byId("damage"), {
+      store: () => this.side?.store ?? /** @type {any} */ ({ scenario: {} }), ask: (request) => this.side.live.urgent(request), schema: () => this.about?.schema,
+      changed: (spec, value, live) => this.#change(spec, value, live), rebuilt: () => this.#dirty.add("fields"), speak, failed: (error) => this.#failed(error),
+    });
+    this.curves = new CurveViews();
+    this.bearing = /** @type {any} */ (document.querySelector("brinell-bearing"));
+    this.passage = /** @type {any} */ (document.querySelector("brinell-passage"));
+    this.sound = /** @type {any} */ (document.querySelector("brinell-sound"));
+  }
+
+  get side() { return this.sides[this.active]; }
+  get other() { return this.beside ? this.sides[1 - this.active] : undefined; }
+
+  /** @param {() => Promise<import("./answers.js").Engine>} start */
+  async begin(start) {
+    this.start = start;
+    // The first engine says what the page is about, and then holds bearing A.
+    const engine = await start();
+    let taken = false;
+    const a = this.#add("A", () => {
+      const first = !taken;
+      taken = true;
+      return first ? Promise.resolve(engine) : start();
+    });
+    this.about = await engine.ask({ do: "about" });
+    // An engine of many slots has two of them: B outranks the healthy bearing.
+    this.healthy = new Healthy(start, 1, () => !(engine.slots && this.sides.length > 1), () => this.#dirty.add("curves"));
+    this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) => this.#change(spec, value, live));
+    this.#fill();
+    this.#bind();
+    await this.#first(a);
+    const frame = () => {
+      this.#draw();
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  /** @param {string} name @param {() => Promise<import("./answers.js").Engine>} start */
+  #add(name, start) {
+    const side = new Side(name, start, this.sides.length, (s, kind, data) => this.#show(s, kind, data));
+    this.sides.push(side);
+    return side;
+  }
+
+  /** The scenario of the link, else that of a page around this one, else what was here last time, else an example. @param {Side} side */
+  async #first(side) {
+    const example = this.about.examples.find((/** @type {any} */ e) => e.name === START) ?? this.about.examples[0], before = remembered();
+    const given = /** @type {{brinellScenario?: string}} */ (globalThis).brinellScenario;
+    let toml = given ?? before ?? example?.toml ?? "";
+    try {
+      const linked = await fromLink(location.hash);
+      if (linked !== null) {
+        toml = linked;
+        if (before !== null && before !== linked) notice("before", "This is the bearing of the link.", { actions: [["Back to my last one", () => this.load(before)]] });
+      }
+    } catch (error) {
+      notice("link", `The link holds no scenario: ${error instanceof Error ? error.message : error}`, { bad: true });
+    }
+    if (toml === example?.toml) byId("state").textContent = `loading ${example.name}`;
+    side.live.edit({ toml }, false);
+    // A scenario that is refused leaves the page without a bearing: the example comes instead.
+    this.fallback = () => { if (example) side.live.edit({ toml: example.toml }, false); };
+  }
+
+  #fill() {
+    const select = byId("preset"), group = (/** @type {string} */ label, /** @type {[string, string, string][]} */ list) => h("optgroup", { label },
+      ...list.map(([value, text, title]) => h("option", { value, title }, text)));
+    select.append(group("Examples", this.about.examples.map((/** @type {any} */ e) => [`example:${e.name}`, e.name, e.words])),
+      group("Bearings", this.about.bearings.map((/** @type {any} */ b) => [`bearing:${b.name}`, `${b.name}, ${b.element}`, b.words])));
+    select.addEventListener("change", () => {
+      const [kind, name] = select.value.split(/:(.*)/);
+      this.#preset = select.value;
+      if (kind === "example") this.load(this.about.examples.find((/** @type {any} */ e) => e.name === name).toml, false);
+      if (kind === "bearing") {
+        // What the preset fills is not stated any more; operation and damage stay.
+        this.side.store.change((s) => {
+          for (const key of ["cage", "contact", "friction"]) delete s[key];
+          s.bearing = { preset: name };
+        });
+        this.side.store.seal();
+      }
+    });
+    saveMenu([
+      ["Scenario, TOML", () => this.#saveToml()], ["Signals, CSV", () => this.#save("csv")], ["Sound, WAV", () => this.#save("wav")],
+        ["Arrays, NPZ", () => this.#save("npz")],
+      ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
+    ], "Signals are those of a run from t = 0, which is done first.");
+  }
+
+  #bind() {
+    const on = (/** @type {string} */ id, /** @type {() => void} */ act) => byId(id).addEventListener("click", act);
+    on("open", () => byId("file").click());
+    byId("file").addEventListener("change", () => {
+      this.take([...byId("file").files]);
+      byId("file").value = "";
+    });
+    on("share", () => this.#share());
+    on("pause", () => this.#pause());
+    on("run", () => this.side.live.run());
+    on("side-a", () => this.turn(0));
+    on("side-b", () => this.turn(1));
+    on("both", () => this.compare(!this.beside));
+    on("help", showKeys);
+    droppable((files) => this.take(files));
+    document.addEventListener("keydown", (e) => this.#key(e));
+    window.addEventListener("hashchange", async () => {
+      const toml = await fromLink(location.hash).catch(() => null);
+      if (toml !== null && toml !== this.side.opened?.toml) this.load(toml, false);
+    });
+  }
+
+  /** A scenario from a file, a link or an example. @param {string} toml */
+  load(toml, carry = false) { this.side.live.edit({ toml }, carry); }
+
+  /** @param {import("./schema.js").Spec} spec @param {any} value @param {boolean} live */
+  #change(spec, value, live) {
+    const { store } = this.side, now = spec.read(store.scenario);
+    if (JSON.stringify(now) !== JSON.stringify(value)) store.change((s) => spec.write(s, value, this.side.opened?.all), `${spec.label} ${spec.path.join(".")}`);
+    if (!live) store.seal();
+  }
+
+  /** @type {Show} */
+  #show(side, kind, data) {
+    if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
+    if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one goes on with the last good bearing.`);
+    if (kind === "recovered") speak("The engine was lost and runs again");
+    if (kind === "problems") this.#refused(side, data);
+    if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
+    if (kind === "opened") this.#opened(data);
+    else if (kind === "scenario") this.#dirty.add("fields");
+    else if (kind === "slice") {
+      if (data.frames) {
+        this.panel.raceway.frames = data.frames;
+        if (this.bearing) this.bearing.frames = data.frames;
+      }
+      this.#dirty.add("curves").add("readout");
+    } else if (kind === "damage") this.#damaged(data);
+    else if (kind === "sound") this.sound.loop = { rate_hz: data.rate_hz, x: data.x, turns: data.turns };
+    else if (kind === "verdict") {
+      speak(data.headline ?? "");
+      this.#dirty.add("curves").add("readout");
+    } else this.#dirty.add("curves").add("readout");
+  }
+
+  /** @param {any} data */
+  #opened({ opened, edit }) {
+    if (edit.toml !== undefined) {
+      this.panel.selected = opened.scenario.defects?.length ? 1 : 0;
+      if (this.#preset && !this.#preset.startsWith("example:")) byId("preset").value = this.#preset = "";
+    }
+    this.panel.opened(opened);
+    if (edit.toml !== undefined && this.panel.selected) this.panel.select(1);
+    if (this.bearing) Object.assign(this.bearing, { geometry: opened.geometry, loadDeg: opened.load_deg });
+    this.#lay(this.side);
+    this.#warn(opened.warnings?.join("\n") ?? "");
+    byId("run").textContent = `Run ${short(opened.samples / opened.rate_hz)} s`;
+    this.healthy?.want(opened.scenario);
+    this.#dirty.add("fields").add("curves").add("state").add("readout");
+    clearTimeout(this.#keep);
+    if (this.active === 0) this.#keep = setTimeout(() => remember(opened.toml), KEPT_MS);
+  }
+
+  /** The same warning is not shown again after it was closed. @param {string} words */
+  #warn(words) {
+    if (words === this.#warned) return;
+    this.#warned = words;
+    notice("warnings", words || null);
+  }
+
+  /** @param {any[]} damage */
+  #damaged(damage) {
+    this.panel.damage = damage;
+    if (this.bearing) this.bearing.damage = damage;
+    // While the pen is down there is always a newer one.
+    clearTimeout(this.#pass);
+    this.#pass = setTimeout(() => this.#passes(this.panel.selected || damage[0]?.defect), PASSAGE_MS);
+  }
+
+  /** One roller's passage over the selected damage. @param {number | undefined} defect */
+  async #passes(defect) {
+    const side = this.side;
+    if (!this.passage) return;
+    let data = null;
+    try {
+      if (defect) data = await side.live.ask({ do: "passage", defect });
+    } catch {
+      // Damage that is not there any more has no passage.
+    }
+    if (side === this.side) this.passage.data = data;
+  }
+
+  /** The engine's words stand beside the control; the last good bearing runs on. @param {Side} side @param {any} data */
+  #refused(side, { problems, edit }) {
+    if (!side.opened && edit) {
+      notice("before", problems.map((/** @type {any} */ p) => p.message).join(" "), { bad: true });
+      this.fallback?.();
+      this.fallback = undefined;
+      return;
+    }
+    if (side !== this.side) return;
+    if (edit?.toml !== undefined || !edit) notice("refused", problems.map((/** @type {any} */ p) => `${p.line ? `line ${p.line}: ` : ""}${p.message}`).join(" "),
+      { bad: true });
+    else this.#lay(side);
+  }
+
+  /** @param {Side} side */
+  #lay(side) {
+    const problems = side.problems.map((p) => ({ ...p, path: pathOf(p.key) })), about = problems.find((p) => p.path[0] === "defects" && typeof p.path[1] === "number");
+    // The damage that is refused is the one to look at.
+    if (about && this.panel.selected !== Number(about.path[1]) + 1 && side.store.scenario.defects?.[Number(about.path[1])]) this.panel.select(Number(about.path[1]) + 1);
+    const rest = lay([...this.panel.fields, ...(this.controls?.fields ?? [])], problems);
+    notice("refused", rest.length ? rest.map((p) => p.message).join(" ") : null, { bad: true, actions: [["Undo", () => side.store.undo()]] });
+  }
+
+  /** @param {unknown} error */
+  #failed(error) {
+    const words = error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : error instanceof Error ? error.message : String(error);
+    notice("failed", words, { bad: true });
+  }
+
+  /** Draws what came last, once a frame. */
+  #draw() {
+    const side = this.side, dirty = this.#dirty;
+    if (!side?.opened || !dirty.size) return;
+    const now = performance.now();
+    if (dirty.delete("fields")) {
+      this.controls?.update(side.store.scenario, side.opened.all);
+      this.panel.update(side.opened.all);
+      if (side.problems.length) this.#lay(side);
+    }
+    if (dirty.delete("state")) this.#state();
+    if (dirty.has("curves") && this.curves.draw(side, this.beside ? this.sides : [side], this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
+    if (dirty.has("readout") && now - this.#read > SLOW_READOUT_MS) {
+      dirty.delete("readout");
+      this.#read = now;
+      readout(byId("readout"), this.beside ? this.sides : [side]);
+    }
+  }
+
+  #state() {
+    const side = this.side, { state } = side.live, bad = side.problems.length > 0, node = byId("state");
+    const words = state === "running" ? `running ${Math.min(99, Math.floor(100 * side.part))} %` : state === "lost" ? "engine lost" : state;
+    node.textContent = bad && state === "live" ? "live, last good one" : words;
+    node.dataset.state = state;
+    node.toggleAttribute("data-bad", bad);
+    byId("pause").textContent = state === "live" || state === "running" ? "Pause" : state === "lost" ? "Start again" : "Live";
+    this.panel.raceway.frozen = state === "paused" || state === "done" || state === "lost";
+  }
+
+  #pause() {
+    const { live } = this.side;
+    if (live.state === "live" || live.state === "running") live.pause();
+    else live.live();
+    this.#dirty.add("state");
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    const target = /** @type {HTMLElement} */ (e.target);
+    if (e.ctrlKey || e.metaKey) {
+      if (e.key.toLowerCase() !== "z" || target.matches("input[type=text], textarea")) return;
+      e.preventDefault();
+      return e.shiftKey ? this.side.store.redo() : this.side.store.undo();
+    }
+    if (e.altKey || target.closest("input, select, textarea, button, summary, dialog, [role=application]") || target.tagName.startsWith("BRINELL-")) return;
+    const act = /** @type {Record<string, () => void>} */ ({ " ": () => this.#pause(), l: () => this.side.live.live(),
+      h: () => this.sound?.hear?.(!this.sound.hearing), a: () => this.turn(0), b: () => this.turn(1) })[e.key.toLowerCase()];
+    if (!act) return;
+    e.preventDefault();
+    act();
+  }
+
+  /** The bearing that is edited and shown. @param {number} index */
+  turn(index) {
+    if (index === 1 && !this.sides[1]) this.#second();
+    this.active = index;
+    const side = this.side;
+    byId("side-a").setAttribute("aria-pressed", String(index === 0));
+    byId("side-b").setAttribute("aria-pressed", String(index === 1));
+    if (side.opened) {
+      this.#opened({ opened: side.opened, edit: {} });
+      this.#damaged(side.damage);
+    }
+    this.#dirty.add("fields").add("curves").add("state").add("readout");
+    this.#lay(side);
+  }
+
+  /** @param {boolean} on */
+  compare(on) {
+    if (on && !this.sides[1]) this.#second();
+    this.beside = on;
+    byId("both").setAttribute("aria-pressed", String(on));
+    this.#dirty.add("curves").add("readout");
+  }
+
+  /** B starts as a copy of A, in an engine of its own. */
+  #second() {
+    const a = this.sides[0], b = this.#add("B", /** @type {any} */ (this.start));
+    b.live.edit({ toml: a.opened.toml }, false);
+  }
+
+  /** @param {File[]} files */
+  async take(files) {
+    for (const file of files) {
+      try {
+        await this.#open(file);
+      } catch (error) {
+        this.#failed(error);
+      }
+    }
+  }
+
+  /** @param {File} file */
+  async #open(file) {
+    const kind = await chosenKind(file.name, kindsOf(file.name)), ask = (/** @type {any} */ request) => this.side.live.ask(request);
+    if (!kind) return;
+    const bytes = await bytesOf(file);
+    if (kind === "toml") return this.load(new TextDecoder().decode(bytes));
+    if (kind !== "signal") {
+      const got = await shapeOf(ask, this.about.schema, /** @type {any} */ (kind), file.name, bytes);
+      if (got) this.panel.place(got.shape);
+      return;
+    }
+    const { scenario, rpm } = this.side.opened, found = await judged(ask, file.name, bytes, this.about.bearings, { bearing: scenario.bearing?.preset ?? "", rpm });
+    if (!found) return;
+    const beside = (/** @type {boolean} */ on) => {
+      this.measured = on ? found : null;
+      this.#dirty.add("curves");
+    };
+    showMeasured(found, file.name, { beside, close: () => {
+      beside(false);
+      byId("measured").hidden = true;
+    } });
+  }
+
+  get #name() { return this.side.opened?.scenario.name ?? "scenario"; }
+
+  /** What is refused is neither saved nor shared: the fields would say one thing and the file another. */
+  #isRefused() {
+    if (!this.side.problems.length) return false;
+    notice("failed", "The scenario as it stands is refused, so the last good one runs. Correct it or undo, then save or share it.", { bad: true });
+    return true;
+  }
+
+  #saveToml() { if (!this.#isRefused()) download(new Blob([this.side.opened.toml], { type: "application/toml" }), `${this.#name}.toml`); }
+
+  /** What is saved is a run from t = 0. @param {"csv" | "wav" | "npz"} format */
+  async #save(format) {
+    const side = this.side;
+    if (this.#isRefused()) return;
+    try {
+      if (!(await side.finished())) return notice("failed", "The run was left before its end, so nothing was saved.", { bad: true });
+      const { name, type, bytes } = await side.live.ask({ do: "save", format });
+      download(new Blob([bytes], { type }), name);
+    } catch (error) {
+      this.#failed(error);
+    }
+  }
+
+  /** @param {"svg" | "png"} format */
+  async #pictures(format) {
+    const views = [...document.querySelectorAll("#curves brinell-curve"), this.bearing, this.passage];
+    for (const [k, view] of views.entries()) {
+      if (!view?.toSVG) continue;
+      try {
+        const name = `${this.#name}-${VIEWS[k] ?? view.localName.replace("brinell-", "")}.${format}`;
+        download(format === "svg" ? new Blob([await view.toSVG()], { type: "image/svg+xml" }) : await view.toPNG(), name);
+      } catch {
+        // A view without data has no picture.
+      }
+    }
+  }
+
+  async #share() {
+    if (this.#isRefused()) return;
+    const { toml } = this.side.opened, link = await toLink(toml);
+    if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
+      { actions: [["Save the scenario", () => this.#saveToml()]] });
+    history.replaceState(null, "", link);
+    // Without the token of `brinell studio`, which is nobody else's.
+    const address = location.href.replace(location.search, "");
+    const field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
+    const whose = location.search ? " It opens where this server runs; behind the address of another studio, what follows # is enough." : "";
+    let words = `A link to this bearing:${whose}`;
+    try {
+      await navigator.clipboard.writeText(address);
+      words = `The link to this bearing is copied:${whose}`;
+    } catch {
+      // The browser does not let the page write there: the link can be taken from the field.
+    }
+    notice("link", h("p", {}, words));
+    document.querySelector('[data-kind="link"] p')?.after(field);
+    field.select();
+  }
+}
+
+async function main() {
+  const studio = new Studio();
+  // For tests and for the console.
+  Object.assign(globalThis, { brinellStudio: studio });
+  try {
+    await studio.begin(await engines());
+  } catch (error) {
+    const state = byId("state");
+    state.textContent = error instanceof NoWasm ? "no WebAssembly" : "no engine";
+    state.dataset.state = "lost";
+    notice("engine", `${error instanceof Error ? error.message : error}. The command \`brinell studio\` runs the same page with its own engine.`,
+      { bad: true, stays: true });
+  }
+}
+
+main();

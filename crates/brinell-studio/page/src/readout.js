@@ -1,0 +1,91 @@
+// Words and numbers below the views: indicators with their intervals, the verdict, and how the run is going.
+import { byId, h, short, spelled } from "./dom.js";
+
+/** @typedef {import("./side.js").Side} Side */
+
+const QUIET_MS = 3500;
+
+/** @param {string} name @param {string} value @param {string} [title] */
+const pair = (name, value, title) => h("div", { title }, h("dt", {}, name), h("dd", {}, value));
+
+// Of a finished run, which has all channels: those of the sensor's axis, by the ends of their names.
+const RUN = [["rms", "RMS"], ["peak", "peak"], ["crest_factor", "crest factor"], ["kurtosis", "kurtosis"]], MOST = 7;
+
+/** Quantities and what they are called here. @param {any[]} list @param {string} axis @returns {[any, string][]} */
+function named(list, axis) {
+  const run = RUN.map(([end, words]) => [list.find((q) => q.name === `${axis}.${end}`), words]).filter(([q]) => q);
+  if (!run.length) return list.slice(0, MOST).map((q) => [q, q.name]);
+  const hz = list.filter((q) => /^defect\d+\.frequency$/.test(q.name) && q.value !== null).map((q) => [q, `frequency of damage ${/\d+/.exec(q.name)}`]);
+  return /** @type {[any, string][]} */ ([...run, ...hz].slice(0, MOST));
+}
+
+/** A number without a unit has the unit 1, which is not written. @param {string} unit */
+const written = (unit) => (unit && unit !== "1" ? ` ${spelled(unit)}` : "");
+
+/** @param {Side} side */
+function figures(side) {
+  const list = side.indicators?.quantities, unit = spelled(side.opened?.unit ?? "");
+  if (list?.length) {
+    return named(list, side.opened?.axis).map(([q, words]) => {
+      const known = (/** @type {any} */ v) => v !== null && v !== undefined;
+      const interval = known(q.low) && known(q.high) && q.low !== q.high ? ` (${short(q.low)} to ${short(q.high)})` : "";
+      return pair(words, `${short(q.value)}${written(q.unit)}${interval}`, q.meaning);
+    });
+  }
+  const m = side.moments;
+  if (!m) return [];
+  return [pair("RMS", `${short(m.rms)} ${unit}`), pair("peak", `${short(m.peak)} ${unit}`), pair("crest factor", short(m.crest)), pair("kurtosis", short(m.kurtosis))];
+}
+
+/** How a bearing's run stands, in words. @param {Side} side */
+function standing(side) {
+  const { live, opened, moments } = side;
+  if (live.state === "done") return `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
+  const settled = side.indicators?.settled && live.state === "live" ? "" : live.state === "live" || live.state === "paused" ? ", settling" : "";
+  return `${opened ? "live" : ""}${moments ? `, ${moments.samples} samples` : ""}${settled}`;
+}
+
+/** @param {HTMLElement} root @param {Side[]} sides the one that is shown first */
+export function readout(root, sides) {
+  const several = sides.length > 1;
+  root.classList.toggle("several", several);
+  root.replaceChildren(...sides.flatMap((side) => [
+    h("span", { className: "headline" }, several ? h("span", { className: "name" }, side.name) : null,
+      side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
+    h("span", { className: "note" },
+      [standing(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
+        side.took ? `edit in ${Math.round(side.took)} ms` : ""].filter(Boolean).join(" · ")),
+    h("dl", {}, ...figures(side)),
+  ]));
+}
+
+let spoken = "", last = -Infinity, timer = 0;
+
+/** Says it to a screen reader, politely: not again and again, and only the newest. @param {string} words */
+export function speak(words) {
+  if (words === spoken) return;
+  spoken = words;
+  clearTimeout(timer);
+  timer = setTimeout(() => {
+    last = performance.now();
+    byId("live").textContent = words;
+  }, Math.max(150, QUIET_MS - (performance.now() - last)));
+}
+
+/**
+ * A line above the damage. One of a kind at a time; null takes it away.
+ * @param {string} kind
+ * @param {string | Node | null} words
+ * @param {{bad?: boolean, actions?: [string, () => void][], stays?: boolean}} [more]
+ */
+export function notice(kind, words, { bad = false, actions = [], stays = false } = {}) {
+  const root = byId("notices"), old = root.querySelector(`[data-kind="${kind}"]`);
+  if (words === null) return void old?.remove();
+  if (old && typeof words === "string" && old.querySelector("p")?.textContent === words) return;
+  const node = h("div", { className: bad ? "notice bad" : "notice", "data-kind": kind, role: bad ? "alert" : "status" },
+    typeof words === "string" ? h("p", {}, words) : words,
+    ...actions.map(([text, act]) => h("button", { type: "button", onclick: () => { node.remove(); act(); } }, text)),
+    stays ? null : h("button", { type: "button", "aria-label": "Close this notice", onclick: () => node.remove() }, "×"));
+  if (old) old.replaceWith(node);
+  else root.append(node);
+}

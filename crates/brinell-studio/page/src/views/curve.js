@@ -1,0 +1,495 @@
+// <brinell-curve kind="waveform|spectrum|envelope">: a curve with the healthy bearing behind it, zoom, cursor, marks and a table.
+import { element, fill, seldom, View } from "./view.js";
+import { sheet } from "./theme.js";
+import { breadth, font } from "./pen.js";
+import { makePlot, paintAxes, plotSheet, ROOM } from "./plot.js";
+import { Limit, short, ticks, unitText } from "./scale.js";
+import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, tracePath } from "./trace.js";
+
+/** @typedef {import("./trace.js").Curve} Curve */
+/** @typedef {import("./trace.js").Line} Line */
+/**
+ * @typedef {Curve & { unit: string, lines?: Line[], band_hz?: [number, number] | null, behind?: Curve | null, second?: Curve | null, names?: string[] }} CurveData
+ * x in s or Hz; `behind` the healthy bearing, `second` the bearing B
+ */
+
+const TITLES = { waveform: "Waveform", spectrum: "Spectrum", envelope: "Envelope spectrum" };
+const SHORT = { ...TITLES, envelope: "Envelope" };
+const HELP = "Arrow keys move the cursor, Shift moves it further, Page up and Page down go along the marked lines, plus and minus zoom, 0 shows everything again";
+/** The logarithmic axis shows this much, dB. */
+const DEPTH = 80;
+/** The pointer finds the highest value of a spectrum within this, px. */
+const SNAP = 4;
+/** The envelope opens on so many multiples of the highest nominal frequency. */
+const ENVELOPE_ORDERS = 5.6;
+
+const own = sheet(`
+:host { display: flex; flex-direction: column; }
+.plot { position: relative; flex: 1 0 var(--plot-height, 180px); border-radius: 4px; }
+.plot:focus-visible { outline-offset: -1px; }
+.empty { position: absolute; inset: 0; display: grid; place-items: center; color: var(--_faint); pointer-events: none; }
+.cursor { position: absolute; width: 0; border-left: 1px solid var(--_ink); pointer-events: none; opacity: 0.6; }
+.dot { position: absolute; width: 7px; height: 7px; margin: -3.5px; border-radius: 50%; background: var(--_ink); pointer-events: none; }
+.end { margin-left: auto; }
+.key { font-size: 12px; color: var(--_faint); white-space: nowrap; }
+.key::before { content: ""; display: inline-block; width: 14px; height: 0; margin-right: 5px; vertical-align: middle; border-top: 2px solid var(--mark); }
+`);
+
+export class BrinellCurve extends View {
+  static observedAttributes = ["kind"];
+
+  constructor() {
+    super(own);
+    this.root.adoptedStyleSheets.push(plotSheet);
+    /** @type {CurveData | null} */
+    this.held = null;
+    /** Ends of the zoom counted from the curve's start; null shows the home view. @type {[number, number] | null} */
+    this.zoomed = null;
+    /** Where the cursor stands, counted from the curve's start. @type {number | null} */
+    this.place = null;
+    this.log = false;
+    this.limit = new Limit();
+    /** @type {[number, number]} */
+    this.view = [0, 1];
+    /** @type {[number, number]} */
+    this.range = [0, 1];
+    /** Where the curves end below. */
+    this.least = 0;
+    this.redraws = { count: 0, ms: 0 };
+    this.begun = 0;
+    this.entitled = "";
+    /** @type {ReturnType<typeof makePlot> | null} */
+    this.plot = null;
+    this.table = /** @type {HTMLTableElement} */ (element("table"));
+    this.build();
+    this.tellSoon = seldom(1000, () => this.describe());
+    this.tableSoon = seldom(400, () => this.tabulate());
+    this.speakSoon = seldom(300, () => { this.said.textContent = this.readout.textContent; });
+  }
+
+  build() {
+    this.name = element("span", { class: "title" });
+    this.readout = element("span", { class: "readout" });
+    this.keys = element("span", { class: "tools" });
+    this.scaleButton = element("button", { type: "button", "aria-pressed": "false", title: "Logarithmic axis, dB (key L)" }, "dB");
+    this.allButton = element("button", { type: "button", title: "Everything that there is" }, "All");
+    this.resetButton = element("button", { type: "button", title: "Back to the first view (key 0, double click)", hidden: "" }, "Reset");
+    this.box = element("div", { class: "plot", tabindex: "0", role: "application", "aria-roledescription": "plot", "aria-description": HELP });
+    this.empty = element("div", { class: "empty" }, "waiting for samples");
+    this.line = element("div", { class: "cursor", hidden: "" });
+    this.dot = element("div", { class: "dot", hidden: "" });
+    this.said = element("div", { class: "hidden", role: "status" });
+    this.details = element("details", {}, element("summary", {}, "Values"),
+      element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Values" }, this.table));
+    const tools = element("span", { class: "tools end" }, this.resetButton, this.scaleButton, this.allButton);
+    this.box.append(this.empty, this.line, this.dot);
+    this.root.append(element("div", { class: "head" }, this.name, this.keys, tools), this.box, element("div", { class: "foot" }, this.details, this.readout), this.said);
+    this.scaleButton.addEventListener("click", () => this.setLog(!this.log));
+    this.allButton.addEventListener("click", () => this.zoom(this.full()));
+    this.resetButton.addEventListener("click", () => this.zoom(null));
+    this.details.addEventListener("toggle", () => this.tabulate());
+    this.box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.key(event));
+    this.box.addEventListener("blur", () => this.point(null));
+  }
+
+  connectedCallback() {
+    super.connectedCallback();
+    this.sizes.observe(this.box);
+    this.entitle();
+  }
+  disconnectedCallback() {
+    super.disconnectedCallback();
+    this.plot?.destroy();
+    this.plot = null;
+  }
+  attributeChangedCallback() { this.entitle(); this.limit = new Limit(); this.requestDraw(); }
+
+  /** @returns {"waveform" | "spectrum" | "envelope"} */
+  get kind() {
+    const kind = this.getAttribute("kind");
+    return kind === "spectrum" || kind === "envelope" ? kind : "waveform";
+  }
+  set kind(kind) { this.setAttribute("kind", kind); }
+  /** @returns {CurveData | null} */
+  get data() { return this.held; }
+  set data(data) {
+    const usable = data && data.values?.length > 1 && data.dx > 0 ? data : null;
+    // Another spacing is another axis: what was zoomed stays only where it still fits.
+    this.held = usable;
+    if (usable && this.zoomed && this.zoomed[0] >= usable.dx * (usable.values.length - 1)) this.zoomed = null;
+    this.requestDraw();
+  }
+
+  entitle() {
+    this.scaleButton.hidden = this.kind === "waveform";
+    this.allButton.hidden = this.kind !== "envelope";
+    if (this.kind === "waveform") this.log = false;
+    this.name.replaceChildren(SHORT[this.kind], " ", element("span", { class: "unit" }, this.unit()));
+    this.tellSoon?.();
+  }
+  /** What the two curves are called. @param {CurveData} data @param {0 | 1} which */
+  named(data, which) { return data.names?.[which] ?? (which ? "B" : "A"); }
+  unit() { return this.held ? (this.log ? `dB re 1 ${unitText(this.held.unit)}` : unitText(this.held.unit)) : ""; }
+  /** @param {boolean} on */
+  setLog(on) {
+    if (this.kind === "waveform") return;
+    this.log = on;
+    this.scaleButton.setAttribute("aria-pressed", String(on));
+    this.limit = new Limit();
+    this.requestDraw();
+  }
+
+  // --- what is shown -------------------------------------------------------------------------------------------------------------------
+  /** From the curve's start. @returns {[number, number]} */
+  full() { return this.held ? [0, this.held.dx * (this.held.values.length - 1)] : [0, 1]; }
+  /** @returns {[number, number]} */
+  home() {
+    const full = this.full();
+    if (this.kind !== "envelope" || !this.held?.lines?.length) return full;
+    const reach = ENVELOPE_ORDERS * Math.max(...this.held.lines.map((line) => line.nominal_hz).filter(Number.isFinite));
+    return reach > 0 ? [0, Math.min(full[1], reach)] : full;
+  }
+  /** Shows from one place to another, counted from the curve's start; null is the home view. @param {[number, number] | null} span */
+  zoom(span) {
+    if (!this.held) return;
+    const full = this.full();
+    if (span) {
+      const width = Math.min(Math.max(span[1] - span[0], 8 * this.held.dx), full[1]);
+      const middle = Math.min(Math.max((span[0] + span[1]) / 2, width / 2), full[1] - width / 2);
+      span = [middle - width / 2, middle + width / 2];
+      const home = this.home();
+      if (Math.abs(span[0] - home[0]) + Math.abs(span[1] - home[1]) < 1e-6 * full[1]) span = null;
+    }
+    this.zoomed = span;
+    this.requestDraw();
+    this.dispatchEvent(new CustomEvent("zoom", { detail: span }));
+  }
+  /** @param {number} factor @param {number} at counted from the start */
+  zoomAround(factor, at) {
+    const [from, to] = this.shown();
+    this.zoom([at - (at - from) * factor, at + (to - at) * factor]);
+  }
+  /** What is shown, counted from the curve's start. @returns {[number, number]} */
+  shown() { return this.zoomed ?? this.home(); }
+
+  /** Axes for what is shown. @param {CurveData} data @param {number} width px @param {number} height px @returns {import("./plot.js").Axes} */
+  axes(data, width, height) {
+    const [from, to] = this.shown();
+    this.view = [data.x0 + from, data.x0 + to];
+    const curves = [data, data.second].filter((c) => !!c?.values?.length),
+      room = this.kind === "envelope" ? labelRoom(data.lines ?? []) : this.kind === "spectrum" && data.band_hz ? 14 : 0;
+    let most = 0;
+    for (const curve of /** @type {Curve[]} */ (curves)) {
+      const [first, last] = part(curve, this.view);
+      for (let i = first; i <= last; i++) { const v = Math.abs(curve.values[i]); if (v > most) most = v; }
+    }
+    // Labels stand above the curves, nominal frequencies below.
+    const strip = this.kind === "envelope" && data.lines?.length ? STRIP : 0, tall = Math.max(0.4 * height, height - room - strip);
+    const top = this.log ? 10 * Math.ceil(decibel(most || 1) / 10) : this.limit.hold(most), least = this.log ? top - DEPTH : this.kind === "waveform" ? -top : 0,
+      px = (top - least) / tall;
+    this.least = least;
+    this.range = [least - strip * px, top + room * px];
+    const [unit, per] = this.xUnit(data),
+      xTicks = ticks(this.view[0] * per, this.view[1] * per, Math.min(10, width / 68)).map(([v, label]) => /** @type {[number, string]} */ ([v / per, label]));
+    if (xTicks.length) xTicks[xTicks.length - 1][1] += ` ${unit}`;
+    const yTicks = ticks(least, top, Math.max(2, Math.min(6, tall / 28)));
+    return { x: this.view, y: this.range, xTicks, yTicks };
+  }
+  /** Unit of the x axis and how many of it are in one s or Hz. @param {CurveData} data @returns {[string, number]} */
+  xUnit(data) {
+    if (this.kind === "waveform") return this.view[1] - this.view[0] < 0.8 && data.x0 < 20 ? ["ms", 1000] : ["s", 1];
+    return this.view[1] > 4000 ? ["kHz", 0.001] : ["Hz", 1];
+  }
+
+  draw() {
+    const data = this.held;
+    this.empty.hidden = !!data;
+    this.entitleOnce();
+    if (!data && this.place !== null) this.point(null);
+    if (!this.box.clientWidth || !this.box.clientHeight) return;
+    this.plot ??= this.makePlot();
+    this.begun = performance.now();
+    const room = ROOM;
+    const axes = data ? this.axes(data, this.box.clientWidth - room.left - room.right, this.box.clientHeight - room.top - room.bottom)
+      : { x: /** @type {[number, number]} */ ([0, 1]), y: /** @type {[number, number]} */ ([0, 1]), xTicks: [], yTicks: [] };
+    this.plot.draw(axes);
+    this.resetButton.hidden = !this.zoomed;
+    if (this.place !== null) this.read();
+    this.tellSoon();
+    if (this.details.open) this.tableSoon();
+  }
+  entitleOnce() {
+    const data = this.held, key = `${this.kind} ${this.unit()} ${!!data?.behind} ${!!data?.second}`;
+    if (key === this.entitled) return;
+    this.entitled = key;
+    this.entitle();
+    this.keys.replaceChildren(...this.legend().map(([word, mark]) => {
+      const key = element("span", { class: "key" }, word);
+      key.style.setProperty("--mark", `var(--_${mark})`);
+      return key;
+    }));
+  }
+  /** Names of the curves and their colours. */
+  legend() {
+    const data = this.held, keys = /** @type {[string, keyof import("./theme.js").Colours][]} */ ([]);
+    if (data?.second) keys.push([this.named(data, 0), "blue"], [this.named(data, 1), "second"]);
+    if (data?.behind) keys.push(["healthy", "healthy"]);
+    return keys;
+  }
+  makePlot() {
+    const plot = makePlot(this.box, () => this.colours, (pen, frame) => {
+      if (!this.held) return;
+      this.paint(pen, frame, this.colours);
+      this.redraws.count++;
+      this.redraws.ms += performance.now() - this.begun;
+    });
+    this.listen(plot.over);
+    this.box.append(this.line, this.dot, this.empty);
+    return plot;
+  }
+  /** @param {import("./plot.js").Frame} frame @returns {import("./trace.js").Space} */
+  space(frame) {
+    const { view, range } = this, { left, top, width, height } = frame, kx = width / (view[1] - view[0]), ky = height / (range[1] - range[0]), bottom = top + height;
+    const Y = this.log ? (/** @type {number} */ v) => bottom - (Math.max(decibel(v), this.least) - range[0]) * ky
+      : (/** @type {number} */ v) => bottom - (v - range[0]) * ky;
+    return { X: (v) => left + (v - view[0]) * kx, Y, frame, view };
+  }
+  /** @param {import("./pen.js").Pen} pen @param {import("./plot.js").Frame} frame @param {import("./theme.js").Colours} colours */
+  paint(pen, frame, colours) {
+    const data = this.held;
+    if (!data) return;
+    const space = this.space(frame), peaks = this.kind !== "waveform", { left, top, width, height } = frame;
+    pen.save();
+    pen.beginPath();
+    pen.rect(left, top, width, height);
+    pen.clip();
+    if (this.kind === "spectrum" && data.band_hz) paintBand(pen, data.band_hz, space, colours);
+    if (data.behind) trace(pen, data.behind, space, peaks, colours.healthy, 1);
+    if (peaks && !this.log && !data.second) this.wash(pen, data, space, colours);
+    trace(pen, data, space, peaks, colours.blue, 1);
+    if (data.second) trace(pen, data.second, space, peaks, colours.second, 1, 0.9);
+    pen.strokeStyle = colours.frame;
+    pen.lineWidth = 1;
+    pen.beginPath();
+    const base = top + height * (1 - (this.least - this.range[0]) / (this.range[1] - this.range[0])), zero = this.kind === "waveform" ? space.Y(0) : base - 0.5;
+    pen.moveTo(left, zero);
+    pen.lineTo(left + width, zero);
+    pen.globalAlpha = this.kind === "waveform" ? 0.35 : 1;
+    pen.stroke();
+    pen.globalAlpha = 1;
+    if (this.kind === "envelope") paintLines(pen, data.lines ?? [], space, base, colours);
+    pen.restore();
+  }
+  /** @param {import("./pen.js").Pen} pen @param {Curve} curve @param {import("./trace.js").Space} space @param {import("./theme.js").Colours} colours */
+  wash(pen, curve, space, colours) {
+    tracePath(pen, curve, space, true);
+    const [first, last] = part(curve, space.view), bottom = space.Y(0);
+    pen.lineTo(space.X(curve.x0 + last * curve.dx), bottom);
+    pen.lineTo(space.X(curve.x0 + first * curve.dx), bottom);
+    pen.globalAlpha = 0.09;
+    pen.fillStyle = colours.blue;
+    pen.fill();
+    pen.globalAlpha = 1;
+  }
+
+  // --- cursor, pointer, keys -----------------------------------------------------------------------------------------------------------
+  /** The sample at a place; of spectra the highest one within so many pixels. @param {Curve} curve @param {number} x @param {number} [snap] */
+  sample(curve, x, snap = 0) {
+    const last = curve.values.length - 1, nearest = Math.min(Math.max(Math.round((x - curve.x0) / curve.dx), 0), last);
+    if (!snap || this.kind === "waveform" || !this.plot) return nearest;
+    const reach = Math.ceil(snap * (this.view[1] - this.view[0]) / this.plot.frame().width / curve.dx);
+    let best = nearest;
+    for (let i = Math.max(0, nearest - reach); i <= Math.min(last, nearest + reach); i++) if (curve.values[i] > curve.values[best]) best = i;
+    return best;
+  }
+  /** Puts the cursor at a place counted from the start, or takes it away. @param {number | null} place @param {number} [snap] px */
+  point(place, snap = 0) {
+    const data = this.held;
+    if (place === null || !data) {
+      this.place = null;
+      this.line.hidden = this.dot.hidden = true;
+      this.readout.textContent = "";
+      return;
+    }
+    this.place = this.sample(data, data.x0 + place, snap) * data.dx;
+    this.read();
+  }
+  read() {
+    const data = this.held, plot = this.plot;
+    if (!data || !plot || this.place === null) return;
+    const frame = plot.frame(), space = this.space(frame), index = this.sample(data, data.x0 + this.place), x = data.x0 + index * data.dx, px = space.X(x);
+    const inside = px >= frame.left - 0.5 && px <= frame.left + frame.width + 0.5;
+    this.line.hidden = this.dot.hidden = !inside;
+    this.line.style.cssText = `left:${px}px;top:${frame.top}px;height:${frame.height}px`;
+    this.dot.style.cssText = `left:${px}px;top:${Math.min(Math.max(space.Y(data.values[index]), frame.top), frame.top + frame.height)}px`;
+    this.readout.textContent = this.words(data, x, index);
+    this.readout.title = this.readout.textContent;
+  }
+  /** @param {CurveData} data @param {number} x @param {number} index */
+  words(data, x, index) {
+    const unit = unitText(data.unit), wave = this.kind === "waveform",
+      value = (/** @type {number} */ v) => `${short(v, 4)} ${unit}${this.log ? ` (${decibel(v).toFixed(1).replace("-", "−")} dB)` : ""}`;
+    const other = (/** @type {Curve | null | undefined} */ curve, /** @type {string} */ name) => (curve?.values?.length
+      ? ` · ${name} ${short(curve.values[this.sample(curve, x)], 3)}` : "");
+    const near = wave ? "" : this.near(data, x);
+    return `${wave ? `${(1000 * x).toFixed(2)} ms` : `${short(x, 5)} Hz`} · ${value(data.values[index])}${other(data.second, this.named(data, 1))}${other(data.behind, "healthy")}${near}`;
+  }
+  /** @param {CurveData} data @param {number} x */
+  near(data, x) {
+    const limit = Math.max(data.dx, 5 * (this.view[1] - this.view[0]) / Math.max(this.box.clientWidth, 100));
+    const names = this.marked(data).filter((m) => Math.abs(m.x - x) <= limit).map((m) => m.name);
+    return names.length ? ` · ${names.slice(0, 2).join(", ")}` : "";
+  }
+  /** Every marked line. @param {CurveData} data */
+  marked(data) {
+    return (data.lines ?? []).flatMap((line) => (line.found ? orders(line).map((k) => ({ name: k === 1 ? line.name : `${line.name} ×${k}`, x: k * line.hz, k, line }))
+      : [{ name: line.name, x: line.nominal_hz, k: 1, line }]));
+  }
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    const data = this.held;
+    if (!data || event.ctrlKey || event.metaKey || event.altKey) return;
+    const [from, to] = this.shown(), stride = Math.max((to - from) / 200, data.dx) * (event.shiftKey ? 10 : 1), at = this.place ?? (from + to) / 2;
+    /** @type {Record<string, () => void>} */
+    const acts = {
+      ArrowLeft: () => this.go(at - stride), ArrowRight: () => this.go(at + stride), Home: () => this.go(from), End: () => this.go(to),
+      PageDown: () => this.leap(1), PageUp: () => this.leap(-1), "+": () => this.zoomAround(0.5, at), "=": () => this.zoomAround(0.5, at),
+        "-": () => this.zoomAround(2, at), _: () => this.zoomAround(2, at),
+      0: () => this.zoom(null), l: () => this.setLog(!this.log), L: () => this.setLog(!this.log),
+    };
+    if (event.key === "Escape" && (this.zoomed || this.place !== null)) { this.zoom(null); this.point(null); return; }
+    const act = acts[event.key];
+    if (!act) return;
+    event.preventDefault();
+    event.stopPropagation();
+    act();
+  }
+  /** Moves the cursor, and the view with it. @param {number} place */
+  go(place) {
+    const [from, to] = this.shown(), [low, high] = this.full(), at = Math.min(Math.max(place, low), high);
+    if (at < from) this.zoom([at, at + to - from]);
+    else if (at > to) this.zoom([at - (to - from), at]);
+    this.point(at);
+    this.speakSoon();
+  }
+  /** To the next marked line. @param {1 | -1} way */
+  leap(way) {
+    const data = this.held;
+    if (!data) return;
+    const at = data.x0 + (this.place ?? -Infinity), list = this.marked(data).map((m) => m.x - data.x0).sort((a, b) => a - b), gap = 1.5 * data.dx;
+    const next = way > 0 ? list.find((x) => x > at - data.x0 + gap) : list.findLast((x) => x < at - data.x0 - gap);
+    if (next !== undefined) this.go(next);
+  }
+  /** @param {HTMLElement} over */
+  listen(over) {
+    const width = () => over.clientWidth || 1, px = (/** @type {PointerEvent | WheelEvent} */ e) => e.clientX - over.getBoundingClientRect().left;
+    const at = (/** @type {number} */ x) => { const [from, to] = this.shown(); return from + (to - from) * Math.min(Math.max(x / width(), 0), 1); };
+    /** @type {Map<number, number>} */
+    const fingers = new Map();
+    /** @type {number | null} */
+    let start = null;
+    /** @type {number[] | null} */
+    let pinch = null;
+    const spread = () => [...fingers.values()].sort((a, b) => a - b);
+    over.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      fingers.set(event.pointerId, px(event));
+      try { over.setPointerCapture(event.pointerId); } catch { /* gone already */ }
+      if (fingers.size === 2) { pinch = spread().map(at); start = null; this.plot?.shade(null); } else start = px(event);
+    });
+    over.addEventListener("pointermove", (event) => {
+      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, px(event));
+      const [a, b] = spread();
+      if (pinch && fingers.size === 2 && b - a > 12) {
+        // Two fingers keep what is under them.
+        const per = (pinch[1] - pinch[0]) / (b - a), from = pinch[0] - a * per;
+        this.zoom([from, from + width() * per]);
+      } else if (start !== null && Math.abs(px(event) - start) > 4) this.plot?.shade([start, Math.min(Math.max(px(event), 0), width())]);
+      if (!pinch) this.point(at(px(event)), SNAP);
+    });
+    const lift = (/** @type {PointerEvent} */ event) => {
+      fingers.delete(event.pointerId);
+      this.plot?.shade(null);
+      if (pinch) { if (!fingers.size) pinch = null; return; }
+      const begun = start;
+      start = null;
+      if (begun !== null && event.type === "pointerup" && Math.abs(px(event) - begun) > 6) this.zoom([at(Math.min(begun, px(event))), at(Math.max(begun, px(event)))]);
+    };
+    over.addEventListener("pointerup", lift);
+    over.addEventListener("pointercancel", lift);
+    over.addEventListener("pointerleave", () => { if (start === null && this.root.activeElement !== this.box) this.point(null); });
+    over.addEventListener("dblclick", () => this.zoom(null));
+    over.addEventListener("wheel", (event) => {
+      const [from, to] = this.shown();
+      if (event.ctrlKey || event.metaKey) this.zoomAround(Math.exp(Math.max(-1, Math.min(1, event.deltaY * 0.004))), at(px(event)));
+      else if (this.zoomed && Math.abs(event.deltaX) > Math.abs(event.deltaY)) { const by = (to - from) * event.deltaX / width();
+        this.zoom([from + by, to + by]); } else return;
+      event.preventDefault();
+    }, { passive: false });
+  }
+
+  // --- words, table, export ------------------------------------------------------------------------------------------------------------
+  sentence() {
+    const data = this.held, title = `${TITLES[this.kind]}${data ? `, ${this.unit()}` : ""}`;
+    if (!data) return `${title}: waiting for samples`;
+    const [unit, per] = this.xUnit(data), ends = this.view.map((v) => short(v * per, 4));
+    const found = this.kind !== "envelope" ? [] : (data.lines ?? []).filter((line) => line.found)
+      .map((line) => `${line.name} at ${short(line.hz, 4)} Hz, nominal ${short(line.nominal_hz, 4)} Hz, ${line.harmonics} harmonics, ${short(line.over_noise_db, 3)} dB above the noise`);
+    return `${title}. ${found.length ? `${found.join("; ")}. ` : this.kind === "envelope" && data.lines?.length ? "No frequency of the bearing is found. " : ""}Shown: ${ends[0]} to ${ends[1]} ${unit}.`;
+  }
+  describe() {
+    const text = this.sentence();
+    if (this.box.getAttribute("aria-label") !== text) this.box.setAttribute("aria-label", text);
+  }
+  tabulate() {
+    const data = this.held;
+    if (!data || !this.details.open) return;
+    const unit = unitText(data.unit),
+      read = (/** @type {Curve | null | undefined} */ curve, /** @type {number} */ x) => (curve?.values?.length ? short(curve.values[this.sample(curve, x)], 4) : "");
+    const others = /** @type {[string, Curve][]} */ ([[this.named(data, 1), data.second], ["healthy", data.behind]].filter(([, curve]) => curve));
+    const heads = others.map(([name]) => `${name}, ${unit}`);
+    if (this.kind === "waveform" || !data.lines?.length) {
+      const [from, to] = this.view, wave = this.kind === "waveform", xs = Array.from({ length: 21 }, (_, k) => from + (to - from) * k / 20);
+      fill(this.table, [wave ? "t, ms" : "Hz", `value, ${unit}`, ...heads],
+        xs.map((x) => [wave ? short(1000 * x, 6) : short(x, 5), read(data, x), ...others.map(([, curve]) => read(curve, x))]));
+      return;
+    }
+    const rows = this.marked(data).map(({ name, x, k, line }) => {
+      const first = k === 1;
+      return [name, short(x, 5), short(k * line.nominal_hz, 5), read(data, x), ...others.map(([, curve]) => read(curve, x)),
+        first ? (line.found ? "found" : "not found") : "", first && line.found ? short(line.over_noise_db, 3) : ""];
+    });
+    fill(this.table, ["line", "Hz", "nominal, Hz", `value, ${unit}`, ...heads, "state", "above noise, dB"], rows);
+  }
+  picture() {
+    const width = Math.max(480, this.clientWidth), height = Math.max(240, this.box.clientHeight + 30), data = this.held;
+    const paint = (/** @type {import("./pen.js").Pen} */ pen, /** @type {import("./theme.js").Colours} */ colours) => {
+      const frame = { left: ROOM.left + 6, top: 32, width: width - ROOM.left - 6 - ROOM.right - 8, height: height - 32 - ROOM.bottom - 6 };
+      pen.fillStyle = colours.ink;
+      pen.font = font(13, 600);
+      pen.fillText(`${TITLES[this.kind]}, ${this.unit()}`, 10, 18);
+      pen.font = font(11);
+      let x = width - 24;
+      for (const [word, mark] of this.legend().reverse()) {
+        x -= breadth(word, 11);
+        pen.fillStyle = colours.faint;
+        pen.fillText(word, x, 18);
+        pen.beginPath();
+        pen.rect(x - 18, 13, 13, 2);
+        pen.fillStyle = colours[mark];
+        pen.fill();
+        x -= 30;
+      }
+      const view = this.view, range = this.range;
+      if (data) {
+        const axes = this.axes(data, frame.width, frame.height);
+        paintAxes(pen, frame, axes, colours);
+        this.paint(pen, frame, colours);
+      }
+      this.view = view;
+      this.range = range;
+    };
+    return { width, height, title: this.sentence(), paint };
+  }
+}
+customElements.define("brinell-curve", BrinellCurve);

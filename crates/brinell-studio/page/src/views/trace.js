@@ -1,0 +1,165 @@
+// Draws a curve, and the marks of the bearing's frequencies over it.
+import { breadth, font } from "./pen.js";
+
+/** @typedef {import("./pen.js").Pen} Pen */
+/** @typedef {import("./theme.js").Colours} Colours */
+/** @typedef {import("./plot.js").Frame} Frame */
+/** @typedef {{ x0: number, dx: number, values: Float32Array }} Curve values at x0, x0 + dx, ... */
+/** @typedef {{ name: string, hz: number, nominal_hz: number, found: boolean, harmonics: number, over_noise_db: number }} Line */
+/** @typedef {{ X: (v: number) => number, Y: (v: number) => number, frame: Frame, view: [number, number] }} Space from values to px */
+
+/** dB of a value against one unit; for the logarithmic axis. @param {number} v */
+export const decibel = (v) => 20 * Math.log10(Math.max(v, 1e-30));
+
+/** First and last index of a curve that a view needs, with one beyond each end. @param {Curve} curve @param {[number, number]} view */
+export function part(curve, view) {
+  const last = curve.values.length - 1;
+  return [Math.max(0, Math.floor((view[0] - curve.x0) / curve.dx)), Math.min(last, Math.ceil((view[1] - curve.x0) / curve.dx))];
+}
+
+/**
+ * The curve as a path: of each pixel column the smallest and the largest value, or with `peaks` the largest alone.
+ * @param {Pen} pen @param {Curve} curve @param {Space} space @param {boolean} peaks
+ */
+export function tracePath(pen, curve, space, peaks) {
+  const { values, x0, dx } = curve, { X, Y, view, frame } = space, [first, last] = part(curve, view);
+  if (last <= first) return;
+  const columns = 2 * frame.width, per = (last - first + 1) / columns;
+  pen.beginPath();
+  if (per <= (peaks ? 1.5 : 3)) {
+    for (let i = first; i <= last; i++) {
+      const x = X(x0 + i * dx), y = Y(values[i]);
+      if (i === first) pen.moveTo(x, y); else pen.lineTo(x, y);
+    }
+    return;
+  }
+  const group = Math.ceil(per);
+  // Groups start at fixed samples, so that a curve that is only moved keeps its shape.
+  for (let start = first - first % group; start <= last; start += group) {
+    let low = Infinity, high = -Infinity, lowFirst = true;
+    for (let i = Math.max(start, 0), end = Math.min(start + group, values.length); i < end; i++) {
+      const v = values[i];
+      if (v < low) { low = v; lowFirst = false; }
+      if (v > high) { high = v; lowFirst = true; }
+    }
+    if (!(high >= low)) continue;
+    const x = X(x0 + (start + (group - 1) / 2) * dx);
+    if (peaks) { pen.lineTo(x, Y(high)); continue; }
+    pen.lineTo(x, Y(lowFirst ? low : high));
+    pen.lineTo(x, Y(lowFirst ? high : low));
+  }
+}
+
+/** @param {Pen} pen @param {Curve} curve @param {Space} space @param {boolean} peaks @param {string} colour @param {number} width @param {number} [alpha] */
+export function trace(pen, curve, space, peaks, colour, width, alpha = 1) {
+  tracePath(pen, curve, space, peaks);
+  pen.globalAlpha = alpha;
+  pen.strokeStyle = colour;
+  pen.lineWidth = width;
+  // Other joins, and strokes wider than a pixel, make a dense curve several times dearer without a graphics card.
+  pen.lineJoin = "bevel";
+  pen.setLineDash([]);
+  pen.stroke();
+  pen.globalAlpha = 1;
+}
+
+/** Colour of a family of frequencies. @param {string} name @param {Colours} colours */
+export function familyColour(name, colours) {
+  const key = name.toLowerCase();
+  return key.startsWith("bpfo") ? colours.bpfo
+    : key.startsWith("bpfi") ? colours.bpfi : key.startsWith("bsf") ? colours.bsf : key.startsWith("ftf") ? colours.ftf : colours.text;
+}
+
+const DASHES = [[5, 3], [2, 2], [8, 2, 2, 2], [1, 3]];
+const LANE = 13;
+
+/** Which harmonics of a line are marked. @param {Line} line */
+export const orders = (line) => Array.from({ length: line.found ? Math.max(1, line.harmonics) : 0 }, (_, k) => k + 1);
+
+/** Height that the labels of found families need above the curves, px. @param {Line[]} lines */
+export const labelRoom = (lines) => LANE * Math.min(4, lines.filter((line) => line.found).length);
+
+/** The band that was demodulated. @param {Pen} pen @param {[number, number]} band @param {Space} space @param {Colours} colours */
+export function paintBand(pen, band, space, colours) {
+  const [from, to] = band.map(space.X), { top, height } = space.frame;
+  if (!(to > from)) return;
+  pen.globalAlpha = 0.1;
+  pen.fillStyle = colours.blue;
+  pen.beginPath();
+  pen.rect(from, top, to - from, height);
+  pen.fill();
+  pen.globalAlpha = 1;
+  pen.fillStyle = colours.faint;
+  pen.font = font(11);
+  const word = to - from > 150 ? "band of the envelope" : "band";
+  if (to - from > breadth(word, 11)) { pen.textAlign = "center"; pen.fillText(word, (from + to) / 2, top + 12); pen.textAlign = "start"; }
+}
+
+/**
+ * Found families with their harmonics above, nominal frequencies as hollow triangles below.
+ * @param {Pen} pen
+ * @param {Line[]} lines
+ * @param {Space} space
+ * @param {number} base where the curves end, px
+ * @param {Colours} colours
+ */
+export function paintLines(pen, lines, space, base, colours) {
+  const { frame, X } = space, right = frame.left + frame.width;
+  lines.filter((line) => line.found).slice(0, 4).forEach((line, lane) => {
+    const colour = familyColour(line.name, colours), y = frame.top + LANE * lane + 11;
+    let free = frame.left, named = false;
+    pen.lineWidth = 1.1;
+    for (const k of orders(line)) {
+      const x = X(k * line.hz);
+      if (x < frame.left || x > right) continue;
+      pen.strokeStyle = colour;
+      pen.globalAlpha = 0.75;
+      pen.setLineDash(DASHES[lane]);
+      pen.beginPath();
+      pen.moveTo(x, y - 9);
+      pen.lineTo(x, base);
+      pen.stroke();
+      pen.setLineDash([]);
+      pen.globalAlpha = 1;
+      // The first label in view names the family.
+      const label = k === 1 ? line.name : named ? `×${k}` : `${line.name} ×${k}`, wide = breadth(label, 11, named ? 500 : 700);
+      if (x + 3 < free || x + 3 + wide > right) continue;
+      pen.fillStyle = colour;
+      pen.font = font(11, named ? 500 : 700);
+      pen.fillText(label, x + 3, y);
+      free = x + 6 + wide;
+      named = true;
+    }
+  });
+  paintNominal(pen, lines, space, base, colours);
+}
+
+/** Height below the curves in which the nominal frequencies are marked, px. */
+export const STRIP = 14;
+
+/** @param {Pen} pen @param {Line[]} lines @param {Space} space @param {number} base where the curves end, px @param {Colours} colours */
+function paintNominal(pen, lines, space, base, colours) {
+  const { frame, X } = space, right = frame.left + frame.width;
+  const marks = lines.map((line) => ({ line, x: X(line.nominal_hz) })).filter(({ x }) => x >= frame.left && x <= right).sort((a, b) => a.x - b.x);
+  let free = frame.left;
+  marks.forEach(({ line, x }, k) => {
+    const colour = familyColour(line.name, colours), next = k + 1 < marks.length ? marks[k + 1].x - 6 : right;
+    pen.beginPath();
+    pen.moveTo(x, base + 1.5);
+    pen.lineTo(x - 4, base + 8.5);
+    pen.lineTo(x + 4, base + 8.5);
+    pen.closePath();
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.2;
+    pen.setLineDash([]);
+    pen.stroke();
+    const label = line.found ? `nominal ${line.name}` : line.name, wide = breadth(label, 10), apart = !line.found || Math.abs(X(line.hz) - x) > 10;
+    const at = x + 7 + wide <= next ? x + 7 : x - 7 - wide >= free ? x - 7 - wide : null;
+    free = x + 6;
+    if (!apart || at === null) return;
+    pen.font = font(10);
+    pen.fillStyle = colour;
+    pen.fillText(label, at, base + 10);
+    free = Math.max(free, at + wide + 4);
+  });
+}

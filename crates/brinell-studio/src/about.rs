@@ -1,0 +1,73 @@
+//! What the page offers before anything runs.
+
+use brinell::bearing::catalogue;
+use brinell::document::json_schema;
+use serde_json::{Value, json};
+
+/// Examples of the repository: name, text.
+const EXAMPLES: [(&str, &str); 12] = [
+    ("healthy", include_str!("../examples/healthy.toml")),
+    ("rectangle", include_str!("../examples/rectangle.toml")),
+    ("circle", include_str!("../examples/circle.toml")),
+    ("irregular", include_str!("../examples/irregular.toml")),
+    ("inner-race", include_str!("../examples/inner-race.toml")),
+    ("roller", include_str!("../examples/roller.toml")),
+    ("photo", include_str!("../examples/photo.toml")),
+    ("scan", include_str!("../examples/scan.toml")),
+    ("single-row", include_str!("../examples/single-row.toml")),
+    ("run-up", include_str!("../examples/run-up.toml")),
+    ("one-sided", include_str!("../examples/one-sided.toml")),
+    ("ball-6205", include_str!("../examples/ball-6205.toml")),
+];
+
+/// Files that they name.
+const FILES: [(&str, &[u8]); 2] = [
+    (
+        "photo-spall.png",
+        include_bytes!("../examples/photo-spall.png"),
+    ),
+    ("scan.csv", include_bytes!("../examples/scan.csv")),
+];
+
+/// A file that the examples name: `photo-spall.png` or `scan.csv`.
+pub fn example_file(name: &str) -> Option<&'static [u8]> {
+    FILES
+        .iter()
+        .find(|(n, _)| *n == name)
+        .map(|(_, bytes)| *bytes)
+}
+
+/// The answer to `about`.
+pub(crate) fn about() -> Value {
+    let bearings: Vec<Value> = (catalogue::all().iter())
+        .map(|entry| {
+            let element = if entry.has_balls() { "ball" } else { "roller" };
+            json!({ "name": entry.name, "words": entry.title, "element": element })
+        })
+        .collect();
+    let examples: Vec<Value> = (EXAMPLES.iter())
+        .map(|(name, text)| json!({ "name": name, "words": words(text), "toml": text }))
+        .collect();
+    json!({
+        "version": brinell::VERSION,
+        "engine": if cfg!(target_family = "wasm") { "webassembly" } else { "native" },
+        "schema": json_schema(),
+        "bearings": bearings,
+        "examples": examples,
+    })
+}
+
+/// The first sentence of the comment on top of an example.
+fn words(text: &str) -> String {
+    let comment: Vec<&str> = (text.lines())
+        .map_while(|line| line.strip_prefix('#'))
+        .map(str::trim)
+        .collect();
+    let comment = comment.join(" ");
+    comment
+        .split_inclusive(". ")
+        .next()
+        .unwrap_or_default()
+        .trim()
+        .to_owned()
+}

@@ -1,0 +1,240 @@
+//! One bearing that runs: from t = 0 with a scenario, or on in an edited one.
+
+use crate::course::Course;
+use crate::frames::Frames;
+use crate::report::{Answer, Trouble};
+use brinell::channel::Frame;
+use brinell::document::Loaded;
+use brinell::observe::{Findings, Watch};
+use brinell::scenario::{Bearing, Scenario, Speed};
+use brinell::signal::Moments;
+use brinell::simulate::{End, Observer, Outcome, Run, Signals, Simulation};
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// Longest wait for what an edit sets swinging, s.
+const SLOWEST_TURN: f64 = 0.1;
+/// Samples kept for spectra and verdicts.
+pub(crate) const KEPT: usize = 1 << 17;
+
+/// A bearing at work.
+#[derive(Debug)]
+pub(crate) struct Bench {
+    /// As it was read last.
+    pub(crate) loaded: Loaded,
+    /// Its text.
+    pub(crate) text: String,
+    run: Run<Arc<Simulation>>,
+    pub(crate) heard: Heard,
+    /// How a run from t = 0 ended.
+    pub(crate) finished: Option<(Outcome, Findings)>,
+    /// Whether it is no run from t = 0 with its scenario.
+    pub(crate) live: bool,
+    course: Option<Course>,
+}
+
+/// What is kept of the samples since the bearing was opened.
+pub(crate) struct Heard {
+    pub(crate) simulation: Arc<Simulation>,
+    /// 0 or 1: the axis of the sensor that is listened to, the one nearer the load.
+    pub(crate) axis: usize,
+    /// The latest of them, m/s^2.
+    pub(crate) samples: VecDeque<f64>,
+    /// Of those under the full load.
+    pub(crate) moments: Moments,
+    /// How many.
+    pub(crate) count: u64,
+    /// Index of the first row that counts for indicators and verdict: a turn of the shaft after the start or the edit, and after the load is up.
+    settled: u64,
+    pub(crate) frames: Frames,
+    /// Gathers the findings of a run from t = 0.
+    watch: Option<Watch>,
+    /// Its recorded channels.
+    pub(crate) signals: Option<Signals>,
+}
+
+impl std::fmt::Debug for Heard {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Heard")
+            .field("count", &self.count)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Heard {
+    /// From a row on, at a shaft speed in Hz.
+    fn new(simulation: Arc<Simulation>, row: u64, shaft: Option<f64>) -> Self {
+        let load = simulation.model().load.full;
+        let (fs, ramp) = (simulation.sample_rate(), simulation.model().load.ramp);
+        let turn = shaft.map_or(SLOWEST_TURN, |f| (1.0 / f.max(1e-9)).min(SLOWEST_TURN));
+        Self {
+            settled: row.max((ramp * fs) as u64) + (turn * fs) as u64,
+            axis: usize::from(load[1].abs() > load[0].abs()),
+            samples: VecDeque::new(),
+            moments: Moments::default(),
+            count: 0,
+            frames: Frames::new(simulation.model(), simulation.sample_rate()),
+            watch: None,
+            signals: None,
+            simulation,
+        }
+    }
+
+    /// Those that count for indicators and verdict, as many as are kept.
+    pub(crate) fn settled(&self) -> Vec<f64> {
+        self.latest(usize::try_from(self.moments.count()).unwrap_or(KEPT))
+    }
+
+    /// The latest samples, `n` of them or as many as there are.
+    pub(crate) fn latest(&self, n: usize) -> Vec<f64> {
+        let first = self.samples.len() - n.min(self.samples.len());
+        self.samples.range(first..).copied().collect()
+    }
+}
+
+impl Observer for Heard {
+    fn step(&mut self, frame: &Frame) {
+        if let Some(watch) = &mut self.watch {
+            watch.step(frame);
+        }
+    }
+
+    fn sample(&mut self, _: u64, frame: &Frame) {
+        self.frames.take(frame);
+        if let Some(watch) = &mut self.watch {
+            watch.sample(frame);
+        }
+    }
+
+    fn row(&mut self, index: u64, row: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        let x = filtered[self.axis];
+        if self.samples.len() == KEPT {
+            self.samples.pop_front();
+        }
+        self.samples.push_back(x);
+        // Neither the load as it comes up nor what an edit sets swinging.
+        if index >= self.settled {
+            self.moments.push(x);
+        }
+        self.count += 1;
+        if let Some(watch) = &mut self.watch {
+            watch.row(&self.simulation, index, row, filtered);
+        }
+        match &mut self.signals {
+            Some(signals) => signals.row(index, row, filtered),
+            None => ControlFlow::Continue(()),
+        }
+    }
+}
+
+impl Bench {
+    /// At t = 0.
+    pub(crate) fn start(loaded: Loaded, text: String) -> Answer<Self> {
+        let simulation = Arc::new(Simulation::new(&loaded.scenario)?);
+        let shaft = shaft_of(&loaded);
+        let mut heard = Heard::new(Arc::clone(&simulation), 0, shaft);
+        heard.watch = Some(Watch::new(&loaded.scenario, &simulation));
+        heard.signals = Some(Signals::new(&simulation)?);
+        Ok(Self {
+            run: Simulation::start_in(simulation),
+            heard,
+            course: Course::of(&loaded.scenario.operation.speed_rpm),
+            loaded,
+            text,
+            finished: None,
+            live: false,
+        })
+    }
+
+    /// Goes on in another scenario. `false`: their parts do not correspond, and nothing happened.
+    pub(crate) fn carry(&mut self, loaded: &Loaded, text: &str) -> Answer<bool> {
+        if !same_parts(&loaded.scenario, &self.loaded.scenario) {
+            return Ok(false);
+        }
+        let (Speed::Constant(rpm), Some(course)) =
+            (&loaded.scenario.operation.speed_rpm, &self.course)
+        else {
+            return Ok(false);
+        };
+        let mut course = course.clone();
+        if !course.turn_to(*rpm, self.run.t()) {
+            return Ok(false);
+        }
+        let mut scenario = loaded.scenario.clone();
+        scenario.operation.speed_rpm = course.speed();
+        let simulation = Arc::new(Simulation::new(&scenario)?);
+        if self.run.go_on_in(Arc::clone(&simulation)).is_err() {
+            return Ok(false);
+        }
+        self.heard = Heard::new(simulation, self.run.rows(), shaft_of(loaded));
+        self.course = Some(course);
+        self.loaded = loaded.clone();
+        text.clone_into(&mut self.text);
+        self.finished = None;
+        self.live = true;
+        Ok(true)
+    }
+
+    /// Advances by samples; gives those that came, fewer where the run ended.
+    pub(crate) fn advance(&mut self, rows: u64) -> Answer<Vec<f64>> {
+        if self.finished.is_some() {
+            return Ok(Vec::new());
+        }
+        let before = self.heard.count;
+        match self.run.advance(rows, &mut self.heard) {
+            None => {}
+            Some(End::Failed(error)) => return Err(error.into()),
+            Some(end) => {
+                let outcome = self.run.outcome(end);
+                let simulation = &self.heard.simulation;
+                let findings = self.heard.watch.take().map(|w| w.finish(simulation));
+                self.finished = findings.map(|findings| (outcome, findings));
+            }
+        }
+        let came = (self.heard.count - before) as usize;
+        Ok(self.heard.latest(came.min(KEPT)))
+    }
+
+    /// Time reached, s.
+    pub(crate) fn t(&self) -> f64 {
+        self.run.t()
+    }
+
+    /// The simulation that it goes on in.
+    pub(crate) fn simulation(&self) -> &Simulation {
+        &self.heard.simulation
+    }
+
+    /// Shaft speed that was asked for last, Hz; `None` where it varies.
+    pub(crate) fn shaft(&self) -> Option<f64> {
+        shaft_of(&self.loaded)
+    }
+}
+
+fn shaft_of(loaded: &Loaded) -> Option<f64> {
+    match loaded.scenario.operation.speed_rpm {
+        Speed::Constant(rpm) => Some(rpm.abs() / 60.0),
+        Speed::Profile(_) => None,
+    }
+}
+
+/// Whether a run of one may go on in the other: the same bearing but for what a force may change at once.
+fn same_parts(a: &Scenario, b: &Scenario) -> bool {
+    let bearing = |s: &Scenario| Bearing {
+        preset: None,
+        radial_clearance_um: 0.0,
+        ..s.bearing.clone()
+    };
+    bearing(a) == bearing(b)
+        && a.cage == b.cage
+        && a.simulation.model == b.simulation.model
+        && a.simulation.sample_rate_hz == b.simulation.sample_rate_hz
+}
+
+impl Trouble {
+    /// A slot that holds no bearing.
+    pub(crate) fn empty(slot: usize) -> Self {
+        Self::of(format!("slot {slot} holds no bearing; open one"))
+    }
+}

@@ -1,0 +1,131 @@
+//! Damage as the page draws it: seen from above, and under one roller.
+
+use crate::bench::Bench;
+use crate::message::Arrays;
+use crate::report::{Answer, Trouble};
+use brinell::defect::simplify::Extent;
+use brinell::defect::{Defect, Side, damaged_contact};
+use brinell::model::Model;
+use brinell::scenario::{self, Surface};
+use brinell::slices::Cover;
+use brinell::statics::static_load_zone;
+use brinell_damage::plan::{CORNERS, depth_grid, polygons_mm};
+use serde_json::{Value, json};
+
+/// Points of a passage.
+const POINTS: usize = 401;
+/// Approach where no static balance gives one, m.
+const FALLBACK_APPROACH: f64 = 10e-6;
+
+/// Every defect seen from above.
+pub(crate) fn seen(bench: &Bench, arrays: &mut Arrays) -> Value {
+    let model = bench.simulation().model();
+    let stated = &bench.loaded.scenario.defects;
+    let all: Vec<Value> = (stated.iter().zip(&model.defects).enumerate())
+        .map(|(k, (of, defect))| one(k, of, defect, arrays))
+        .collect();
+    json!({ "defects": all })
+}
+
+fn one(k: usize, of: &scenario::Defect, defect: &Defect, arrays: &mut Arrays) -> Value {
+    let polygons: Vec<Value> = polygons_mm(of, &defect.shape, CORNERS)
+        .into_iter()
+        .map(|ring| arrays.rounded(ring.as_flattened()))
+        .collect();
+    let depths = depth_grid(of);
+    let deepest = depths
+        .as_ref()
+        .map(|g| g.depth_um.iter().copied().fold(0.0, f64::max));
+    let grid = depths.map(|g| {
+        json!({
+            "ds_mm": g.ds_mm, "dz_mm": g.dz_mm, "s0_mm": g.s0_mm, "z0_mm": g.z0_mm,
+            "columns": g.columns, "rows": g.rows,
+            "depth_um": arrays.rounded(&g.depth_um),
+        })
+    });
+    let extent = Extent::of(&defect.shape, defect.depth);
+    let surface = match of.on {
+        Surface::OuterRaceway => "outer-raceway",
+        Surface::InnerRaceway => "inner-raceway",
+        Surface::Roller(_) => "roller",
+    };
+    let element = match of.on {
+        Surface::Roller(number) => Some(number),
+        _ => None,
+    };
+    json!({
+        "defect": k + 1,
+        "on": surface,
+        "roller": element,
+        "row": of.row,
+        "center_deg": of.center_deg,
+        "axial_offset_mm": of.axial_offset_mm,
+        "radius_mm": 1e3 * defect.radius,
+        "depth_um": of.depth_um,
+        "polygons_mm": polygons,
+        "grid": grid,
+        "length_mm": 1e3 * extent.length,
+        "width_mm": 1e3 * extent.width,
+        "area_mm2": 1e6 * extent.area,
+        "deepest_um": deepest.unwrap_or(of.depth_um),
+    })
+}
+
+/// One roller at rest, at places over a defect: what of it touches, and the force that the approach of the healthy bearing's heaviest
+/// contact gives there.
+pub(crate) fn passage(bench: &Bench, number: usize, arrays: &mut Arrays) -> Answer<Value> {
+    let scenario = &bench.loaded.scenario;
+    let model = bench.simulation().model();
+    let at = number.checked_sub(1).filter(|k| *k < model.defects.len());
+    let Some(at) = at else {
+        return Err(Trouble::of(format!("there is no defect {number}")));
+    };
+    let defect = &model.defects[at];
+    let side = match defect.surface {
+        Surface::InnerRaceway => Side::Inner,
+        _ => Side::Outer,
+    };
+    let healthy = Model::new(&scenario::Scenario {
+        defects: Vec::new(),
+        ..scenario.clone()
+    })
+    .map_err(|e| Trouble::of(e.to_string()))?;
+    let heaviest = static_load_zone(&healthy).ok().map(|z| z.largest);
+    let heaviest = heaviest.filter(|f| *f > 0.0);
+    let approach = heaviest.map_or(FALLBACK_APPROACH, |f| model.deflection(side, f));
+    let (first, last) = defect.shape.arc();
+    let pad = 0.25 * (last - first);
+    let places: Vec<f64> = (0..POINTS)
+        .map(|k| first - pad + (last - first + 2.0 * pad) * k as f64 / (POINTS - 1) as f64)
+        .collect();
+    let mut cover = Cover::new(model.profiled().map_or(0, |s| s.count));
+    let law = model.contact(side);
+    // Of a ball the axis of its ellipse across the groove.
+    let ellipse = law
+        .strips
+        .as_ref()
+        .map(|strips| strips.pressed(approach).length([f64::MIN, f64::MAX]));
+    let whole = ellipse.unwrap_or(defect.roller_length);
+    let lost = |s: f64| match ellipse {
+        None => defect.damaged_length(s),
+        Some(_) => {
+            let met = defect.met_at(side, s / defect.radius);
+            damaged_contact(std::iter::once(defect), law, &met, side, approach)
+                .map_or(0.0, |d| d.floor.damaged_length)
+        }
+    };
+    let lengths: Vec<f64> = (places.iter())
+        .map(|s| 1e3 * (whole - lost(*s)).max(0.0))
+        .collect();
+    let force: Vec<f64> = (places.iter())
+        .map(|s| model.force_over(defect, side, s / defect.radius, approach, &mut cover))
+        .collect();
+    let places_mm: Vec<f64> = places.iter().map(|s| 1e3 * s).collect();
+    Ok(json!({
+        "s_mm": arrays.rounded(&places_mm),
+        "length_mm": arrays.rounded(&lengths),
+        "force_n": arrays.rounded(&force),
+        "healthy_n": heaviest,
+        "width_mm": 1e3 * whole,
+    }))
+}

@@ -1,0 +1,25 @@
+//! The engine of the studio: bearings that run while their scenario is edited.
+//!
+//! A [`Studio`] answers messages, bytes for bytes; the page of the studio sends them. It has no clock, no threads, no files and no network, so it
+//! runs as WebAssembly in a browser and behind a server alike.
+#![doc = include_str!("../messages.md")]
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+mod about;
+mod bench;
+mod course;
+mod damage;
+mod frames;
+mod judged;
+mod message;
+mod page;
+mod pen;
+mod report;
+mod spectra;
+mod studio;
+mod text;
+
+pub use about::example_file;
+pub use message::{Arrays, Message};
+pub use page::PAGE;
+pub use studio::{SharedStudio, Studio};

@@ -1,0 +1,205 @@
+//! Damage that is drawn, or read from a file, as shapes of a scenario.
+
+use crate::message::Arrays;
+use crate::report::{Answer, Trouble};
+use crate::{about, text};
+use brinell::defect::simplify::Extent;
+use brinell::document::Loaded;
+use brinell::scenario::{self, Scenario, Shape, Surface};
+use brinell_damage::{DepthGrid, Stroke, brush, scratch, shape_of_bytes};
+use serde_json::{Value, json};
+
+/// A bearing that any shape of damage fits on, to read and write shapes with.
+const WIDE: &str =
+    "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
+
+/// A shape as its defect states it.
+fn stated(shape: Shape) -> Answer<Value> {
+    let mut scenario = Scenario::from_toml(WIDE)?;
+    scenario.defects.push(scenario::Defect {
+        on: Surface::OuterRaceway,
+        row: 1,
+        center_deg: 0.0,
+        depth_um: 10.0,
+        axial_offset_mm: 0.0,
+        shape,
+    });
+    Ok(text::stated(&scenario.to_toml())["defects"][0]["shape"].clone())
+}
+
+/// The shape that a defect would state.
+fn read(shape: &Value) -> Answer<Shape> {
+    let mut whole = text::stated(WIDE);
+    whole["defects"] =
+        json!([{ "on": "outer-raceway", "center_deg": 0, "depth_um": 10, "shape": shape }]);
+    let text = text::of_request(&json!({ "scenario": whole }))?;
+    let mut loaded = text::read(&text)?;
+    Ok(loaded.scenario.defects.remove(0).shape)
+}
+
+fn points(request: &Value, arrays: &Arrays) -> Answer<Vec<[f64; 2]>> {
+    let flat = request.get("points_mm").and_then(|p| arrays.doubles(p));
+    let flat = flat.ok_or_else(|| Trouble::of("\"points_mm\" must be an array of f64"))?;
+    Ok(flat.as_chunks::<2>().0.to_vec())
+}
+
+fn number(request: &Value, key: &str) -> Answer<f64> {
+    let number = request.get(key).and_then(Value::as_f64);
+    number.ok_or_else(|| Trouble::of(format!("\"{key}\" must be a number")))
+}
+
+/// A shape moved so that the middle of its extents is its origin, with its size; `points` gives all its (s, z), mm.
+fn placed(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+    let start = [[f64::MAX; 2], [f64::MIN; 2]];
+    points.fold(start, |[low, high], p| {
+        [
+            [low[0].min(p[0]), low[1].min(p[1])],
+            [high[0].max(p[0]), high[1].max(p[1])],
+        ]
+    })
+}
+
+/// `scratch`: the area under a round pen.
+pub(crate) fn scratched(request: &Value, arrays: &Arrays) -> Answer<Value> {
+    let points = points(request, arrays)?;
+    let stroke = Stroke {
+        points_mm: &points,
+        width_mm: number(request, "width_mm")?,
+    };
+    let outline = scratch(&stroke).map_err(|e| Trouble::of(e.to_string()))?;
+    let [low, high] = placed(outline.polygons_mm.iter().flatten().copied());
+    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+    // A thousandth of a millimetre: what the page draws, and a share link carries.
+    let near = |x: f64| (x * 1e4).round() / 1e4;
+    let about = |p: &[f64; 2]| [near(p[0] - middle[0]), near(p[1] - middle[1])];
+    let polygons_mm: Vec<Vec<[f64; 2]>> = (outline.polygons_mm.iter())
+        .map(|ring| ring.iter().map(about).collect())
+        .collect();
+    Ok(json!({
+        "shape": stated(Shape::Outline { polygons_mm })?,
+        "center_mm": middle,
+        "length_mm": high[0] - low[0],
+        "width_mm": high[1] - low[1],
+    }))
+}
+
+/// `brush`: depth under a round brush, added to a grid.
+pub(crate) fn brushed(request: &Value, arrays: &Arrays) -> Answer<Value> {
+    let points = points(request, arrays)?;
+    let stroke = Stroke {
+        points_mm: &points,
+        width_mm: number(request, "width_mm")?,
+    };
+    let sign = if request["raise"] == json!(true) {
+        -1.0
+    } else {
+        1.0
+    };
+    let before = match request.get("grid").filter(|g| !g.is_null()) {
+        Some(shape) => match read(shape)? {
+            Shape::DepthMap { grid } => Some(DepthGrid::from(grid)),
+            _ => return Err(Trouble::of("\"grid\" must be a shape with a depth map")),
+        },
+        None => None,
+    };
+    let depth = sign * number(request, "depth_um")?;
+    let grid = brush(before.as_ref(), &stroke, depth).map_err(|e| Trouble::of(e.to_string()))?;
+    let columns = grid.columns;
+    let damaged = (grid.depth_um.iter().enumerate()).filter(|(_, d)| **d > 0.0);
+    let [low, high] = placed(damaged.map(|(k, _)| {
+        let (column, row) = (k % columns, k / columns);
+        [
+            grid.s0_mm + grid.ds_mm * column as f64,
+            grid.z0_mm + grid.dz_mm * row as f64,
+        ]
+    }));
+    if low[0] > high[0] {
+        return Err(Trouble::of("nothing is left of the damage; delete it"));
+    }
+    let middle = if before.is_some() {
+        [0.0; 2]
+    } else {
+        [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])]
+    };
+    let shape = Shape::DepthMap {
+        grid: scenario::DepthGrid {
+            s0_mm: grid.s0_mm - middle[0],
+            z0_mm: grid.z0_mm - middle[1],
+            ds_mm: grid.ds_mm,
+            dz_mm: grid.dz_mm,
+            columns: grid.columns,
+            rows: grid.rows,
+            depth_um: grid
+                .depth_um
+                .iter()
+                .map(|d| (d * 1e3).round() / 1e3)
+                .collect(),
+        },
+    };
+    Ok(json!({
+        "shape": stated(shape)?,
+        "center_mm": middle,
+        "length_mm": high[0] - low[0],
+        "width_mm": high[1] - low[1],
+    }))
+}
+
+/// `outline`: a photo, a drawing or a depth map as a shape.
+pub(crate) fn outlined(request: &Value, arrays: &Arrays) -> Answer<Value> {
+    let bytes = request.get("bytes").and_then(|b| arrays.octets(b));
+    let bytes = bytes.ok_or_else(|| Trouble::of("\"bytes\" must be an array of u8"))?;
+    let name = request["name"].as_str().unwrap_or("file");
+    let key = match request["kind"].as_str() {
+        Some("photo") => "image",
+        Some("svg") => "svg",
+        Some("depth") => "depth_map",
+        _ => {
+            return Err(Trouble::of(
+                "\"kind\" must be \"photo\", \"svg\" or \"depth\"",
+            ));
+        }
+    };
+    let mut options = request.get("options").cloned().unwrap_or_else(|| json!({}));
+    options["file"] = json!(name);
+    let asked = read(&json!({ key: options }))?;
+    let read = shape_of_bytes(&asked, bytes).map_err(Trouble::of)?;
+    let (shape, notes) = (read.shape, [read.warnings, read.notes].concat());
+    let made = brinell::defect::Shape::new(&shape, 0.0);
+    let extent = made.map(|made| Extent::of(&made, 1e-5));
+    let mm = |f: fn(&Extent) -> f64, scale: f64| extent.as_ref().map(|e| scale * f(e));
+    Ok(json!({
+        "shape": stated(shape)?,
+        "notes": notes,
+        "length_mm": mm(|e| e.length, 1e3),
+        "width_mm": mm(|e| e.width, 1e3),
+        "area_mm2": mm(|e| e.area, 1e6),
+    }))
+}
+
+/// Puts the files that the examples name into a scenario, and what they hold into its text.
+pub(crate) fn resolved(mut loaded: Loaded, text: String) -> Answer<(Loaded, String)> {
+    let mut stated_keys = None;
+    for (k, defect) in loaded.scenario.defects.iter_mut().enumerate() {
+        let Some(file) = defect.shape.file().map(str::to_owned) else {
+            continue;
+        };
+        let bytes = about::example_file(&file).ok_or_else(|| {
+            Trouble::of(format!(
+                "defect {}: {file} is not here; drop the file on the raceway",
+                k + 1
+            ))
+        })?;
+        let shape = shape_of_bytes(&defect.shape, bytes)
+            .map_err(Trouble::of)?
+            .shape;
+        let keys = stated_keys.get_or_insert_with(|| text::stated(&text));
+        keys["defects"][k]["shape"] = stated(shape)?;
+    }
+    match stated_keys {
+        None => Ok((loaded, text)),
+        Some(keys) => {
+            let text = text::of_request(&json!({ "scenario": keys }))?;
+            Ok((text::read(&text)?, text))
+        }
+    }
+}

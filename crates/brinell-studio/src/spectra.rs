@@ -1,0 +1,160 @@
+//! Spectra, lines and the verdict of what was heard since a bearing was opened; a loop to listen to.
+
+use crate::bench::Bench;
+use crate::judged;
+use crate::message::Arrays;
+use crate::report::{Answer, Trouble};
+use brinell::analysis::{Options, analyze};
+use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::orders_of;
+use brinell::observe::envelope_band;
+use brinell::signal::lines::harmonics;
+use brinell::signal::{LineSearch, StreamSpectra};
+use serde_json::{Value, json};
+
+/// Fewest samples of a spectrum.
+const FEWEST: usize = 512;
+/// Harmonics of a line that are counted.
+const HARMONICS: usize = 8;
+/// Chance of a false alarm below which a harmonic counts.
+const FALSE_ALARM: f64 = 1e-3;
+
+/// RMS, peak, crest factor and kurtosis since the bearing was opened.
+pub(crate) fn moments(bench: &Bench) -> Value {
+    judged::moments_json(&bench.heard.moments)
+}
+
+/// Of the latest 2^k samples, `longest` at most.
+pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Value {
+    let most = longest.min(bench.heard.samples.len());
+    if most < FEWEST {
+        return json!({ "samples": 0, "settling": true });
+    }
+    let length = 1 << most.ilog2();
+    let x = bench.heard.latest(length);
+    let fs = bench.simulation().sample_rate();
+    let model = bench.simulation().model();
+    let band = envelope_band(model, fs);
+    let named = names(bench);
+    let searches: Vec<LineSearch> = named.iter().map(|n| LineSearch::new(n.hz)).collect();
+    let found = StreamSpectra::of(&x, fs, length, band, &searches);
+    let (Some(spectrum), Some(envelope)) = (found.spectrum, found.envelope) else {
+        return json!({ "samples": 0, "settling": true });
+    };
+    let lines: Vec<Value> = (named.iter().zip(&found.lines))
+        .map(|(name, line)| {
+            // A comb near that of a part without damage belongs to another part, or to nobody.
+            let line = line.as_ref().filter(|_| name.defect.is_some());
+            let hz = line.map(|l| l.frequency);
+            let standing =
+                hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
+            let standing: Vec<f64> = standing.map_or(Vec::new(), |set| {
+                set.standing(FALSE_ALARM).map(|l| l.snr_db).collect()
+            });
+            json!({
+                "name": name.name,
+                "hz": hz,
+                "nominal_hz": name.hz,
+                "found": hz.is_some(),
+                "harmonics": standing.len(),
+                "over_noise_db": standing.iter().copied().reduce(f64::max),
+                "defect": name.defect,
+            })
+        })
+        .collect();
+    json!({
+        "samples": length,
+        "settling": bench.heard.moments.count() == 0,
+        "spectrum": { "df": spectrum.frequency_step, "values": arrays.rounded(&spectrum.amplitude) },
+        "envelope": {
+            "df": envelope.spectrum.frequency_step,
+            "values": arrays.rounded(&envelope.spectrum.amplitude),
+            "band_hz": [band.low, band.high],
+            "mean": envelope.mean,
+        },
+        "lines": lines,
+    })
+}
+
+/// A frequency of the bearing that is sought.
+struct Named {
+    name: &'static str,
+    hz: f64,
+    defect: Option<usize>,
+}
+
+/// Frequencies at which damage would show at the speed asked for, the defects' own with their numbers.
+fn names(bench: &Bench) -> Vec<Named> {
+    let Some(shaft) = bench.shaft().filter(|f| *f > 0.0) else {
+        return Vec::new();
+    };
+    let scenario = &bench.loaded.scenario;
+    let geometry = Geometry::of(&scenario.bearing);
+    let k = brinell::bearing::kinematics::Kinematics::pure_rolling(
+        &geometry,
+        std::f64::consts::TAU * shaft,
+    );
+    let own = |name: &str| {
+        let struck = |d: &brinell::scenario::Defect| k.struck_by(d.on).0 == name;
+        scenario.defects.iter().position(struck).map(|at| at + 1)
+    };
+    [("BPFO", k.bpfo), ("BPFI", k.bpfi), ("2 BSF", 2.0 * k.bsf)]
+        .map(|(name, hz)| Named {
+            name,
+            hz,
+            defect: own(name),
+        })
+        .into()
+}
+
+/// `brinell analyze` on what was heard.
+pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
+    let Some(shaft) = bench.shaft() else {
+        return Err(Trouble::of("a verdict asks for a constant speed"));
+    };
+    let scenario = &bench.loaded.scenario;
+    let x = bench.heard.settled();
+    let mut options = Options::new(shaft, orders_of(&Geometry::of(&scenario.bearing)));
+    options.exact = true;
+    let sensor = &scenario.sensor;
+    options.silent = sensor.noise_rms_m_per_s2.is_none() && sensor.noise_snr_db.is_none();
+    let analysis = analyze(&x, bench.simulation().sample_rate(), &options)
+        .map_err(|e| Trouble::of(e.to_string()))?;
+    Ok(judged::verdict(&analysis))
+}
+
+/// Shortest loop, s.
+const LOOP_S: f64 = 0.4;
+/// Share of a loop over which its end fades into its beginning.
+const FADE: f64 = 0.05;
+
+/// The last whole turns of the shaft, closed to a loop.
+pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
+    let fs = bench.simulation().sample_rate();
+    let turn = bench.shaft().filter(|f| *f > 0.0).map_or(fs, |f| fs / f);
+    let held = bench.heard.samples.len() as f64 / (1.0 + FADE);
+    let wanted = (LOOP_S * fs / turn).ceil().max(1.0);
+    let turns = wanted.min((held / turn).floor());
+    if turns < 1.0 {
+        return Err(Trouble::of("not a turn of the shaft has been heard yet"));
+    }
+    let length = (turns * turn).round() as usize;
+    let fade = (FADE * length as f64) as usize;
+    let x = bench.heard.latest(length + fade);
+    let (before, body) = x.split_at(x.len() - length);
+    let mut body = body.to_vec();
+    // What came just before the loop leads into its beginning, so its end must be that.
+    let fade = fade.min(before.len());
+    for k in 0..fade {
+        let share = (k + 1) as f64 / (fade + 1) as f64;
+        let at = length - fade + k;
+        body[at] = body[at] * (1.0 - share) + before[before.len() - fade + k] * share;
+    }
+    let highest = body.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let scale = if highest > 0.0 { 1.0 / highest } else { 0.0 };
+    Ok(json!({
+        "rate_hz": fs,
+        "turns": turns,
+        "x": arrays.singles(body.iter().map(|v| (v * scale) as f32)),
+    }))
+}

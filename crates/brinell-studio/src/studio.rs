@@ -1,0 +1,252 @@
+//! Requests and their answers.
+
+use crate::bench::Bench;
+use crate::message::{Arrays, Message};
+use crate::report::{Answer, Trouble};
+use crate::{about, damage, judged, pen, spectra, text};
+use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::orders_of;
+use brinell::plausibility::Beforehand;
+use brinell::result::{Spread, quantities};
+use brinell::scenario::Scenario;
+use serde_json::{Value, json};
+use std::sync::{Mutex, PoisonError};
+
+/// Bearings that run, A and B.
+const SLOTS: usize = 2;
+/// Most samples of one `advance`.
+const MOST_ROWS: u64 = 1 << 16;
+/// Longest spectrum, samples.
+const LONGEST: usize = 1 << 17;
+
+/// An engine with its bearings.
+#[derive(Debug, Default)]
+pub struct Studio {
+    slots: [Option<Bench>; SLOTS],
+}
+
+/// An engine that several threads ask, one after the other.
+#[derive(Debug, Default)]
+pub struct SharedStudio(Mutex<Studio>);
+
+impl SharedStudio {
+    /// As [`Studio::ask`]. An engine that panicked is replaced: the page opens its bearing anew.
+    pub fn ask(&self, request: &[u8]) -> Vec<u8> {
+        let mut studio = self.0.lock().unwrap_or_else(|poisoned| {
+            let mut studio = PoisonError::into_inner(poisoned);
+            // What a request left half done is not used.
+            *studio = Studio::new();
+            self.0.clear_poison();
+            studio
+        });
+        studio.ask(request)
+    }
+}
+
+impl Studio {
+    /// Without a bearing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Answers one message.
+    pub fn ask(&mut self, request: &[u8]) -> Vec<u8> {
+        let mut arrays = Arrays::default();
+        let answer = match Message::read(request) {
+            Ok(request) => self.answer(&request, &mut arrays),
+            Err(words) => Err(Trouble::of(words)),
+        };
+        let json = match answer {
+            Ok(mut json) => {
+                json["ok"] = json!(true);
+                json
+            }
+            Err(Trouble(problems)) => {
+                arrays = Arrays::default();
+                json!({ "ok": false, "problems": problems })
+            }
+        };
+        Message { json, arrays }.bytes()
+    }
+
+    fn answer(&mut self, message: &Message, arrays: &mut Arrays) -> Answer<Value> {
+        let (request, given) = (&message.json, &message.arrays);
+        let name = request["do"].as_str().unwrap_or_default();
+        match name {
+            "about" => Ok(about::about()),
+            "normal" => normal(request),
+            "outline" => pen::outlined(request, given),
+            "scratch" => pen::scratched(request, given),
+            "brush" => pen::brushed(request, given),
+            "listen" => judged::listen(request, given),
+            "judge" => judged::judge(request, given, arrays),
+            "save" => judged::save(request, self.bench(request)?, arrays),
+            "open" => self.open(request),
+            "advance" => self.advance(request, arrays),
+            "spectra" => {
+                let longest = request["longest"].as_u64().map_or(LONGEST, |n| n as usize);
+                Ok(spectra::spectra(
+                    self.bench(request)?,
+                    longest.min(LONGEST),
+                    arrays,
+                ))
+            }
+            "verdict" => spectra::verdict(self.bench(request)?),
+            "sound" => spectra::sound(self.bench(request)?, arrays),
+            "indicators" => Ok(indicators(self.bench(request)?)),
+            "damage" => Ok(damage::seen(self.bench(request)?, arrays)),
+            "passage" => {
+                let number = request["defect"].as_u64().unwrap_or(1) as usize;
+                damage::passage(self.bench(request)?, number, arrays)
+            }
+            _ => Err(Trouble::of(format!("no request is named {name:?}"))),
+        }
+    }
+
+    fn slot(request: &Value) -> Answer<usize> {
+        let slot = request.get("slot").and_then(Value::as_u64).unwrap_or(0) as usize;
+        match slot < SLOTS {
+            true => Ok(slot),
+            false => Err(Trouble::of("\"slot\" must be 0 or 1")),
+        }
+    }
+
+    fn bench(&mut self, request: &Value) -> Answer<&mut Bench> {
+        let slot = Self::slot(request)?;
+        self.slots[slot]
+            .as_mut()
+            .ok_or_else(|| Trouble::empty(slot))
+    }
+
+    fn open(&mut self, request: &Value) -> Answer<Value> {
+        let slot = Self::slot(request)?;
+        let text = text::of_request(request)?;
+        let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+        let text = text::plain(&text)?;
+        let carried = match (&mut self.slots[slot], request["carry"] == json!(true)) {
+            (Some(bench), true) => bench.carry(&loaded, &text)?,
+            _ => false,
+        };
+        if !carried {
+            self.slots[slot] = Some(Bench::start(loaded, text)?);
+        }
+        let bench = self.slots[slot]
+            .as_ref()
+            .ok_or_else(|| Trouble::empty(slot))?;
+        let mut answer = opened(bench);
+        answer["carried"] = json!(carried);
+        Ok(answer)
+    }
+
+    fn advance(&mut self, request: &Value, arrays: &mut Arrays) -> Answer<Value> {
+        let rows = request["rows"].as_u64().unwrap_or(256).clamp(1, MOST_ROWS);
+        let bench = self.bench(request)?;
+        let first = bench.heard.count;
+        let x = bench.advance(rows)?;
+        let mut answer = json!({
+            "t": bench.t(),
+            "first": first,
+            "done": bench.finished.is_some(),
+            "live": bench.live,
+            "x": arrays.rounded(&x),
+            "moments": spectra::moments(bench),
+        });
+        if request["frames"] == json!(true) {
+            answer["frames"] = bench.heard.frames.fresh(arrays);
+        }
+        Ok(answer)
+    }
+}
+
+/// `normal`: a scenario's text with all that is stated, and its stated keys.
+fn normal(request: &Value) -> Answer<Value> {
+    let text = text::of_request(request)?;
+    let (loaded, text) = pen::resolved(text::read(&text)?, text)?;
+    let text = text::plain(&text)?;
+    Ok(json!({
+        "toml": text,
+        "scenario": text::stated(&text),
+        "all": text::stated(&loaded.scenario.to_toml()),
+    }))
+}
+
+/// What the page knows of an opened bearing.
+fn opened(bench: &Bench) -> Value {
+    let (loaded, simulation) = (&bench.loaded, bench.simulation());
+    let (scenario, model) = (&loaded.scenario, simulation.model());
+    let before = Beforehand::of(scenario, model);
+    let warnings: Vec<String> = (loaded.warnings.iter().chain(&before.warnings))
+        .map(text::words)
+        .collect();
+    let assumed = loaded
+        .provenance
+        .iter()
+        .filter(|p| p.assumed)
+        .map(|p| &p.key);
+    let orders = orders_of(&Geometry::of(&scenario.bearing));
+    let load = model.load.full;
+    json!({
+        "live": bench.live,
+        "toml": bench.text,
+        "scenario": text::stated(&bench.text),
+        "all": text::stated(&scenario.to_toml()),
+        "warnings": warnings,
+        "assumed": assumed.collect::<Vec<_>>(),
+        "rate_hz": simulation.sample_rate(),
+        "samples": simulation.samples(),
+        "axis": (["sensor_ax", "sensor_ay"][bench.heard.axis]),
+        "unit": "m/s^2",
+        "rpm": bench.shaft().map(|f| 60.0 * f),
+        "constant_speed": bench.shaft().is_some(),
+        "orders": { "BPFO": orders.bpfo, "BPFI": orders.bpfi, "BSF": orders.bsf, "FTF": orders.ftf },
+        "geometry": geometry(scenario),
+        "load_deg": load[1].atan2(load[0]).to_degrees(),
+        "load_zone_deg": before.statics.ok().map(|z| {
+            [z.middle + z.ends.0, z.middle + z.ends.1].map(f64::to_degrees)
+        }),
+    })
+}
+
+fn geometry(scenario: &Scenario) -> Value {
+    let b = &scenario.bearing;
+    json!({
+        "inner_mm": 0.5 * b.inner_raceway_diameter_mm,
+        "outer_mm": 0.5 * b.outer_raceway_diameter_mm,
+        "pitch_mm": 0.5 * b.pitch_diameter_mm,
+        "element_mm": 0.5 * b.roller_diameter_mm,
+        "length_mm": b.roller_length_mm,
+        "rows": b.rows,
+        "elements": b.rollers_per_row,
+        "element": if b.has_balls() { "ball" } else { "roller" },
+    })
+}
+
+/// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples heard.
+fn indicators(bench: &Bench) -> Value {
+    let Some((outcome, findings)) = &bench.finished else {
+        let heard = spectra::moments(bench);
+        let one = |name: &str, key: &str, unit: &str| json!({ "name": name, "unit": unit, "value": heard[key], "low": null, "high": null });
+        return json!({ "settled": false, "quantities": [
+            one("RMS", "rms", "m/s^2"), one("Peak", "peak", "m/s^2"),
+            one("Crest factor", "crest", "1"), one("Kurtosis", "kurtosis", "1"),
+        ]});
+    };
+    let scenario = &bench.loaded.scenario;
+    let all: Vec<Value> = quantities(scenario, bench.simulation(), outcome, findings)
+        .into_iter()
+        .map(|q| {
+            let interval = q.interval();
+            json!({
+                "name": q.name, "unit": q.unit, "value": q.value,
+                "low": interval.map(|i| i.0), "high": interval.map(|i| i.1),
+                "has_interval": q.spread != Spread::Without,
+            })
+        })
+        .collect();
+    json!({
+        "settled": brinell::summary::unsettled(findings).is_empty(),
+        "quantities": all,
+        "steps": outcome.work.solver.steps,
+        "evaluations": outcome.work.solver.evaluations,
+    })
+}

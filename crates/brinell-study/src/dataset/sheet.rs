@@ -1,0 +1,312 @@
+//! A few runs of each class to look at: what the contact sheet shows.
+
+use crate::dataset::error::DatasetError;
+use crate::dataset::folder::Folder;
+use brinell::observe::envelope_band_above;
+use brinell::signal::{Segments, envelope_spectrum};
+use brinell_io::{Cell, read_records};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Share of a record that is left out at its start of envelope and RMS: the bearing has not settled.
+const START: f64 = 0.25;
+/// Turns of the shaft that the waveform shows, at the record's end.
+const TURNS: f64 = 2.0;
+/// The same where the speed varies, s.
+const STRETCH_S: f64 = 0.1;
+
+/// A data set's runs to look at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Name of the data set.
+    pub name: String,
+    /// The version of brinell that made it.
+    pub version: String,
+    /// The signal's column.
+    pub signal: String,
+    /// Its unit.
+    pub unit: String,
+    /// In the order of their labels.
+    pub classes: Vec<SheetClass>,
+}
+
+/// Runs of one class.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetClass {
+    /// Its name.
+    pub name: String,
+    /// Its number.
+    pub label: usize,
+    /// Complete runs of it whose labels are open.
+    pub runs: usize,
+    /// Some of them.
+    pub shown: Vec<SheetRun>,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetRun {
+    /// Its number.
+    pub run: i64,
+    /// What it is for.
+    pub split: String,
+    /// Speed of the shaft, r/min, where it is constant.
+    pub speed_rpm: Option<f64>,
+    /// Load [x, y], N.
+    pub load_n: Vec<f64>,
+    /// Its damage.
+    pub defects: Vec<SheetDefect>,
+    /// RMS of the signal less its mean, its start left out.
+    pub rms: f64,
+    /// Time of the first sample of `stretch`, s.
+    pub from_s: f64,
+    /// Sample interval, s.
+    pub dt_s: f64,
+    /// The signal's last two turns of the shaft; 0.1 s where the speed varies.
+    pub stretch: Vec<f64>,
+    /// Band of the envelope, Hz: as on a run's page.
+    pub band_hz: (f64, f64),
+    /// Distance of the envelope spectrum's lines, Hz.
+    pub df_hz: f64,
+    /// Amplitude of each line, from 0 Hz; empty where the record is too short for one.
+    pub envelope: Vec<f64>,
+    /// Up to where the spectrum says something of the bearing, Hz: 4.5 times the highest frequency of a raceway.
+    pub top_hz: f64,
+}
+
+/// Damage of a run, as its labels have it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetDefect {
+    /// outer-raceway, inner-raceway or roller.
+    pub on: String,
+    /// Place, degrees counter-clockwise from +x.
+    pub center_deg: f64,
+    /// Extent along the rolling direction, mm.
+    pub length_mm: f64,
+    /// Along the axis, mm.
+    pub width_mm: f64,
+    /// Largest depth, um.
+    pub depth_um: f64,
+    /// Its ball-pass frequency, Hz; `None` where the speed varies.
+    pub frequency_hz: Option<f64>,
+}
+
+/// A run that may be shown: which file, which row of it, which class.
+struct Place {
+    part: usize,
+    row: usize,
+    label: usize,
+}
+
+/// At most `each` runs of each class of the data set in `folder`, spread over its files. Runs that failed, and runs whose labels are held out, are left out.
+///
+/// # Errors
+/// Where there is no data set, or it cannot be read.
+pub fn sheet(folder: impl AsRef<Path>, each: usize) -> Result<Sheet, DatasetError> {
+    let folder = Folder::new(folder.as_ref());
+    let about = described(&folder)?;
+    let text = |value: &Value| value.as_str().unwrap_or("").to_owned();
+    let list = |key: &str| about[key].as_array().into_iter().flatten();
+    let Some(signal) = list("columns").find(|c| c["type"] == "list<float>") else {
+        let message = format!("{}: no column is a signal", folder.root.display());
+        return Err(DatasetError::Refused(message));
+    };
+    let name = text(&signal["name"]);
+    let parts = folder.parts_there()?;
+    if parts.is_empty() {
+        return Err(DatasetError::Refused(format!(
+            "{}: no file of runs is there (runs/part-*.parquet)",
+            folder.root.display()
+        )));
+    }
+    let places = places(&parts)?;
+    let mut classes: Vec<SheetClass> = list("classes")
+        .enumerate()
+        .map(|(label, class)| SheetClass {
+            name: text(&class["name"]),
+            label,
+            runs: 0,
+            shown: Vec::new(),
+        })
+        .collect();
+    let mut chosen = BTreeSet::new();
+    for class in &mut classes {
+        let of_class = places.iter().filter(|place| place.label == class.label);
+        let of_class: Vec<&Place> = of_class.collect();
+        class.runs = of_class.len();
+        let spread = spread(of_class.len(), each).map(|k| (of_class[k].part, of_class[k].row));
+        chosen.extend(spread);
+    }
+    for (part, path) in parts.iter().enumerate() {
+        let is_chosen = |row: usize| chosen.contains(&(part, row));
+        for cells in read_records(path, &columns(&name), is_chosen)? {
+            let (label, run) = run_of(cells);
+            if let Some(class) = classes.get_mut(label) {
+                class.shown.push(run);
+            }
+        }
+    }
+    Ok(Sheet {
+        name: text(&about["name"]),
+        version: text(&about["brinell"]),
+        signal: name,
+        unit: text(&signal["unit"]),
+        classes,
+    })
+}
+
+/// `dataset.json`, or what is known before all files are there.
+fn described(folder: &Folder) -> Result<Value, DatasetError> {
+    let path = folder.sidecar();
+    match std::fs::read(&path) {
+        Ok(bytes) => serde_json::from_slice(&bytes)
+            .map_err(|error| DatasetError::Refused(format!("{}: {error}", path.display()))),
+        Err(_) => folder.about()?.ok_or_else(|| {
+            DatasetError::Refused(format!(
+                "{}: no data set is here (neither dataset.json nor work/campaign.json)",
+                folder.root.display()
+            ))
+        }),
+    }
+}
+
+fn places(parts: &[PathBuf]) -> Result<Vec<Place>, DatasetError> {
+    let mut places = Vec::new();
+    for (part, path) in parts.iter().enumerate() {
+        let rows = read_records(path, &["status", "label"], |_| true)?;
+        for (row, cells) in rows.iter().enumerate() {
+            if let [Cell::Words(status), Cell::Whole(label)] = cells.as_slice()
+                && status == "complete"
+            {
+                let label = *label as usize;
+                places.push(Place { part, row, label });
+            }
+        }
+    }
+    Ok(places)
+}
+
+/// At most `each` of `count` places, the first and the last among them.
+fn spread(count: usize, each: usize) -> impl Iterator<Item = usize> {
+    let shown = each.min(count);
+    (0..shown).map(move |k| match shown {
+        1 => 0,
+        _ => k * (count - 1) / (shown - 1),
+    })
+}
+
+/// What is read of a run, in the order of [`run_of`].
+fn columns(signal: &str) -> [&str; 17] {
+    [
+        "label",
+        "run",
+        "split",
+        "speed_rpm",
+        "load_n",
+        "sample_rate_hz",
+        "bpfo_hz",
+        "bpfi_hz",
+        "bsf_hz",
+        "defect_on",
+        "defect_center_deg",
+        "defect_length_mm",
+        "defect_width_mm",
+        "defect_depth_um",
+        "defect_frequency_hz",
+        "duration_s",
+        signal,
+    ]
+}
+
+/// A run from its cells, and its label.
+fn run_of(cells: Vec<Cell>) -> (usize, SheetRun) {
+    let whole = |k: usize| match cells[k] {
+        Cell::Whole(x) => x,
+        _ => -1,
+    };
+    let number = |k: usize| match cells[k] {
+        Cell::Number(x) => Some(x),
+        _ => None,
+    };
+    let numbers = |k: usize| match &cells[k] {
+        Cell::Numbers(x) => x.as_slice(),
+        _ => &[],
+    };
+    let on: &[String] = match &cells[9] {
+        Cell::WordsList(words) => words,
+        _ => &[],
+    };
+    let defects = on.iter().enumerate().map(|(d, on)| {
+        let of = |k: usize| numbers(k).get(d).copied();
+        SheetDefect {
+            on: on.clone(),
+            center_deg: of(10).unwrap_or(f64::NAN),
+            length_mm: of(11).unwrap_or(f64::NAN),
+            width_mm: of(12).unwrap_or(f64::NAN),
+            depth_um: of(13).unwrap_or(f64::NAN),
+            frequency_hz: of(14),
+        }
+    });
+    let raceways = [number(6), number(7), number(8).map(|bsf| 2.0 * bsf)];
+    let highest = raceways.into_iter().flatten().fold(0.0, f64::max);
+    let mut run = SheetRun {
+        run: whole(1),
+        split: match &cells[2] {
+            Cell::Words(word) => word.clone(),
+            _ => String::new(),
+        },
+        speed_rpm: number(3),
+        load_n: numbers(4).to_vec(),
+        defects: defects.collect(),
+        rms: f64::NAN,
+        from_s: 0.0,
+        dt_s: number(5).map_or(f64::NAN, |rate| 1.0 / rate),
+        stretch: Vec::new(),
+        band_hz: (0.0, 0.0),
+        df_hz: f64::NAN,
+        envelope: Vec::new(),
+        top_hz: 4.5 * highest,
+    };
+    if let Cell::Signal(signal) = &cells[16] {
+        run.hear(signal, highest);
+    }
+    (whole(0).max(0) as usize, run)
+}
+
+impl SheetRun {
+    /// What is shown of the signal; `highest` is the highest defect frequency, Hz.
+    fn hear(&mut self, signal: &[f32], highest: f64) {
+        let x: Vec<f64> = signal.iter().map(|x| f64::from(*x)).collect();
+        let rate = 1.0 / self.dt_s;
+        let turn = self.speed_rpm.map(|rpm| TURNS * 60.0 / rpm.abs());
+        let wanted = turn.filter(|s| s.is_finite()).unwrap_or(STRETCH_S) * rate;
+        let from = x.len().saturating_sub(wanted.max(2.0) as usize);
+        self.from_s = from as f64 * self.dt_s;
+        self.stretch = x[from..].to_vec();
+        let settled = &x[(START * x.len() as f64) as usize..];
+        let mean = settled.iter().sum::<f64>() / settled.len() as f64;
+        let square = settled.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        self.rms = (square / settled.len() as f64).sqrt();
+        let band = envelope_band_above(highest, rate);
+        self.band_hz = (band.low, band.high);
+        if let Ok(found) = envelope_spectrum(settled, rate, band, &Segments::of(settled.len())) {
+            self.df_hz = found.spectrum.frequency_step;
+            self.envelope = found.spectrum.amplitude;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_runs_are_spread_over_all_that_there_are() {
+        let of = |count, each| spread(count, each).collect::<Vec<_>>();
+        assert_eq!(of(10, 4), [0, 3, 6, 9]);
+        assert_eq!(of(3, 4), [0, 1, 2]);
+        assert_eq!(of(5, 1), [0]);
+        assert!(of(0, 4).is_empty());
+    }
+}

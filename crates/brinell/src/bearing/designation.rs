@@ -1,0 +1,146 @@
+//! Names of bearings as people write them: `NU 206 ECP`, `nu206`, `6205-2RS`, `SKF 6205 2RSH/C3`.
+//!
+//! A designation is a series and a size (letters, then digits), and suffixes for cage, seals, clearance and the like, which do not change the
+//! bearing's inner geometry. The class of clearance among them is told, because it does change the clearance.
+
+use super::clearance::ClearanceClass;
+
+/// Makers, whose names may be in front.
+const MAKERS: [&str; 14] = [
+    "SKF",
+    "FAG",
+    "INA",
+    "NSK",
+    "NTN",
+    "SNR",
+    "KOYO",
+    "NACHI",
+    "TIMKEN",
+    "LDK",
+    "REXNORD",
+    "ZKL",
+    "RHP",
+    "SCHAEFFLER",
+];
+
+/// Letters and digits, the letters large.
+pub(super) fn plain(name: &str) -> String {
+    let kept = name.chars().filter(|c| c.is_alphanumeric());
+    kept.flat_map(char::to_uppercase).collect()
+}
+
+/// Series and size with what follows them: `NU206` and ` ECP`. Several readings, the likeliest first; none where the name is no designation.
+pub(super) fn readings(name: &str) -> Vec<(String, String)> {
+    let name = name.trim().to_uppercase();
+    let mut rest = name.as_str();
+    for maker in MAKERS {
+        if let Some(after) = rest.strip_prefix(maker)
+            && !after.starts_with(char::is_alphabetic)
+        {
+            rest = after;
+        }
+    }
+    let letters: String = rest
+        .chars()
+        .filter(|c| !is_gap(*c))
+        .take_while(|c| c.is_ascii_alphabetic())
+        .collect();
+    let mut at = 0;
+    let mut left = letters.len();
+    for (k, c) in rest.char_indices() {
+        if left == 0 && !is_gap(c) {
+            at = k;
+            break;
+        }
+        left -= usize::from(!is_gap(c));
+        at = k + c.len_utf8();
+    }
+    let digits = rest[at..].bytes().take_while(u8::is_ascii_digit).count();
+    let suffix = &rest[at + digits..];
+    let size = &rest[at..at + digits];
+    let mut found = Vec::new();
+    if digits > 0 && is_suffix(suffix) {
+        found.push((format!("{letters}{size}"), suffix.to_owned()));
+    }
+    // Seals and shields on both sides, written without a gap: 62052RS.
+    if let Some(shorter) = size.strip_suffix('2')
+        && suffix.starts_with(['R', 'Z'])
+    {
+        found.push((format!("{letters}{shorter}"), format!("2{suffix}")));
+    }
+    found
+}
+
+fn is_gap(c: char) -> bool {
+    c.is_whitespace() || matches!(c, '-' | '.' | '_')
+}
+
+/// What follows a size without changing it: letters first, or the number of seals.
+fn is_suffix(text: &str) -> bool {
+    let bare = text.trim_start_matches(|c| is_gap(c) || c == '/');
+    let seals = bare
+        .strip_prefix('2')
+        .is_some_and(|after| after.starts_with(['R', 'Z', 'L', 'N']));
+    bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic())
+}
+
+/// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
+pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
+    let (_, suffix) = readings(name).into_iter().next()?;
+    let words = suffix.split(|c: char| is_gap(c) || c == '/');
+    let mut classes = words.filter_map(|word| {
+        // The letters of the grease may stand behind it: C3WT.
+        let two = word.get(..2)?;
+        ClearanceClass::ALL
+            .into_iter()
+            .find(|class| class.name() == two)
+    });
+    classes.next()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_designations_are_read_however_they_are_written() {
+        for (name, base) in [
+            ("NU206", "NU206"),
+            ("nu 206 ecp", "NU206"),
+            ("SKF NU 206 ECP", "NU206"),
+            ("FAG NU206-E-XL-TVP2", "NU206"),
+            ("NU-206-EM1", "NU206"),
+            ("6205", "6205"),
+            ("6205-2RS", "6205"),
+            ("6205 2RSH/C3", "6205"),
+            ("6205-2Z/C3WT", "6205"),
+            ("6205/C3", "6205"),
+            ("NN 3007 KTN/SP", "NN3007"),
+            ("NICE", ""),
+        ] {
+            let read = readings(name).into_iter().next().unwrap_or_default();
+            assert_eq!(read.0, base, "{name}");
+        }
+        assert_eq!(readings("62052RS")[1].0, "6205");
+        // Another bore, and another bearing.
+        assert!(readings("UC204-12").is_empty());
+        assert_eq!(readings("NUP 206 ECP")[0].0, "NUP206");
+        for name in ["", "-", " 2", "\u{b5}2\u{1f600}", "SKF", "2RS"] {
+            let _ = readings(name);
+        }
+    }
+
+    #[test]
+    fn prop_the_class_of_clearance_is_found_among_suffixes() {
+        for (name, class) in [
+            ("6205 2RSH/C3", Some(ClearanceClass::C3)),
+            ("6205-2Z/C3WT", Some(ClearanceClass::C3)),
+            ("NU 206 ECP/C4", Some(ClearanceClass::C4)),
+            ("NU206-C3", Some(ClearanceClass::C3)),
+            ("6205", None),
+            ("NU 206 ECP", None),
+        ] {
+            assert_eq!(clearance_of(name), class, "{name}");
+        }
+    }
+}

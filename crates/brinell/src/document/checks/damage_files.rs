@@ -1,0 +1,45 @@
+//! Files of damage: keys that need or exclude each other.
+
+use super::{Checker, short};
+use crate::scenario::{ImageFile, ScanFile, ScanForm};
+
+impl Checker<'_> {
+    /// Keys that mean something only beside others.
+    pub(super) fn scan(&mut self, i: usize, scan: &ScanFile) {
+        if scan.radius_mm.is_some() && scan.remove_form != ScanForm::Cylinder {
+            let form = self.shape_key(i, "depth_map", "remove_form");
+            self.error(
+                &self.shape_key(i, "depth_map", "radius_mm"),
+                "has a meaning only where remove_form = \"cylinder\"".into(),
+                String::new(),
+                &[&form],
+            );
+        }
+    }
+
+    /// Keys that exclude or contradict each other.
+    pub(super) fn image(&mut self, i: usize, image: &ImageFile) {
+        /// How far the side of a pixel may be from that of the scale bar.
+        const SAME: f64 = 0.01;
+        let key = |name: &str| format!("defects.{i}.shape.image.{name}");
+        if let Some(bar) = image.scale_bar {
+            let of_bar = bar.mm / bar.px;
+            if (image.mm_per_pixel / of_bar - 1.0).abs() > SAME {
+                self.error(
+                    &key("mm_per_pixel"),
+                    format!("scale_bar says {} mm; give one of them", short(of_bar)),
+                    String::new(),
+                    &[&key("scale_bar")],
+                );
+            }
+        }
+        if image.at_px.is_some() && image.pieces.is_some() {
+            self.error(
+                &key("pieces"),
+                "has no meaning beside at_px, which chooses one piece".into(),
+                String::new(),
+                &[&key("at_px")],
+            );
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! `image.scale_bar`: a length in a picture.
+
+use serde_json::{Value as Json, json};
+
+use super::keys::{Spec, key};
+use super::leaf::{Leaf, Misfit, wrong_type};
+use super::source::{Node, Value};
+use crate::scenario::ScaleBar;
+
+const PX: Spec = key("px", "its length in the picture")
+    .above(0.0)
+    .to(1e5)
+    .unit("px");
+const MM: Spec = key("mm", "its length").above(0.0).to(1e4).unit("mm");
+const ALLOWED: &str = "{ px = 412, mm = 5 }";
+
+impl Leaf for ScaleBar {
+    fn blank() -> Self {
+        Self {
+            px: f64::NAN,
+            mm: f64::NAN,
+        }
+    }
+
+    fn expected(_: &Spec) -> String {
+        format!("a table such as {ALLOWED}")
+    }
+
+    fn range(_: &Spec) -> String {
+        ALLOWED.into()
+    }
+
+    fn read(node: &Node, spec: &Spec) -> Result<Self, Misfit> {
+        let Value::Table(table) = &node.value else {
+            return Err(wrong_type::<Self>(node, spec));
+        };
+        let names: Vec<&str> = table.keys().map(String::as_str).collect();
+        if names != [MM.name, PX.name] {
+            let message = format!("keys {} make no scale bar", names.join(", "));
+            return Err(Misfit::new(message, ALLOWED));
+        }
+        let value = |spec: &Spec| {
+            let node = &table[spec.name].node;
+            f64::read(node, spec).map_err(|misfit| misfit.in_element(node).under(spec.name))
+        };
+        Ok(Self {
+            px: value(&PX)?,
+            mm: value(&MM)?,
+        })
+    }
+
+    fn write(&self) -> String {
+        format!("{{ px = {}, mm = {} }}", self.px.write(), self.mm.write())
+    }
+
+    fn schema(_: &Spec) -> Json {
+        let number = |spec: &Spec| {
+            let mut schema = f64::schema(spec);
+            schema["description"] = json!(format!("{} ({})", spec.doc, spec.unit));
+            schema
+        };
+        json!({
+            "type": "object",
+            "properties": { "px": number(&PX), "mm": number(&MM) },
+            "required": ["px", "mm"],
+            "additionalProperties": false,
+        })
+    }
+
+    fn is_defined(&self) -> bool {
+        self.px.is_finite() && self.mm.is_finite()
+    }
+}

@@ -1,0 +1,110 @@
+//! A run in slices, and a run that goes on in another simulation.
+
+use brinell::Scenario;
+use brinell::simulate::{CannotGoOn, End, Observer, Simulation};
+use std::ops::ControlFlow;
+
+const BEARING: &str =
+    "[bearing]\npreset = \"NN3007\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n";
+const SPALL: &str = "[[defects]]\non = \"outer-raceway\"\ncenter_deg = 0\ndepth_um = 20\n\
+    shape = { rectangle = { length_mm = 3, width_mm = 4 } }\n";
+
+fn simulation(more: &str) -> Simulation {
+    let scenario = Scenario::from_toml(&format!("{BEARING}{more}")).unwrap();
+    Simulation::new(&scenario).unwrap()
+}
+
+/// The first channel behind the anti-alias filter.
+#[derive(Default)]
+struct Sensor(Vec<f64>);
+
+impl Observer for Sensor {
+    fn row(&mut self, index: u64, _: &[f64], filtered: &[f64]) -> ControlFlow<()> {
+        assert_eq!(index as usize, self.0.len());
+        self.0.push(filtered[0]);
+        ControlFlow::Continue(())
+    }
+}
+
+fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
+}
+
+#[test]
+fn prop_however_a_run_is_cut_its_bits_are_the_same() {
+    let sensor = "[sensor]\nmounting_resonance_hz = 9000\nnoise_rms_m_per_s2 = 0.1\n[simulation]\nduration_s = 0.02\n";
+    let simulation = simulation(&format!("{SPALL}{sensor}"));
+    let mut whole = Sensor::default();
+    let outcome = simulation.run(&mut whole);
+    assert_eq!(whole.0.len() as u64, simulation.samples());
+    for slice in [1, 37, 100_000] {
+        let mut run = simulation.start();
+        let mut parts = Sensor::default();
+        let end = loop {
+            let before = run.rows();
+            match run.advance(slice, &mut parts) {
+                Some(end) => break end,
+                None => assert_eq!(run.rows(), before + slice),
+            }
+        };
+        assert_eq!(run.outcome(end), outcome);
+        assert_eq!(parts.0, whole.0);
+    }
+}
+
+/// A healthy bearing's signal hardly depends on how it is stepped: over 20 samples the two stay together.
+#[test]
+fn prop_a_run_that_goes_on_in_the_same_simulation_stays_on_its_way() {
+    let simulation = simulation("");
+    let mut runs = [simulation.start(), simulation.start()];
+    let mut sensors = [Sensor::default(), Sensor::default()];
+    for (run, sensor) in runs.iter_mut().zip(&mut sensors) {
+        assert_eq!(run.advance(1500, sensor), None);
+    }
+    runs[1].go_on_in(&simulation).unwrap();
+    for (run, sensor) in runs.iter_mut().zip(&mut sensors) {
+        assert_eq!(run.advance(20, sensor), None);
+    }
+    let [stayed, went] = sensors.map(|s| s.0);
+    assert_eq!(stayed[..1500], went[..1500]);
+    let difference: Vec<f64> = stayed.iter().zip(&went).map(|(a, b)| a - b).collect();
+    assert!(rms(&difference[1500..]) < 0.02 * rms(&stayed[1300..]));
+}
+
+#[test]
+fn prop_a_spall_that_is_cut_into_a_running_bearing_is_heard_and_the_run_has_no_end() {
+    let healthy = simulation("[simulation]\nduration_s = 0.1\n");
+    let damaged = simulation(&format!("{SPALL}[simulation]\nduration_s = 0.1\n"));
+    let mut run = healthy.start();
+    let mut sensor = Sensor::default();
+    assert_eq!(run.advance(u64::MAX, &mut sensor), Some(End::Complete));
+    let before = sensor.0.len();
+    run.go_on_in(&damaged).unwrap();
+    assert_eq!(run.advance(2560, &mut sensor), None);
+    let (quiet, struck) = (&sensor.0[before / 2..before], &sensor.0[before..]);
+    assert!(
+        rms(struck) > 1.5 * rms(quiet),
+        "{} {}",
+        rms(struck),
+        rms(quiet)
+    );
+    let outcome = run.outcome(End::Stopped);
+    assert!(outcome.energy.residual().abs() < 0.01 * outcome.energy.turnover());
+}
+
+#[test]
+fn prop_a_run_goes_on_only_where_the_states_correspond() {
+    let simulation_ = simulation("");
+    let mut run = simulation_.start();
+    let one_row =
+        Simulation::new(&Scenario::from_toml(&BEARING.replace("NN3007", "NU206")).unwrap())
+            .unwrap();
+    assert_eq!(run.go_on_in(&one_row), Err(CannotGoOn::Layout));
+    let faster = simulation("[simulation]\nsample_rate_hz = 51200\n");
+    assert_eq!(run.go_on_in(&faster), Err(CannotGoOn::SampleRate));
+    let tilting = simulation("[simulation]\nmodel = \"tilting\"\n");
+    assert_eq!(run.go_on_in(&tilting), Err(CannotGoOn::Layout));
+    let more = simulation("[simulation]\nrecord = [\"cage1_ay\"]\n");
+    assert_eq!(run.go_on_in(&more), Err(CannotGoOn::Filtered));
+    assert_eq!(run.advance(3, &mut ()), None);
+}
