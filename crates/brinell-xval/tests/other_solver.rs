@@ -44,7 +44,16 @@ struct Record<'a> {
     motion: Motion<'a>,
     channels: &'a [Channel],
     dy: Vec<f64>,
+    trajectory: Trajectory,
+}
+
+/// What one solver found.
+#[derive(Default)]
+struct Trajectory {
+    /// Of each channel.
     columns: Vec<Vec<f64>>,
+    /// Of each sample: which contacts and pockets push.
+    closed: Vec<Vec<bool>>,
 }
 
 impl<'a> Record<'a> {
@@ -53,12 +62,20 @@ impl<'a> Record<'a> {
             motion: Motion::new(model),
             channels,
             dy: vec![0.0; 2 * model.layout.dof()],
-            columns: vec![Vec::new(); channels.len()],
+            trajectory: Trajectory {
+                columns: vec![Vec::new(); channels.len()],
+                closed: Vec::new(),
+            },
         }
     }
 
     fn push(&mut self, t: f64, y: &[f64]) {
         self.motion.derivative(t, y, &mut self.dy);
+        let ws = &self.motion.ws;
+        let [inner, outer] = &ws.contacts;
+        let forces = [&inner.force, &outer.force, &ws.pocket_force];
+        let closed = forces.iter().flat_map(|f| f.iter().map(|f| *f != 0.0));
+        self.trajectory.closed.push(closed.collect());
         let frame = Frame {
             model: self.motion.model,
             t,
@@ -66,14 +83,14 @@ impl<'a> Record<'a> {
             a: &self.dy[y.len() / 2..],
             ws: &self.motion.ws,
         };
-        for (column, channel) in self.columns.iter_mut().zip(self.channels) {
+        for (column, channel) in self.trajectory.columns.iter_mut().zip(self.channels) {
             column.push(channel.value(&frame));
         }
     }
 }
 
 /// Our solver, with `share` of the tolerance of `reference` accuracy.
-fn ours(model: &Model, channels: &[Channel], times: &[f64], share: f64) -> Vec<Vec<f64>> {
+fn ours(model: &Model, channels: &[Channel], times: &[f64], share: f64) -> Trajectory {
     let mut record = Record::new(model, channels);
     let mut motion = Motion::new(model);
     let mut y = start::state(model).unwrap();
@@ -88,7 +105,7 @@ fn ours(model: &Model, channels: &[Channel], times: &[f64], share: f64) -> Vec<V
         record.push(t, &y);
     }
     println!("ours at {share} of the tolerance: {:?}", stepper.work());
-    record.columns
+    record.trajectory
 }
 
 /// Method of the other solver.
@@ -179,7 +196,7 @@ fn theirs(
     times: &[f64],
     method: Method,
     tolerance: &Tolerance,
-) -> Vec<Vec<f64>> {
+) -> Trajectory {
     let initial = start::state(model).unwrap();
     let coordinates = coordinates(model);
     let half = model.layout.dof();
@@ -251,7 +268,7 @@ fn theirs(
         record.push(t, &y);
     };
     run(&problem, method, times, at);
-    record.columns
+    record.trajectory
 }
 
 /// Step of the Jacobian's differences, in tolerances.
@@ -272,17 +289,22 @@ where
     }
 }
 
-/// Relative L2 difference from 1 ms on.
-fn difference(ours: &[f64], theirs: &[f64], times: &[f64]) -> f64 {
+/// Relative L2 difference over the samples that count.
+fn difference(ours: &[f64], theirs: &[f64], counts: &[bool]) -> f64 {
     let (mut num, mut den) = (0.0, 0.0);
-    for ((a, b), t) in ours.iter().zip(theirs).zip(times) {
-        if *t >= FROM_S {
+    for ((a, b), counts) in ours.iter().zip(theirs).zip(counts) {
+        if *counts {
             num += (a - b) * (a - b);
             den += b * b;
         }
     }
     if num == 0.0 { 0.0 } else { (num / den).sqrt() }
 }
+
+/// Samples in a run at which one solver has a contact or pocket closed that the other has open. A damper's force jumps there, so accelerations
+/// of such a sample differ by the jump however near the instants are: they are not compared. Found with any
+/// of four kernels: 1 or none.
+const JUMPS: usize = 2;
 
 /// What a channel's limit goes by.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -317,9 +339,10 @@ const HUNDREDTH: Limits = [1e-5, 5e-5, 3e-4];
 /// Tsitouras's.
 const IMPLICIT: Limits = [5e-4, 5e-4, 1e-3];
 
-/// Both rungs where rollers and rings tilt: each slice that closes or opens switches its damper, 32 to a contact. Worst found: 1.2e-4, 3.6e-4
-/// and 2.4e-3 (of tilts a millionth of a radian small), then 9e-6, 4.5e-5 and 2.1e-4.
-const TILTING: [(f64, Limits); 2] = [(1.0, [4e-4, 1e-3, 8e-3]), (0.01, [3e-5, 1.5e-4, 7e-4])];
+/// Both rungs where rollers and rings tilt: each slice that closes or opens switches its damper, 32 to a contact, and no solver places every
+/// switch. Worst found with any of four kernels: 2e-4, 6e-4 and 4.2e-3 (of tilts a millionth of a radian small), then 2.5e-5, 9e-5 and 6.6e-4.
+/// Kernels differ by round-off alone, and by up to three in these; so the limits are three times the worst.
+const TILTING: [(f64, Limits); 2] = [(1.0, [6e-4, 2e-3, 1.2e-2]), (0.01, [8e-5, 3e-4, 2e-3])];
 
 struct Case {
     path: &'static str,
@@ -341,10 +364,30 @@ impl Case {
         let mut failures = Vec::new();
         for &(share, limits) in rungs {
             let a = ours(&model, &channels, &times, share);
+            let late: Vec<bool> = times.iter().map(|t| *t >= FROM_S).collect();
+            let alike: Vec<bool> = (a.closed.iter().zip(&b.closed).zip(&late))
+                .map(|((a, b), late)| *late && a == b)
+                .collect();
+            let jumps = late.iter().zip(&alike).filter(|(l, a)| l != a).count();
+            println!(
+                "{} at {share} of our tolerance: {jumps} samples at a jump",
+                self.path
+            );
+            if jumps > JUMPS {
+                failures.push(format!(
+                    "{} at {share} of our tolerance: different contacts are closed at {jumps} samples, limit {JUMPS}",
+                    self.path
+                ));
+            }
             let mut worst = [(0.0, ""); 3];
-            for ((channel, a), b) in channels.iter().zip(&a).zip(&b) {
-                let kind = Kind::of(channel) as usize;
-                let d = difference(a, b, &times);
+            for ((channel, a), b) in channels.iter().zip(&a.columns).zip(&b.columns) {
+                let kind = Kind::of(channel);
+                let counts = match kind {
+                    Kind::Acceleration => &alike,
+                    Kind::Displacement | Kind::Rate => &late,
+                };
+                let kind = kind as usize;
+                let d = difference(a, b, counts);
                 if d > worst[kind].0 {
                     worst[kind] = (d, &channel.name);
                 }
