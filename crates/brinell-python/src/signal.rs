@@ -388,7 +388,8 @@ pub(crate) fn analyze<'py>(
     options.tolerance = tolerance;
     let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
     options.exact = simulated;
-    options.silent = simulated && !scenario.is_some_and(noisy);
+    let silent = simulated && !scenario.is_some_and(noisy);
+    options.silent = silent.then(|| unit.machine_noise());
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let (analysis, bands) = py.detach(|| {
         let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|analysis| {

@@ -74,13 +74,15 @@ impl Transformed {
         }
     }
 
-    /// The same with white noise of `relative` times the signal's RMS, by a seed of its own. Where a signal holds nothing, as a computed tone
-    /// between its lines, there is round-off, whose pattern no chance explains.
+    /// The same with white noise of `relative` times the signal's RMS, and of the RMS `noise` in the signal's unit, by a seed of its own. Where
+    /// a signal holds nothing, as a computed tone between its lines, there is round-off, whose pattern no chance explains.
     #[must_use]
-    pub fn dithered(mut self, relative: f64) -> Self {
+    pub fn dithered(mut self, relative: f64, noise: f64) -> Self {
         let power: f64 = self.bins.iter().map(Complex::norm_sqr).sum();
+        let samples = self.samples() as f64;
         // Noise of unit RMS has bins whose parts have a variance of half the samples; that of +-1 is a third.
-        let most = relative * (3.0 * power / self.samples() as f64).sqrt();
+        let of_signal = relative * (3.0 * power / samples).sqrt();
+        let most = of_signal.hypot(noise * (1.5 * samples).sqrt());
         let mut random = Random::new(1);
         let mut part = || most * (2.0 * random.part() - 1.0);
         for bin in &mut self.bins {
@@ -173,9 +175,11 @@ mod tests {
         // Whole periods: nothing leaks out of their bin.
         let step = std::f64::consts::TAU * 2300.0 / f64::from(n);
         let x: Vec<f64> = (0..n).map(|i| (step * f64::from(i)).sin()).collect();
-        let dithered = Transformed::of(&x, FS).unwrap().dithered(1e-6);
+        // A millionth of the tone's RMS, and as much again by its own measure.
+        let part = 1e-6 * 0.5f64.sqrt();
+        let dithered = Transformed::of(&x, FS).unwrap().dithered(1e-6, part);
         // The envelope of noise in a fraction b of the spectrum has a mean of RMS sqrt(b pi / 2).
-        let rms = 1e-6 * 0.5f64.sqrt();
+        let rms = part.hypot(part);
         for low in [4000.0, 8000.0] {
             let mean = dithered
                 .envelope(Band::between(low, low + 3200.0), n as usize)

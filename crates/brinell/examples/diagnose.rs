@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p brinell --example diagnose -- examples/inner-race.toml
 
-use brinell::analysis::{Options, analyze};
+use brinell::analysis::{MACHINE_NOISE, Options, analyze};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::document;
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .get("sensor_ax")
         .ok_or("sensor_ax is not recorded")?;
     let mut options = Options::new(rpm / 60.0, orders_of(&Geometry::of(&scenario.bearing)));
-    options.silent = true;
+    options.silent = Some(MACHINE_NOISE);
     options.exact = true;
     let analysis = analyze(&x[settled..], fs, &options)?;
     println!("{}", analysis.verdict());

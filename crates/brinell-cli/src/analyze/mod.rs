@@ -25,7 +25,7 @@ use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
 use files::{Files, files};
-use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted, truth};
+use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -171,7 +171,8 @@ fn load(args: &AnalyzeArgs, path: &Path) -> Result<Measured, Failure> {
             ask_bearing: !args.names_a_bearing(),
         },
     )?;
-    (measured.notes).extend(measured.scenario.as_deref().map(truth));
+    let of_the_run = measured.of_the_run();
+    measured.notes.extend(of_the_run);
     Ok(measured)
 }
 
@@ -365,7 +366,8 @@ fn lay_over(
             measured.unit.name
         )));
     }
-    (other.notes).extend(other.scenario.as_deref().map(truth));
+    let of_the_run = other.of_the_run();
+    other.notes.extend(of_the_run);
     let factor = other.unit.to_si / measured.unit.to_si;
     other.x.iter_mut().for_each(|v| *v *= factor);
     other.unit = measured.unit.clone();

@@ -246,7 +246,7 @@ pub(super) fn read(together: &Together, shaft: f64, options: &Options) -> Vec<Fa
                 faint: match component {
                     Component::Cage => f64::INFINITY,
                     // Rollers that enter the load strike the race of a healthy bearing too, and little drowns them in a simulation.
-                    Component::OuterRace if options.silent || options.exact => DEEP,
+                    Component::OuterRace if options.silent.is_some() || options.exact => DEEP,
                     _ => FAINT,
                 },
                 modulation: lines.modulation,

@@ -49,6 +49,14 @@ impl Unit {
     /// Units that a user may name; the last line is of raw signals, whose scale to vibration nobody states.
     pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
 
+    /// RMS of a machine's white noise in this unit ([`MACHINE_NOISE`](super::MACHINE_NOISE)); 0 for what is no acceleration, of which nothing is known.
+    pub fn machine_noise(&self) -> f64 {
+        match self.quantity {
+            Quantity::Acceleration => super::MACHINE_NOISE / self.to_si,
+            _ => 0.0,
+        }
+    }
+
     /// Of a file's spelling; one that is not known stays as it is and measures [`Quantity::Other`].
     pub fn of(spelling: &str) -> Self {
         Unit::known(spelling).unwrap_or_else(|| Unit {

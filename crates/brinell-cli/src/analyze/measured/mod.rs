@@ -67,9 +67,26 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    /// Whether a run made it whose sensor had no noise.
-    pub(super) fn silent(&self) -> bool {
-        (self.scenario.as_ref()).is_some_and(|run| run.scenario.sensor.noise_rms().is_none())
+    /// What is known of the run that made the signal: sentences.
+    pub(super) fn of_the_run(&self) -> Vec<String> {
+        let noise = self.silent().filter(|noise| *noise > 0.0);
+        let added = |noise| {
+            format!(
+                "its sensor has no noise: for the verdict {} {}, a quiet machine's, are added",
+                crate::say::short(noise, 3),
+                self.unit.name
+            )
+        };
+        (self.scenario.as_deref().map(truth).into_iter())
+            .chain(noise.map(added))
+            .collect()
+    }
+
+    /// Where a run made it whose sensor had no noise: that of a machine, in the signal's unit.
+    pub(super) fn silent(&self) -> Option<f64> {
+        let run = self.scenario.as_ref()?;
+        let silent = run.scenario.sensor.noise_rms().is_none();
+        silent.then(|| self.unit.machine_noise())
     }
 }
 
@@ -257,8 +274,8 @@ pub(super) fn run_in(folder: &Path) -> Option<PathBuf> {
         .find(|file| file.is_file())
 }
 
-/// What damage the run had that made a signal.
-pub(crate) fn truth(run: &Loaded) -> String {
+/// What damage the run had that made a signal, and what it lacks.
+fn truth(run: &Loaded) -> String {
     let on: BTreeSet<&str> = run.scenario.defects.iter().map(|d| d.on.word()).collect();
     let on: Vec<&str> = on.into_iter().collect();
     match on[..] {
