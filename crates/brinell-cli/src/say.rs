@@ -162,8 +162,13 @@ pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
 }
 
 /// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
+pub(crate) fn twelve_digits(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+/// [`twelve_digits`] in words.
 pub(crate) fn plain_number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    let rounded = twelve_digits(x);
     let size = rounded.abs();
     match size >= 1e6 || (size > 0.0 && size < 1e-3) {
         true => format!("{rounded:e}"),
