@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::say::{complain, document, one_line, say, short, twelve_digits};
 use brinell::defect::Shape;
-use brinell::defect::fit::{Fit, FitSettings};
+use brinell::defect::fit::{Fit, FitSettings, Segment};
 use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
@@ -259,12 +259,10 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
                 args.segments, args.order, args.samples
             ))
         })?;
+    let [width, depth] = errors_um(&fit).map(|errors| errors.map(|um| short(um, 3)));
     let error = format!(
         "fit error: width rms {} um, largest {} um; depth rms {} um, largest {} um",
-        short(1e6 * fit.width_error.rms, 3),
-        short(1e6 * fit.width_error.max, 3),
-        short(1e6 * fit.depth_error.rms, 3),
-        short(1e6 * fit.depth_error.max, 3)
+        width[0], width[1], depth[0], depth[1]
     );
     let head = format!(
         "{} segments, order {}, {} samples each",
@@ -320,6 +318,24 @@ fn mm(x: f64) -> f64 {
     (1e9 * x).round() / 1e6 + 0.0
 }
 
+/// Errors of width and depth, RMS and largest, um; what is round-off beside the largest coefficient is 0.
+fn errors_um(fit: &Fit) -> [[f64; 2]; 2] {
+    const ROUND_OFF: f64 = 1e-12;
+    let largest = |of: fn(&Segment) -> &Vec<f64>| {
+        let all = fit.segments.iter().flat_map(of);
+        all.fold(0.0_f64, |m, c| m.max(c.abs()))
+    };
+    let clean = |error: f64, scale: f64| match error < ROUND_OFF * scale {
+        true => 0.0,
+        false => twelve_digits(1e6 * error),
+    };
+    let (width, depth) = (largest(|g| &g.width), largest(|g| &g.depth));
+    [
+        [fit.width_error.rms, fit.width_error.max].map(|e| clean(e, width)),
+        [fit.depth_error.rms, fit.depth_error.max].map(|e| clean(e, depth)),
+    ]
+}
+
 /// What the fit says, as JSON.
 fn fit_json(fit: &Fit, args: &FitArgs) -> Value {
     let segments = fit.segments.iter().map(|g| {
@@ -330,12 +346,12 @@ fn fit_json(fit: &Fit, args: &FitArgs) -> Value {
             "depth_um": sound(&g.depth, 1e6),
         })
     });
-    let um = |x: f64| twelve_digits(1e6 * x);
+    let [width, depth] = errors_um(fit);
     json!({
         "order": args.order,
         "samples": args.samples,
-        "width_error_um": { "rms": um(fit.width_error.rms), "largest": um(fit.width_error.max) },
-        "depth_error_um": { "rms": um(fit.depth_error.rms), "largest": um(fit.depth_error.max) },
+        "width_error_um": { "rms": width[0], "largest": width[1] },
+        "depth_error_um": { "rms": depth[0], "largest": depth[1] },
         "segments": segments.collect::<Vec<_>>(),
     })
 }

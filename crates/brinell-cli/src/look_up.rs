@@ -252,7 +252,10 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
             .collect();
         document(&Value::Object(values).to_string());
     } else {
-        say!("Pure rolling at {rpm} r/min, outer ring at rest");
+        say!(
+            "Pure rolling at {} r/min, outer ring at rest",
+            plain_number(rpm)
+        );
         for (name, hz, meaning) in rows {
             say!(
                 "  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}",

@@ -93,11 +93,15 @@ fn coloured(text: &str) -> String {
     const PLACE: &str = "-->";
     let line = |line: &str| {
         for (word, colour) in BEGINNINGS {
-            if let Some(rest) = line.strip_prefix(word)
-                && rest.starts_with(':')
-            {
-                let style = colour.on_default().bold();
-                return format!("{style}{word}:{style:#}{}", &rest[1..]);
+            let Some(rest) = line.strip_prefix(word) else {
+                continue;
+            };
+            let style = colour.on_default().bold();
+            if let Some(rest) = rest.strip_prefix(':') {
+                return format!("{style}{word}:{style:#}{rest}");
+            }
+            if rest.starts_with(", line ") {
+                return format!("{style}{word}{style:#}{rest}");
             }
         }
         let marks = line.split_once(" | ").is_some_and(|(gutter, rest)| {
@@ -196,8 +200,7 @@ mod tests {
 
     #[test]
     fn prop_colour_marks_what_begins_a_complaint_and_changes_no_word() {
-        let text =
-            "error: a: b\n  --> s.toml:1:2\n  1 | error: x\n    |   ^^^\nwarning: c\nerrors 2";
+        let text = "error: a: b\n  --> s.toml:1:2\n  1 | error: x\n    |   ^^^\nwarning: c\nerrors 2\nerror, line 2: d";
         let shown = coloured(text);
         assert_eq!(anstream::adapter::strip_str(&shown).to_string(), text);
         let red = "\u{1b}[1m\u{1b}[31m";
@@ -211,6 +214,10 @@ mod tests {
             "{shown:?}"
         );
         assert_eq!((lines[2], lines[5]), ("  1 | error: x", "errors 2"));
+        assert!(
+            lines[6].starts_with("\u{1b}[1m\u{1b}[31merror\u{1b}[0m, line 2"),
+            "{shown:?}"
+        );
     }
 
     #[test]
