@@ -304,6 +304,9 @@ pub(crate) struct PreviewArgs {
     /// Thickness of the ring for its section properties [default: 0.6 of the roller's diameter, an assumption]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) ring_thickness_mm: Option<f64>,
+    /// Print preview.json, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// What a shape is written as.
@@ -394,6 +397,9 @@ pub(crate) struct FitArgs {
     /// Print the fit as damage: an entry of defects with a dense profile
     #[arg(long)]
     pub(crate) toml: bool,
+    /// Print JSON: segments, coefficients from x^0 on, errors
+    #[arg(long, conflicts_with = "toml")]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

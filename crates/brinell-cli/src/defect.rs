@@ -8,14 +8,15 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use crate::files::Source;
-use crate::say::{complain, document, one_line, say, short};
+use crate::say::{complain, document, one_line, say, short, twelve_digits};
 use brinell::defect::Shape;
-use brinell::defect::fit::{Fit, FitSettings};
+use brinell::defect::fit::{Fit, FitSettings, Segment};
 use brinell::defect::simplify::{Extent, Simple, simplify};
 use brinell::document::Loaded;
 use brinell::scenario::{self, Scenario, Surface};
 use brinell_damage::plan::{self, Contour};
 use preview::preview;
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 /// Most points a shape is written with.
@@ -77,7 +78,7 @@ fn print(s: &Scenario, mut defect: scenario::Defect, remarks: &[String]) {
 
 /// Twelve digits of what was computed: the others are the round-off of sums and of changes of unit.
 fn round(defect: &mut scenario::Defect) {
-    let twelve = |x: &mut f64| *x = format!("{x:.11e}").parse().unwrap_or(*x);
+    let twelve = |x: &mut f64| *x = twelve_digits(*x);
     twelve(&mut defect.depth_um);
     twelve(&mut defect.center_deg);
     match &mut defect.shape {
@@ -258,12 +259,10 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
                 args.segments, args.order, args.samples
             ))
         })?;
+    let [width, depth] = errors_um(&fit).map(|errors| errors.map(|um| short(um, 3)));
     let error = format!(
         "fit error: width rms {} um, largest {} um; depth rms {} um, largest {} um",
-        short(1e6 * fit.width_error.rms, 3),
-        short(1e6 * fit.width_error.max, 3),
-        short(1e6 * fit.depth_error.rms, 3),
-        short(1e6 * fit.depth_error.max, 3)
+        width[0], width[1], depth[0], depth[1]
     );
     let head = format!(
         "{} segments, order {}, {} samples each",
@@ -277,27 +276,20 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
         print(s, defect, &[head, error]);
         return Ok(());
     }
+    if args.json {
+        document(&serde_json::to_string_pretty(&fit_json(&fit, args)).unwrap_or_default());
+        return Ok(());
+    }
     say!("{head}");
     say!("{error}");
     say!(
         "L_s(x) in mm and h_s(x) in um, x = (2 s - from - to)/(to - from), coefficients of x^0, x^1, ..."
     );
-    // What is round-off beside the largest coefficient is 0.
     let list = |values: &[f64], unit: f64| {
-        let largest = values.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-        let all: Vec<String> = values
-            .iter()
-            .map(|c| {
-                format!(
-                    "{:.6e}",
-                    unit * if c.abs() < 1e-12 * largest { 0.0 } else { *c }
-                )
-            })
-            .collect();
+        let all = sound(values, unit);
+        let all: Vec<String> = all.iter().map(|c| format!("{c:.6e}")).collect();
         all.join(" ")
     };
-    // Never -0.
-    let mm = |x: f64| (1e9 * x).round() / 1e6 + 0.0;
     for (k, g) in fit.segments.iter().enumerate() {
         say!(
             "segment {}: s from {:.6} to {:.6} mm",
@@ -309,6 +301,59 @@ fn fit(args: &FitArgs) -> Result<(), Failure> {
         say!("  depth {}", list(&g.depth, 1e6));
     }
     Ok(())
+}
+
+/// Coefficients in another unit; what is round-off beside the largest is 0.
+fn sound(values: &[f64], unit: f64) -> Vec<f64> {
+    let largest = values.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let one = |c: &f64| match c.abs() < 1e-12 * largest {
+        true => 0.0,
+        false => twelve_digits(unit * c),
+    };
+    values.iter().map(one).collect()
+}
+
+/// A length in mm to 1e-6, and never -0.
+fn mm(x: f64) -> f64 {
+    (1e9 * x).round() / 1e6 + 0.0
+}
+
+/// Errors of width and depth, RMS and largest, um; what is round-off beside the largest coefficient is 0.
+fn errors_um(fit: &Fit) -> [[f64; 2]; 2] {
+    const ROUND_OFF: f64 = 1e-12;
+    let largest = |of: fn(&Segment) -> &Vec<f64>| {
+        let all = fit.segments.iter().flat_map(of);
+        all.fold(0.0_f64, |m, c| m.max(c.abs()))
+    };
+    let clean = |error: f64, scale: f64| match error < ROUND_OFF * scale {
+        true => 0.0,
+        false => twelve_digits(1e6 * error),
+    };
+    let (width, depth) = (largest(|g| &g.width), largest(|g| &g.depth));
+    [
+        [fit.width_error.rms, fit.width_error.max].map(|e| clean(e, width)),
+        [fit.depth_error.rms, fit.depth_error.max].map(|e| clean(e, depth)),
+    ]
+}
+
+/// What the fit says, as JSON.
+fn fit_json(fit: &Fit, args: &FitArgs) -> Value {
+    let segments = fit.segments.iter().map(|g| {
+        json!({
+            "from_mm": mm(g.from),
+            "to_mm": mm(g.to),
+            "width_mm": sound(&g.width, 1e3),
+            "depth_um": sound(&g.depth, 1e6),
+        })
+    });
+    let [width, depth] = errors_um(fit);
+    json!({
+        "order": args.order,
+        "samples": args.samples,
+        "width_error_um": { "rms": width[0], "largest": width[1] },
+        "depth_error_um": { "rms": depth[0], "largest": depth[1] },
+        "segments": segments.collect::<Vec<_>>(),
+    })
 }
 
 fn random(args: &RandomArgs) -> Result<(), Failure> {

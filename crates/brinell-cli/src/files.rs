@@ -3,7 +3,8 @@
 use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::inputs::Inputs;
-use crate::say::complain;
+use crate::say::{complain, one_line};
+use brinell::document::reading::parse;
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_io::read_text;
@@ -74,6 +75,20 @@ impl Source {
         })
     }
 
+    /// That the file is the plan of a data set, where it is one.
+    fn plan_in_place(&self) -> Option<Failure> {
+        let keys = parse(&self.text(), &[]).ok()?;
+        let is_there = |key| keys.contains_key(key);
+        let is_plan = is_there("base") && is_there("runs") && !is_there("bearing");
+        is_plan.then(|| {
+            Failure::Usage(format!(
+                "{0} is no scenario but the plan of a data set: `brinell dataset {0} --dry-run` checks it, `brinell dataset {0}` makes it; its scenario is the file \
+                 that its key `base` names",
+                one_line(&self.name)
+            ))
+        })
+    }
+
     /// The scenario with `settings` over the overrides; its warnings go to standard error unless `quiet`.
     pub(crate) fn load(
         &self,
@@ -86,7 +101,8 @@ impl Source {
             text: self.text(),
             problems,
         };
-        let mut loaded = read_bytes(&self.bytes, &overrides).map_err(failed)?;
+        let mut loaded = read_bytes(&self.bytes, &overrides)
+            .map_err(|problems| self.plan_in_place().unwrap_or_else(|| failed(problems)))?;
         if !quiet && !loaded.warnings.is_empty() {
             print_problems(&self.name, &self.text(), &loaded.warnings);
         }

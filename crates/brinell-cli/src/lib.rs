@@ -117,7 +117,10 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
         Command::Frequencies(args) => look_up::frequencies(&args),
         Command::Defect { command } => defect::defect(&command),
         Command::Analyze(args) => analyze::analyze(&args),
-        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Sweep(mut args) => {
+            args.quiet |= args.json;
+            sweep::sweep(&args)
+        }
         Command::Calibrate(mut args) => {
             args.quiet |= args.json;
             calibrate::calibrate(&args)
@@ -130,7 +133,10 @@ fn run_command(command: Command) -> Result<ExitCode, Failure> {
             args.quiet |= args.json;
             reproduce::reproduce(&args)
         }
-        Command::Dataset(args) => dataset::dataset(&args),
+        Command::Dataset(mut args) => {
+            args.quiet |= args.json;
+            dataset::dataset(&args)
+        }
         Command::Studio(args) => studio::studio(&args),
         Command::Schema(args) => look_up::schema(&args),
         Command::Diff(args) => diff::diff(&args),

@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use crate::files;
 use crate::say::{document, plain_number, say};
 use brinell::analysis::NamedBearing;
-use brinell::bearing::KnownBearing;
 use brinell::bearing::catalogue::{self, BORE, DYNAMIC_RATING, Datum, Entry, FACTS, STATIC_RATING};
 use brinell::bearing::clearance::ClearanceClass;
 use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::{KnownBearing, clearance_of};
 use brinell::scenario::{Element, Speed};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -31,14 +31,14 @@ pub(crate) fn bearing(command: &BearingCommand) -> Result<ExitCode, Failure> {
         }
         BearingCommand::List { json: false } => list(),
         BearingCommand::Show { name, json: true } => {
-            let known = find(name)?;
-            document(&serde_json::to_string_pretty(&shown(known)).unwrap_or_default());
+            let json = shown(find(name)?, clearance_of(name));
+            document(&serde_json::to_string_pretty(&json).unwrap_or_default());
         }
         BearingCommand::Show { name, json: false } => {
             let known = find(name)?;
             say!("{}: {}", known.name(), known.title());
             match known {
-                KnownBearing::Catalogue(entry) => show_entry(entry),
+                KnownBearing::Catalogue(entry) => show_entry(entry, clearance_of(name)),
                 KnownBearing::DataSet(bearing) => show_named(bearing),
             }
         }
@@ -86,8 +86,8 @@ fn listed(known: KnownBearing) -> Value {
     json
 }
 
-/// All that is known of a bearing, as JSON.
-fn shown(known: KnownBearing) -> Value {
+/// All that is known of a bearing, as JSON; `class` is that of the clearance in the name it was asked for by.
+fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
     let mut json = listed(known);
     match known {
         KnownBearing::Catalogue(entry) => {
@@ -107,6 +107,11 @@ fn shown(known: KnownBearing) -> Value {
                 .map(|(class, [low, high])| (class.name().to_owned(), json!([low, high])))
                 .collect();
             json["diametral_clearance_um"] = classes.into();
+            if let Some((class, middle)) = class.and_then(|c| Some((c, middle(entry, c)?))) {
+                json["clearance_class"] = class.name().into();
+                json["numbers"][CLEARANCE] =
+                    json!({ "value": middle, "source": of_the_name(class), "estimated": true });
+            }
         }
         KnownBearing::DataSet(b) => {
             json["rollers_per_row"] = b.elements.into();
@@ -118,22 +123,57 @@ fn shown(known: KnownBearing) -> Value {
     json
 }
 
-/// The classes of clearance for its bore, with their limits on the diameter, um.
-fn classes(entry: &Entry) -> impl Iterator<Item = (ClearanceClass, [f64; 2])> {
+/// What the class of clearance in a name replaces.
+const CLEARANCE: &str = "bearing.radial_clearance_um";
+
+/// Kind of rolling element, and bore in mm.
+fn bore(entry: &Entry) -> (Element, f64) {
     let element = match entry.has_balls() {
         true => Element::Ball,
         false => Element::Roller,
     };
-    let bore = entry.fact(BORE).unwrap_or(0.0);
+    (element, entry.fact(BORE).unwrap_or(0.0))
+}
+
+/// The classes of clearance for its bore, with their limits on the diameter, um.
+fn classes(entry: &Entry) -> impl Iterator<Item = (ClearanceClass, [f64; 2])> {
+    let (element, bore) = bore(entry);
     let all = ClearanceClass::ALL.into_iter();
     all.filter_map(move |class| Some((class, class.limits(element, bore)?)))
 }
 
-fn show_entry(entry: &Entry) {
+/// Clearance on one side in the middle of a class, um.
+fn middle(entry: &Entry, class: ClearanceClass) -> Option<f64> {
+    let (element, bore) = bore(entry);
+    class.one_sided_middle(element, bore)
+}
+
+/// Where the clearance of a name with a class comes from.
+fn of_the_name(class: ClearanceClass) -> String {
+    format!(
+        "{} in the name: half of the middle of its diametral range, ISO 5753-1 for the bore",
+        class.name()
+    )
+}
+
+/// `named`: the class of clearance in the name it was asked for by.
+fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
     let all = || entry.facts.iter().chain(&entry.values);
     let width = all().map(|v| v.key.len()).max().unwrap_or(0);
+    let of_class = named.and_then(|class| Some((class, middle(entry, class)?)));
     for value in all() {
-        let estimated = if value.estimated { "estimated: " } else { "" };
+        if let (CLEARANCE, Some((class, middle))) = (value.key.as_str(), of_class) {
+            let (middle, source) = (plain_number(middle), of_the_name(class));
+            say!("  {CLEARANCE:<width$}  {middle:>10}  estimated: {source}");
+            continue;
+        }
+        // Most sources say it themselves.
+        let said = value.source.starts_with("Estimated");
+        let estimated = if value.estimated && !said {
+            "estimated: "
+        } else {
+            ""
+        };
         say!(
             "  {:<width$}  {:>10}  {estimated}{}",
             value.key,
@@ -142,9 +182,13 @@ fn show_entry(entry: &Entry) {
         );
     }
     for (class, [low, high]) in classes(entry) {
+        let this = match named == Some(class) {
+            true => " (this bearing, as its name says)",
+            false => "",
+        };
         let class = class.name();
         say!(
-            "  {:<width$}  {:>10}  um on the diameter, ISO 5753-1 for the bore: bearing.clearance_class = \"{class}\"",
+            "  {:<width$}  {:>10}  um on the diameter, ISO 5753-1 for the bore: bearing.clearance_class = \"{class}\"{this}",
             format!("clearance_{class}"),
             format!("{low}-{high}"),
         );
@@ -208,7 +252,10 @@ pub(crate) fn frequencies(args: &FrequenciesArgs) -> Result<ExitCode, Failure> {
             .collect();
         document(&Value::Object(values).to_string());
     } else {
-        say!("Pure rolling at {rpm} r/min, outer ring at rest");
+        say!(
+            "Pure rolling at {} r/min, outer ring at rest",
+            plain_number(rpm)
+        );
         for (name, hz, meaning) in rows {
             say!(
                 "  {name:<7} {hz:>11.4} Hz  {:>9.5} x shaft  {meaning}",

@@ -7,7 +7,8 @@ use std::fmt::Write;
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Steps between looks at the clock.
@@ -27,7 +28,7 @@ impl Progress {
     /// For a run of `duration` seconds.
     pub(crate) fn new(duration: f64, quiet: bool) -> Self {
         Self {
-            bar: bar(duration, quiet),
+            bar: bar(duration, quiet, Arc::default()),
             duration,
             begin: Instant::now(),
             skipped: 0,
@@ -105,15 +106,19 @@ pub(crate) struct Joint {
     bar: ProgressBar,
     runs: usize,
     ended: usize,
+    /// Done before, which tells nothing of the pace, us.
+    before: Arc<AtomicU64>,
 }
 
 impl Joint {
     /// For `runs` runs of `duration` seconds together.
     pub(crate) fn new(runs: usize, duration: f64, quiet: bool) -> Self {
+        let before = Arc::default();
         let joint = Self {
-            bar: bar(duration, quiet),
+            bar: bar(duration, quiet, Arc::clone(&before)),
             runs,
             ended: 0,
+            before,
         };
         joint.tell();
         joint
@@ -144,6 +149,7 @@ impl Joint {
     /// A run of `duration` seconds was done before.
     pub(crate) fn done_before(&mut self, duration: f64) {
         self.ended += 1;
+        self.before.fetch_add(micros(duration), Ordering::Relaxed);
         self.bar.inc(micros(duration));
         self.tell();
     }
@@ -176,8 +182,8 @@ impl Drop for Joint {
     }
 }
 
-/// A bar over `duration` simulated seconds.
-fn bar(duration: f64, quiet: bool) -> ProgressBar {
+/// A bar over `duration` simulated seconds; `before`: of them, done before, us.
+fn bar(duration: f64, quiet: bool, before: Arc<AtomicU64>) -> ProgressBar {
     let target = if quiet || !std::io::stderr().is_terminal() {
         ProgressDrawTarget::hidden()
     } else {
@@ -187,19 +193,28 @@ fn bar(duration: f64, quiet: bool) -> ProgressBar {
     // Within the 80 columns of a plain terminal, or it would wrap. The template is constant; indicatif's default is used should it ever not parse.
     let style = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}{to_go}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
+    let to_go = move |state: &ProgressState, line: &mut dyn Write| {
+        let before = before.load(Ordering::Relaxed);
+        let done = share_of(state.pos(), state.len().unwrap_or(0), before);
+        if let Some(left) = time_left(done, state.elapsed()) {
+            let _ = write!(line, ", {:#} to go", HumanDuration(left));
+        }
+    };
     bar.set_style(style.with_key("to_go", to_go));
     bar.set_message("starting");
     bar
 }
 
-/// The time to go, once there is something to tell it from: at first an estimate is 0 or anything.
-fn to_go(state: &ProgressState, line: &mut dyn Write) {
-    if let Some(left) = time_left(state.fraction(), state.elapsed()) {
-        let _ = write!(line, ", {:#} to go", HumanDuration(left));
+/// Of what this call has to do, the share that is done.
+fn share_of(done: u64, of: u64, before: u64) -> f32 {
+    match of.saturating_sub(before) {
+        0 => 1.0,
+        own => done.saturating_sub(before) as f32 / own as f32,
     }
 }
 
-/// Wall time to go where `done` of the whole took `elapsed`; `None` while too little is done to know, and at the end.
+/// Wall time to go where `done` of the whole took `elapsed`; `None` while too little is done to know (an estimate is 0 or anything then), and at
+/// the end.
 fn time_left(done: f32, elapsed: Duration) -> Option<Duration> {
     /// Of the whole, and of time.
     const ENOUGH: (f32, Duration) = (0.01, Duration::from_millis(500));
@@ -228,6 +243,13 @@ mod tests {
         assert_eq!(time_left(1.0, ms(5000)), None);
         assert_eq!(time_left(0.5, ms(5500)), Some(ms(6000)));
         assert_eq!(time_left(0.999, ms(1000)), Some(ms(1000)));
+        // 390 of 400 runs were there before: the first second tells nothing, one run in two seconds that 18 s are to go.
+        assert_eq!(time_left(share_of(390, 400, 390), ms(1000)), None);
+        assert_eq!(
+            time_left(share_of(391, 400, 390), ms(2010)),
+            Some(ms(19_000))
+        );
+        assert_eq!(time_left(share_of(400, 400, 400), ms(1000)), None);
     }
 
     #[test]

@@ -93,11 +93,15 @@ fn coloured(text: &str) -> String {
     const PLACE: &str = "-->";
     let line = |line: &str| {
         for (word, colour) in BEGINNINGS {
-            if let Some(rest) = line.strip_prefix(word)
-                && rest.starts_with(':')
-            {
-                let style = colour.on_default().bold();
-                return format!("{style}{word}:{style:#}{}", &rest[1..]);
+            let Some(rest) = line.strip_prefix(word) else {
+                continue;
+            };
+            let style = colour.on_default().bold();
+            if let Some(rest) = rest.strip_prefix(':') {
+                return format!("{style}{word}:{style:#}{rest}");
+            }
+            if rest.starts_with(", line ") {
+                return format!("{style}{word}{style:#}{rest}");
             }
         }
         let marks = line.split_once(" | ").is_some_and(|(gutter, rest)| {
@@ -162,8 +166,13 @@ pub(crate) fn bracketed(value: String, interval: Option<(f64, f64)>) -> String {
 }
 
 /// A number to 12 digits, without what computing leaves behind them: 0.165, not 0.16499999999999998.
+pub(crate) fn twelve_digits(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+/// [`twelve_digits`] in words.
 pub(crate) fn plain_number(x: f64) -> String {
-    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    let rounded = twelve_digits(x);
     let size = rounded.abs();
     match size >= 1e6 || (size > 0.0 && size < 1e-3) {
         true => format!("{rounded:e}"),
@@ -191,8 +200,7 @@ mod tests {
 
     #[test]
     fn prop_colour_marks_what_begins_a_complaint_and_changes_no_word() {
-        let text =
-            "error: a: b\n  --> s.toml:1:2\n  1 | error: x\n    |   ^^^\nwarning: c\nerrors 2";
+        let text = "error: a: b\n  --> s.toml:1:2\n  1 | error: x\n    |   ^^^\nwarning: c\nerrors 2\nerror, line 2: d";
         let shown = coloured(text);
         assert_eq!(anstream::adapter::strip_str(&shown).to_string(), text);
         let red = "\u{1b}[1m\u{1b}[31m";
@@ -206,6 +214,10 @@ mod tests {
             "{shown:?}"
         );
         assert_eq!((lines[2], lines[5]), ("  1 | error: x", "errors 2"));
+        assert!(
+            lines[6].starts_with("\u{1b}[1m\u{1b}[31merror\u{1b}[0m, line 2"),
+            "{shown:?}"
+        );
     }
 
     #[test]

@@ -190,3 +190,23 @@ fn regress_check_and_run_warn_alike() {
         assert!(text.contains("outside the load zone") && text.contains("too short to settle"));
     }
 }
+
+#[test]
+fn prop_a_plan_in_place_of_a_scenario_is_said_to_be_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let data_set = ["init", "plan.toml", "--template", "data-set"];
+    brinell(here, &data_set).exits(0);
+    for command in ["check", "run"] {
+        let call = brinell(here, &[command, "plan.toml"]).exits(2).complains(&[
+            "plan.toml is no scenario but the plan of a data set",
+            "brinell dataset plan.toml --dry-run",
+        ]);
+        assert_eq!(call.err.lines().count(), 1, "{call:?}");
+    }
+    // A scenario with keys that it must not have stays one.
+    std::fs::write(here.join("s.toml"), "base = \"x\"\nruns = 2\n[bearing]\n").unwrap();
+    brinell(here, &["check", "s.toml"])
+        .exits(2)
+        .complains(&["unknown key", "preset"]);
+}

@@ -112,6 +112,20 @@ fn prop_every_template_runs() {
 }
 
 #[test]
+fn prop_the_template_of_an_inner_race_is_long_enough_for_its_line() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    let init = ["init", "s.toml", "--template", "inner-spall"];
+    brinell(here, &init).exits(0);
+    brinell(here, &["run", "s.toml", "-o", "o", "--no-report"])
+        .exits(0)
+        .says(&["defect 1: BPFI 32"]);
+    brinell(here, &["analyze", "o"])
+        .exits(0)
+        .says(&["Inner race damage, clear: BPFI at 32"]);
+}
+
+#[test]
 fn prop_full_templates_are_the_same_scenario() {
     for template in [
         "outer-spall",

@@ -81,6 +81,59 @@ fn lit_the_class_of_clearance_in_a_name_is_used() {
 }
 
 #[test]
+fn lit_bearing_show_gives_the_clearance_of_the_class_in_the_name() {
+    let folder = tempdir().unwrap();
+    let show = |more: &[&str]| {
+        let args = [&["bearing", "show"], more].concat();
+        brinell(folder.path(), &args).exits(0).keeps_quiet().out
+    };
+    // ISO 5753-1: C3 of ball bearings is 13 to 28 um on the diameter for a bore of 25 mm; a quarter of the sum is on one side.
+    let told = parsed(&show(&["6205-2RS/C3", "--json"]));
+    assert_eq!(told["clearance_class"], "C3");
+    let clearance = &told["numbers"]["bearing.radial_clearance_um"];
+    assert_eq!(clearance["value"], 10.25);
+    let text = show(&["6205-2RS/C3"]);
+    let line = |text: &str, of: &str| {
+        let found = text.lines().find(|l| l.contains(of));
+        found.unwrap_or_default().to_owned()
+    };
+    assert!(
+        line(&text, "bearing.radial_clearance_um").contains(" 10.25  estimated: C3 in the name")
+    );
+    assert!(line(&text, "clearance_C3").ends_with("(this bearing, as its name says)"));
+    let plain = show(&["6205"]);
+    assert!(
+        !plain.contains("in the name") && !plain.contains("this bearing"),
+        "{plain}"
+    );
+    assert!(parsed(&show(&["6205", "--json"]))["clearance_class"].is_null());
+}
+
+#[test]
+fn prop_a_letter_o_in_a_size_is_taken_for_the_digit() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    let scenario = |preset| {
+        format!("[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1\nload_n = [1, 0]\n")
+    };
+    for (name, meant) in [
+        ("62O5", "6205"),
+        ("nu 2o6 ECP", "NU206"),
+        ("NN3OO7", "NN3007"),
+    ] {
+        let hint = format!("did you mean {meant}?");
+        brinell(here, &["bearing", "show", name])
+            .exits(2)
+            .complains(&[&hint]);
+        fs::write(here.join("s.toml"), scenario(name)).unwrap();
+        let hint = format!("did you mean \"{meant}\"?");
+        brinell(here, &["check", "s.toml"])
+            .exits(2)
+            .complains(&[&hint]);
+    }
+}
+
+#[test]
 fn prop_quantities_with_units_are_the_numbers() {
     let folder = tempdir().unwrap();
     let here = folder.path();
@@ -137,6 +190,60 @@ fn prop_json_is_what_the_files_hold() {
     brinell(here, &both)
         .exits(2)
         .complains(&["of one scenario; here are 2"]);
+    let preview = ["defect", "preview", "s.toml", "-o", "p", "--json"];
+    let told = parsed(&brinell(here, &preview).exits(0).keeps_quiet().out);
+    assert_eq!(told, json(&here.join("p/preview.json")));
+}
+
+#[test]
+fn prop_a_sweep_as_json_has_the_rows_of_its_table() {
+    let folder = with_blocks("s.toml");
+    let here = folder.path();
+    let vary = "defects.0.depth_um=10,20";
+    let sweep = ["sweep", "s.toml", "--vary", vary, "-o", "w", "--json"];
+    let mut told = parsed(&brinell(here, &sweep).exits(0).keeps_quiet().out);
+    let rows = told.as_object_mut().unwrap().remove("rows").unwrap();
+    assert_eq!(told, json(&here.join("w/sweep.json")));
+    let text = fs::read_to_string(here.join("w/sweep.csv")).unwrap();
+    let mut lines = text.lines();
+    let column = |name: &str| {
+        let mut head = text.lines().next().unwrap().split(',');
+        head.position(|n| n == name).unwrap()
+    };
+    let rms = column("sensor_ax.rms");
+    assert_eq!(
+        rows.as_array().unwrap().len(),
+        lines.by_ref().skip(1).count()
+    );
+    for (row, line) in rows.as_array().unwrap().iter().zip(text.lines().skip(1)) {
+        let printed: f64 = line.split(',').nth(rms).unwrap().parse().unwrap();
+        assert_eq!(row["sensor_ax.rms"], printed);
+        assert_eq!(row["status"], "complete");
+    }
+    assert_eq!(rows[1]["defects.0.depth_um"], 20.0);
+}
+
+#[test]
+fn prop_a_fit_as_json_has_the_numbers_of_the_text() {
+    let folder = with_blocks("s.toml");
+    let fit = |more: &[&str]| {
+        let args = [&["defect", "fit", "s.toml", "--order", "3"], more].concat();
+        brinell(folder.path(), &args).exits(0).out
+    };
+    let (text, told) = (fit(&[]), parsed(&fit(&["--json"])));
+    let segments = told["segments"].as_array().unwrap();
+    assert_eq!(segments.len(), 6);
+    let widths = text.lines().filter_map(|l| l.strip_prefix("  width "));
+    for (segment, line) in segments.iter().zip(widths) {
+        for (c, printed) in segment["width_mm"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(line.split(' '))
+        {
+            assert_eq!(format!("{:.6e}", c.as_f64().unwrap()), printed);
+        }
+    }
 }
 
 #[test]

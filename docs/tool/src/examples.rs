@@ -1,6 +1,7 @@
 //! Scenarios and console examples in the text, tried on the program.
 //!
-//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to find it sound. In a block of
+//! A block of `toml` is a whole scenario (lines that begin with `~` are hidden from the reader): `brinell check` has to find it sound; one of `toml own.toml`
+//! is that file for the commands that follow. In a block of
 //! `console` each line after `$ ` is run by the shell in a folder that holds a copy of `examples/`, and has to succeed; what follows it is what
 //! it prints. In a line of that `[..]` stands for anything, a line of `...` for any lines.
 
@@ -9,6 +10,9 @@ use mdbook_driver::errors::Result;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// Where a scenario of the text lies while it is checked, unless its block names a file.
+const FILE: &str = "examples/from-the-book.toml";
 
 /// How many scenarios and how many commands held.
 pub fn check(docs: &Path, brinell: &Path) -> Result<(usize, usize)> {
@@ -46,7 +50,8 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
             .display()
             .to_string();
         for (kind, block) in blocks(&fs::read_to_string(&source)?) {
-            match kind.as_str() {
+            let (kind, file) = kind.split_once(' ').unwrap_or((kind.as_str(), FILE));
+            match kind {
                 "toml" if block.contains("{{#include") => {}
                 "toml" => {
                     scenarios += 1;
@@ -54,8 +59,8 @@ fn try_all(docs: &Path, brinell: &Path, folder: &Path) -> Result<(usize, usize)>
                         .lines()
                         .map(|l| l.strip_prefix('~').unwrap_or(l))
                         .collect();
-                    fs::write(folder.join("examples/from-the-book.toml"), text.join("\n"))?;
-                    let output = run("brinell check examples/from-the-book.toml")?;
+                    fs::write(folder.join(file), text.join("\n"))?;
+                    let output = run(&format!("brinell check {file}"))?;
                     if !output.status.success() {
                         problems.push(format!(
                             "{name}:\n{block}\n{}",

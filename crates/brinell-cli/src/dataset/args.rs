@@ -71,6 +71,9 @@ pub(crate) struct DatasetArgs {
     /// Print what the plan means and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
+    /// Print what was made as JSON, and no words; with --dry-run the plan and its cost
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -94,6 +97,9 @@ pub(crate) struct MergeArgs {
     /// Where they are joined: a new folder, or one of them
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
+    /// Print JSON, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -115,6 +121,9 @@ pub(crate) struct SheetArgs {
 pub(crate) struct VerifyArgs {
     /// The data set's folder
     pub(crate) folder: PathBuf,
+    /// Print JSON, and no words
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

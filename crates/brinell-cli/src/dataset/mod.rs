@@ -9,12 +9,13 @@ use crate::inputs::Inputs;
 use crate::progress::{Joint, Shown};
 use crate::results::{Place, Results};
 use crate::run::{safe_name, stop_flag};
-use crate::say::{complain, say};
+use crate::say::{complain, document, say};
 use crate::sweep::plural;
 pub(crate) use args::DatasetArgs;
 use args::{DatasetCommand, MergeArgs, VerifyArgs};
 use brinell_study::dataset::{Campaign, DatasetError, ShardSummary, merge, run, verify};
 use brinell_study::listener::{Listener, RunListener};
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -80,6 +81,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
         let survey = campaign.survey(&AtomicBool::new(false));
         plan::tell(&campaign, &survey, runs, threads, args);
         campaign.sound(&survey)?;
+        if args.dry_run && args.json {
+            print(&plan::json(&campaign, &survey, runs, threads));
+        }
     }
     if args.dry_run {
         return Ok(ExitCode::SUCCESS);
@@ -105,6 +109,9 @@ fn make(args: &DatasetArgs, path: &Path) -> Result<ExitCode, Failure> {
     tell_failures(&failures);
     let went = went?;
     let left = went.runs - went.done - went.before;
+    if args.json {
+        print(&summary(&went, left, &folder, &failures));
+    }
     if !args.quiet {
         tell(&went, left, &folder, begin.elapsed().as_secs_f64());
     }
@@ -125,6 +132,25 @@ fn tell_failures(failures: &[(usize, String)]) {
             failures.len() - SHOWN
         );
     }
+}
+
+fn print(json: &Value) {
+    document(&serde_json::to_string_pretty(json).unwrap_or_default());
+}
+
+/// What [`tell`] and [`tell_failures`] say, as JSON.
+fn summary(went: &ShardSummary, left: usize, folder: &Path, failures: &[(usize, String)]) -> Value {
+    let failures: Vec<Value> = failures
+        .iter()
+        .map(|(run, reason)| json!({ "run": run, "reason": reason }))
+        .collect();
+    json!({
+        "folder": folder.display().to_string(),
+        "complete": went.whole,
+        "shard": { "runs": went.runs, "done": went.done, "before": went.before, "to_go": left },
+        "interrupted": went.interrupted,
+        "failures": failures,
+    })
 }
 
 /// How many runs are there, and whether the data set is complete.
@@ -162,7 +188,12 @@ fn alone(folder: &Path, inputs: &Inputs) -> Result<(), Failure> {
 fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
     alone(&args.output, &Inputs::default())?;
     let merged = merge(&args.folders, &args.output)?;
-    if !args.quiet {
+    if args.json {
+        print(&json!({
+            "folder": args.output.display().to_string(),
+            "files": { "brought": merged.brought, "before": merged.before, "missing": merged.missing },
+        }));
+    } else if !args.quiet {
         say!(
             "{}: {} brought, {} there before",
             args.output.display(),
@@ -179,7 +210,15 @@ fn join(args: &MergeArgs) -> Result<ExitCode, Failure> {
 
 fn check(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     let found = verify(&args.folder)?;
-    if !args.quiet {
+    if args.json {
+        print(&json!({
+            "folder": args.folder.display().to_string(),
+            "files": { "sound": found.files, "of": found.of },
+            "runs": { "complete": found.rows - found.failed, "failed": found.failed },
+            "absent": found.absent,
+            "problems": found.problems,
+        }));
+    } else if !args.quiet {
         let absent = found.absent.iter().map(|words| format!("; {words}"));
         let absent: String = absent.collect();
         say!(

@@ -1,12 +1,13 @@
 //! What a plan means and costs, in words; and why it is refused.
 
 use super::DatasetArgs;
-use crate::say::{complain, say, short};
+use crate::say::{complain, say, short, twelve_digits};
 use crate::sweep::{duration, plural};
 use brinell::document::on_one_line;
 use brinell_study::dataset::Campaign;
 use brinell_study::design::{Misses, OutOfRange, Survey};
 use brinell_study::runner::mean_pace;
+use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 
 /// Share of a 32-bit float that is left after compression, about: the low mantissa bytes are noise.
@@ -61,37 +62,98 @@ pub(super) fn tell(
             .count();
         say!("  labels of {} in held_out/", plural(apart, "run"));
     }
-    let looked = survey.runs.max(1) as f64;
     if survey.unfit > 0 {
-        let then = match plan.out_of_range {
-            OutOfRange::Refuse => "refused",
-            OutOfRange::Redraw => "drawn again",
-            OutOfRange::Fail => "kept as failed",
-        };
         say!(
-            "  {} of {} looked at draw values that make no scenario: {then}",
+            "  {} of {} looked at draw values that make no scenario: {}",
             survey.unfit,
-            plural(survey.runs, "run")
+            plural(survey.runs, "run"),
+            fate(plan.out_of_range)
         );
         // Where the plan is refused for them, that says which.
         if survey.is_sound(plan.out_of_range) {
             tell_misses(survey);
         }
     }
-    let good = (survey.runs - survey.hopeless).max(1) as f64;
-    let seconds = survey.simulated / good * runs as f64;
-    let values = survey.samples / good * draws.runs() as f64 * signals.len() as f64;
-    let bytes = 4.0 * COMPRESSED * values
-        + BESIDES * draws.runs() as f64 * (1.0 - survey.hopeless as f64 / looked);
-    let cost = cost(campaign, seconds, runs, threads)
-        .map_or(String::new(), |s| format!(", about {}", duration(s)));
+    let costs = Costs::of(campaign, survey, runs, threads);
+    let about = (costs.wall_s).map_or(String::new(), |s| format!(", about {}", duration(s)));
     say!(
-        "  about {}; {} of this shard: {} s simulated, {} at a time{cost}",
-        size(bytes),
+        "  about {}; {} of this shard: {} s simulated, {} at a time{about}",
+        size(costs.bytes),
         plural(runs, "run"),
-        short(seconds, 3),
-        threads.get().min(runs.max(1))
+        short(costs.simulated_s, 3),
+        costs.at_a_time
     );
+}
+
+/// What becomes of values that make no scenario.
+fn fate(out_of_range: OutOfRange) -> &'static str {
+    match out_of_range {
+        OutOfRange::Refuse => "refused",
+        OutOfRange::Redraw => "drawn again",
+        OutOfRange::Fail => "kept as failed",
+    }
+}
+
+/// The same as JSON.
+pub(super) fn json(
+    campaign: &Campaign,
+    survey: &Survey,
+    runs: usize,
+    threads: NonZeroUsize,
+) -> Value {
+    let (plan, draws) = (campaign.plan(), campaign.draws());
+    let classes = plan.classes.iter().enumerate();
+    let classes: Vec<Value> = classes
+        .map(|(label, c)| json!({ "label": label, "name": c.name, "runs": draws.runs_of(label) }))
+        .collect();
+    let names = draws.parameters().iter().map(|p| p.key.as_str());
+    let held_out = (0..draws.runs()).filter(|run| draws.is_held_out(*run));
+    let warnings = campaign.warnings(survey);
+    let costs = Costs::of(campaign, survey, runs, threads);
+    json!({
+        "name": plan.name,
+        "runs": draws.runs(),
+        "files": campaign.parts(),
+        "design": plan.design.word(),
+        "seed": plan.seed,
+        "classes": classes,
+        "varies": names.collect::<Vec<_>>(),
+        "signals": campaign.signals().iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
+        "held_out_runs": held_out.count(),
+        "survey": { "runs": survey.runs, "no_scenario": survey.unfit, "then": fate(plan.out_of_range) },
+        "bytes": costs.bytes.round(),
+        "shard": { "runs": runs, "simulated_s": twelve_digits(costs.simulated_s), "at_a_time": costs.at_a_time, "wall_s": costs.wall_s.map(f64::ceil) },
+        "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    })
+}
+
+/// What a data set and a shard of it cost, about.
+struct Costs {
+    /// Of the data set.
+    bytes: f64,
+    /// Of the shard, s.
+    simulated_s: f64,
+    /// Runs of the shard at a time.
+    at_a_time: usize,
+    /// Of the shard, s; `None` where no trial ran.
+    wall_s: Option<f64>,
+}
+
+impl Costs {
+    fn of(campaign: &Campaign, survey: &Survey, runs: usize, threads: NonZeroUsize) -> Self {
+        let all = campaign.draws().runs() as f64;
+        let looked = survey.runs.max(1) as f64;
+        let good = (survey.runs - survey.hopeless).max(1) as f64;
+        let simulated_s = survey.simulated / good * runs as f64;
+        let values = survey.samples / good * all * campaign.signals().len() as f64;
+        Self {
+            bytes: 4.0 * COMPRESSED * values
+                + BESIDES * all * (1.0 - survey.hopeless as f64 / looked),
+            simulated_s,
+            at_a_time: threads.get().min(runs.max(1)),
+            wall_s: cost(campaign, simulated_s, runs, threads),
+        }
+    }
 }
 
 fn tell_misses(survey: &Survey) {

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::Source;
 use crate::results::{PREVIEW, Place, Results, names_below};
 use crate::run::{make_folder, safe_name};
-use crate::say::{say, short};
+use crate::say::{document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
 use brinell_report::{Damage, DamagePanel, Picture, damage_of};
@@ -39,7 +39,9 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let mut ready = Vec::new();
     let mut entries = Vec::new();
     for (index, damage) in &all {
-        tell(damage);
+        if !args.json {
+            tell(damage);
+        }
         pictures(*index, damage, &args.formats, &folder, &mut ready)?;
         tables(*index, damage, &folder, &mut ready)?;
         entries.push(entry(*index, damage));
@@ -50,8 +52,13 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let files = names_below(&folder, &files);
     let json = json!({ "scenario": s.name, "version": brinell::VERSION, "files": files, "defects": entries });
     let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
-    ready.insert(0, atomic_prepare(path, text)?);
-    for path in earlier.give_way(ready)? {
+    ready.insert(0, atomic_prepare(path, &text)?);
+    let written = earlier.give_way(ready)?;
+    if args.json {
+        document(text.trim_end());
+        return Ok(());
+    }
+    for path in written {
         say!("  wrote {}", path.display());
     }
     Ok(())

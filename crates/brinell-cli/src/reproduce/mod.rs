@@ -179,7 +179,8 @@ impl Runs for Runner<'_> {
             quiet,
             self.stop,
         )?;
-        self.done += open_tasks.len();
+        let rows = |task: &&Task| self.ledger.kept.row(&task.fingerprint).is_some();
+        self.done += open_tasks.iter().filter(rows).count();
         Ok(went)
     }
 

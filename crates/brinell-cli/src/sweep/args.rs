@@ -58,6 +58,9 @@ pub(crate) struct SweepArgs {
     /// Print the plan and what it costs; run nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
+    /// Print sweep.json and the table's rows as JSON, and no words
+    #[arg(long, conflicts_with = "dry_run")]
+    pub(crate) json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::files::stem;
 use crate::results::{Place, Results};
 use crate::run::{make_folder, stop_flag, write_pictures};
-use crate::say::{complain, say, short};
+use crate::say::{complain, document, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
 use brinell::result::{check_name, fields, names};
@@ -332,6 +332,11 @@ fn write(
         "units": columns,
         "base": { "toml": points.source.text(), "set": overrides },
     });
+    if args.json {
+        let mut told = json.clone();
+        told["rows"] = table::rows(&table).into();
+        document(&serde_json::to_string_pretty(&told).unwrap_or_default());
+    }
     let mut put = |name: &str, text: String| -> Result<(), Failure> {
         let path = folder.join(name);
         atomic_write(&path, text.as_bytes())?;

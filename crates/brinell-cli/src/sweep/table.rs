@@ -5,6 +5,7 @@ use brinell::result::Quantity;
 use brinell_io::{Cells, Column, Table};
 use brinell_study::campaign::{Row, columns};
 use brinell_study::runner::Task;
+use serde_json::Value;
 
 /// The state of a point.
 pub(super) enum Standing<'a> {
@@ -79,6 +80,24 @@ pub(super) fn table(points: &Points, standings: &[Standing], signals: bool) -> T
     }
     numbers(standings, &mut table);
     table
+}
+
+/// The rows as JSON: of each point the cells by their columns' names, an empty one null.
+pub(super) fn rows(table: &Table) -> Vec<Value> {
+    let count = table.cells.first().map_or(0, |cells| match cells {
+        Cells::Numbers(values) => values.len(),
+        Cells::Words(values) => values.len(),
+    });
+    let cell = |cells: &Cells, k: usize| match cells {
+        Cells::Numbers(values) => values[k].into(),
+        Cells::Words(values) => values[k].as_deref().into(),
+    };
+    let row = |k| {
+        let named = table.columns.iter().zip(&table.cells);
+        let named = named.map(|(column, cells)| (column.name.clone(), cell(cells, k)));
+        Value::Object(named.collect())
+    };
+    (0..count).map(row).collect()
 }
 
 /// Numbers where all are numbers.

@@ -268,3 +268,38 @@ fn prop_held_out_labels_lie_apart() {
         .exits(0)
         .says(&["; labels are not here"]);
 }
+
+#[test]
+fn prop_what_a_data_set_is_and_what_was_made_are_told_as_json() {
+    let folder = folder_with(PLAN);
+    let here = folder.path();
+    let told = |args: &[&str]| -> serde_json::Value {
+        let call = brinell(here, args).exits(0);
+        serde_json::from_str(&call.out).expect("it is JSON")
+    };
+    let plan = told(&["dataset", "plan.toml", "--dry-run", "--json"]);
+    assert_eq!((&plan["runs"], &plan["files"]), (&7.into(), &3.into()));
+    assert_eq!(
+        plan["classes"][0],
+        serde_json::json!({ "label": 0, "name": "healthy", "runs": 4 })
+    );
+    assert_eq!(plan["shard"]["simulated_s"], 0.14);
+    let made = told(&["dataset", "plan.toml", "-o", "d", "--json"]);
+    assert_eq!(
+        (&made["complete"], &made["shard"]["done"]),
+        (&true.into(), &7.into())
+    );
+    let again = told(&["dataset", "plan.toml", "-o", "d", "--json"]);
+    assert_eq!(
+        (&again["shard"]["before"], &again["shard"]["done"]),
+        (&7.into(), &0.into())
+    );
+    let verified = told(&["dataset", "verify", "d", "--json"]);
+    assert_eq!(
+        verified["files"],
+        serde_json::json!({ "sound": 3, "of": 3 })
+    );
+    assert_eq!(verified["problems"], serde_json::json!([]));
+    let merged = told(&["dataset", "merge", "d", "-o", "all", "--json"]);
+    assert_eq!(merged["files"]["brought"], 3);
+}

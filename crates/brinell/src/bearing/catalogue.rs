@@ -3,7 +3,7 @@
 //! The numbers live in `catalogue.toml`, one table a bearing, keyed by scenario path. Values keep the scenario
 //! file's units, which the keys name.
 
-use super::designation::{plain, readings};
+use super::designation::{plain, readings, with_zeros};
 use super::kinematics::Geometry;
 use crate::nearest::nearest;
 use std::sync::LazyLock;
@@ -135,6 +135,9 @@ pub(super) fn find_exactly(name: &str) -> Option<&'static Entry> {
 
 /// The name of the catalogue that is nearest to one that it does not have.
 pub fn nearest_name(name: &str) -> Option<&'static str> {
+    if let Some(entry) = with_zeros(name).and_then(|name| find(&name)) {
+        return Some(&entry.name);
+    }
     let base = readings(name).into_iter().next().map(|(base, _)| base);
     let base = base.unwrap_or_else(|| plain(name));
     nearest(&base, all().iter().map(|entry| entry.name.as_str()))

@@ -84,6 +84,14 @@ fn is_suffix(text: &str) -> bool {
     bare.is_empty() || seals || bare.starts_with(|c: char| c.is_ascii_alphabetic())
 }
 
+/// The name with the digit in place of each letter O behind its first digit: `NU2O6`, `62O5`. `None` where there is none.
+pub(super) fn with_zeros(name: &str) -> Option<String> {
+    let size = name.find(|c: char| c.is_ascii_digit())?;
+    let (series, rest) = name.split_at(size);
+    rest.contains(['O', 'o'])
+        .then(|| format!("{series}{}", rest.replace(['O', 'o'], "0")))
+}
+
 /// The class of radial clearance that a name's suffixes give: `C3` of `6205-2RSH/C3`.
 pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
@@ -127,6 +135,19 @@ mod tests {
         assert_eq!(readings("NUP 206 ECP")[0].0, "NUP206");
         for name in ["", "-", " 2", "\u{b5}2\u{1f600}", "SKF", "2RS"] {
             let _ = readings(name);
+        }
+    }
+
+    #[test]
+    fn prop_the_letter_o_is_read_as_the_digit_in_a_size_alone() {
+        for (name, meant) in [
+            ("62O5", Some("6205")),
+            ("KOYO nu2o6", Some("KOYO nu206")),
+            ("NN3OO7", Some("NN3007")),
+            ("6205", None),
+            ("KOYO", None),
+        ] {
+            assert_eq!(with_zeros(name).as_deref(), meant, "{name}");
         }
     }
 

@@ -1,6 +1,7 @@
 //! Bearings known by name, those of the catalogue and those of public data sets; defect frequencies as orders of the shaft.
 
 use super::catalogue::{self, Entry};
+use super::designation::with_zeros;
 use super::kinematics::{Geometry, Kinematics, frequency_table};
 use crate::analysis::{DefectOrders, NAMED, NamedBearing};
 use crate::nearest::nearest;
@@ -48,7 +49,10 @@ impl KnownBearing {
     /// Why there is no bearing of this name: the name that was meant, where that can be guessed, and the names that there are.
     pub fn unknown(name: &str) -> String {
         let names: Vec<&str> = Self::all().map(Self::name).collect();
-        let meant = catalogue::nearest_name(name).or_else(|| nearest(name, names.iter().copied()));
+        let zeros = with_zeros(name).and_then(|name| Self::find(&name));
+        let meant = (zeros.map(Self::name))
+            .or_else(|| catalogue::nearest_name(name))
+            .or_else(|| nearest(name, names.iter().copied()));
         let hint = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
         let joint = if hint.is_empty() { "; there" } else { " There" };
         format!("no bearing {name:?}{hint}{joint} are {}", names.join(", "))
