@@ -4,6 +4,7 @@ import { Field } from "./controls.js";
 import { byId, h, short } from "./dom.js";
 import { asked, line } from "./measured.js";
 import { fileSpecs } from "./schema.js";
+import { pathOf } from "./state.js";
 
 const LARGEST = 1 << 28;
 const KINDS = /** @type {const} */ ({ photo: "image", svg: "svg", depth: "depth_map" });
@@ -69,7 +70,9 @@ function preview(shape) {
 export async function shapeOf(ask, schema, kind, name, bytes) {
   /** @type {Record<string, any>} */
   const options = {};
-  let got = /** @type {any} */ (null), turn = 0;
+  let got = /** @type {any} */ (null), turn = 0, agreed = false;
+  /** Keys that were filled in: only of these, or once all is agreed to, a problem is an error; before, it is what is still needed. */
+  const filled = new Set();
   const told = h("div", { role: "status" }), trouble = h("p", { className: "trouble", role: "alert" });
   const look = async () => {
     const mine = ++turn;
@@ -84,12 +87,15 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
     } catch (error) {
       if (mine !== turn) return;
       got = null;
-      told.replaceChildren();
-      trouble.textContent = error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : String(error);
+      const problems = error instanceof Refused ? error.problems : [{ key: null, message: String(error) }];
+      const open = (/** @type {{key: string | null}} */ p) => !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
+      told.replaceChildren(...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)));
+      trouble.textContent = problems.filter((p) => !open(p)).map((p) => p.message).join(" ");
     }
   };
   const fields = fileSpecs(schema, KINDS[kind]).map((s) => new Field(s, (spec, value) => {
     spec.write(options, value);
+    filled.add(String(spec.path.at(-1)));
     look();
   }, { range: false }));
   const first = fields.filter((f) => SHOWN.has(String(f.spec.path.at(-1)))), rest = fields.filter((f) => !first.includes(f));
@@ -102,6 +108,7 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
       turn++;
       return null;
     }
+    agreed = true;
     // What was typed last is looked at too; what is refused is shown again with the reason.
     await look();
     if (got) return got;
