@@ -3,8 +3,9 @@ import { Refused } from "./answers.js";
 import { Field } from "./controls.js";
 import { byId, h, short } from "./dom.js";
 import { asked, line } from "./measured.js";
+import { notice } from "./readout.js";
 import { fileSpecs } from "./schema.js";
-import { pathOf } from "./state.js";
+import { LINK_LIMIT, pathOf, toLink } from "./state.js";
 
 const LARGEST = 1 << 28;
 const KINDS = /** @type {const} */ ({ photo: "image", svg: "svg", depth: "depth_map" });
@@ -155,4 +156,26 @@ export function saveMenu(items, note) {
     else if (e.key === "ArrowUp") all[(at + all.length - 1) % all.length].focus();
   });
   document.addEventListener("pointerdown", (e) => { if (!list.contains(/** @type {Node} */ (e.target)) && e.target !== button) close(); });
+}
+
+/** A link that carries a scenario, into the address and the clipboard. @param {string} toml @param {() => void} save  where it is too long for a link */
+export async function share(toml, save) {
+  const link = await toLink(toml);
+  if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
+    { actions: [["Save the scenario", save]] });
+  history.replaceState(null, "", link);
+  // Without the token of `brinell studio`, which is nobody else's.
+  const address = location.href.replace(location.search, "");
+  const field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
+  const whose = location.search ? " It opens where this server runs; behind the address of another studio, what follows # is enough." : "";
+  let words = `A link to this bearing:${whose}`;
+  try {
+    await navigator.clipboard.writeText(address);
+    words = `The link to this bearing is copied:${whose}`;
+  } catch {
+    // The browser does not let the page write there: the link can be taken from the field.
+  }
+  notice("link", h("p", {}, words));
+  document.querySelector('[data-kind="link"] p')?.after(field);
+  field.select();
 }

@@ -45,11 +45,12 @@ function standing(side) {
   return `${opened ? "live" : ""}${moments ? `, ${moments.samples} samples` : ""}${settled}`;
 }
 
-/** @param {HTMLElement} root @param {Side[]} sides the one that is shown first */
-export function readout(root, sides) {
+/** @param {HTMLElement} root @param {Side[]} sides the one that is shown first @param {string} difference of two, in words */
+export function readout(root, sides, difference) {
   const several = sides.length > 1;
   root.classList.toggle("several", several);
-  root.replaceChildren(...sides.flatMap((side) => [
+  const differ = several ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict") : null;
+  root.replaceChildren(...(differ ? [differ] : []), ...sides.flatMap((side) => [
     h("span", { className: "headline" }, several ? h("span", { className: "name" }, side.name) : null,
       side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
     h("span", { className: "note" },
