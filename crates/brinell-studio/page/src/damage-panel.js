@@ -90,21 +90,21 @@ export class DamagePanel {
     this.width = h("input", { type: "number", className: "narrow-number", min: "0.05", max: "10", step: "0.05", value: "0.5",
       "aria-label": "Width of pen and brush, mm", oninput: () => { this.raceway.penWidth = this.width.valueAsNumber || 0.5; } });
     this.depth = h("input", { type: "number", className: "narrow-number", min: "0.1", max: "1000", step: "any", value: String(this.#depth),
-      "aria-label": "Depth of what is drawn next, µm", oninput: () => { if (this.depth.valueAsNumber > 0) this.#depth = this.depth.valueAsNumber; } });
+      "aria-label": "Depth that the brush adds, µm", oninput: () => { if (this.depth.valueAsNumber > 0) this.#depth = this.depth.valueAsNumber; } });
     this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
     this.undo = button("Undo", () => owner.store().undo(), { title: "Ctrl-Z" });
     this.redo = button("Redo", () => owner.store().redo(), { title: "Ctrl-Shift-Z" });
     this.rollerLabel = h("label", {}, "roller", this.rollers);
     this.widthLabel = h("label", {}, "width", this.width, "mm");
-    this.depthLabel = h("label", { title: "Of what is drawn next; the brush adds as much with each stroke" }, "depth", this.depth, "µm");
-    this.raiseLabel = h("label", {}, this.raise, "raise");
+    this.depthLabel = h("label", { className: "brush", title: "What a stroke of the brush adds along its middle" }, "adds", this.depth, "µm");
+    this.raiseLabel = h("label", { className: "brush", title: "The brush takes depth off" }, this.raise, "raise");
     const group = (/** @type {string} */ label, /** @type {HTMLElement[]} */ buttons) => h("span", { className: "group", role: "group", "aria-label": label },
       ...buttons);
     this.chosen = h("div", { className: "chosen" });
     root.append(
       h("div", { className: "tools" }, h("h2", {}, "Damage"), group("Surface", this.surfaces), h("label", {}, "row", this.rows), this.rollerLabel,
-        group("Tool", this.tools), this.widthLabel, this.depthLabel, this.raiseLabel, this.deepest,
+        group("Tool", this.tools), this.widthLabel,
         h("span", { className: "spacer" }), group("History", [this.undo, this.redo]),
         group("View", [button("−", () => this.raceway.zoom(0.8), { "aria-label": "Zoom out" }),
           button("+", () => this.raceway.zoom(1.25), { "aria-label": "Zoom in" }), button("Fit", () => this.raceway.fit())])),
@@ -122,8 +122,6 @@ export class DamagePanel {
     this.raceway.tool = tool;
     for (const button of this.tools) button.setAttribute("aria-pressed", String(button.dataset.tool === tool));
     this.widthLabel.hidden = tool !== "pen" && tool !== "brush";
-    this.depthLabel.hidden = tool === "select";
-    this.raiseLabel.hidden = tool !== "brush";
     this.#shown = "";
     this.update();
   }
@@ -164,7 +162,7 @@ export class DamagePanel {
 
   /** How deep the depth map that is painted on has become. */
   #deep() {
-    const grid = this.raceway.tool === "brush" && this.#damage.find((one) => one.defect === this.selected && one.grid);
+    const grid = this.#damage.find((one) => one.defect === this.selected && one.grid);
     this.deepest.textContent = grid ? `deepest ${short(grid.deepest_um)} µm` : "";
     this.deepest.hidden = !grid;
   }
@@ -216,7 +214,8 @@ export class DamagePanel {
     if (same) return void this.chosen.querySelector(".chips")?.replaceWith(chips);
     this.fields = defect ? defectSpecs(schema, defect, this.selected - 1).map((s) => new Field(s, this.owner.changed, { note: false, range: false })) : [];
     const hint = h("p", { className: "hint" }, HINTS[this.raceway.tool]);
-    this.chosen.replaceChildren(chips, ...this.fields.map((f) => f.element),
+    this.chosen.replaceChildren(chips, ...(this.raceway.tool === "brush" ? [this.depthLabel, this.raiseLabel] : []), this.deepest,
+      ...this.fields.map((f) => f.element),
       defect ? h("button", { type: "button", onclick: () => this.#heed({ type: "delete" }) }, "Delete") : hint);
     this.owner.rebuilt();
   }

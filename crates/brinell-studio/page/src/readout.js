@@ -40,6 +40,7 @@ function figures(side) {
 /** How a bearing's run stands, in words. @param {Side} side */
 function standing(side) {
   const { live, opened, moments } = side;
+  if (live.state === "loading") return opened ? "stored run" : "";
   if (live.state === "done") return `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
   const settled = side.indicators?.settled && live.state === "live" ? "" : live.state === "live" || live.state === "paused" ? ", settling" : "";
   return `${opened ? "live" : ""}${moments ? `, ${moments.samples} samples` : ""}${settled}`;
