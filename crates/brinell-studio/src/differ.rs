@@ -132,12 +132,15 @@ mod tests {
     fn analytic_the_ratio_has_the_interval_of_both() {
         let a = verdict(&[], [2.0, 2.0 / 1.05, 2.0 * 1.05]);
         let b = verdict(&["BPFO"], [6.0, 6.0 / 1.05, 6.0 * 1.05]);
-        let half: f64 = 1.05_f64.ln() * 2.0_f64.sqrt() * 2.021 / 2.086;
+        let widened = 2.0_f64.sqrt() * 2.021 / 2.086;
+        let half = 1.05_f64.ln() * widened;
         let [low, high] = [3.0 * (-half).exp(), 3.0 * half.exp()].map(|x| format!("{x:.2}"));
+        let half = 0.5 * (3.3_f64 / 2.7).ln() * widened;
+        let (below, above) = ((-half).exp(), half.exp());
         assert_eq!(
             said(&a, &b),
             format!(
-                "B against A: damage at BPFO in B alone; RMS × 3.00 ({low} to {high}); not clear: kurtosis × 1.00 (0.873 to 1.15)."
+                "B against A: damage at BPFO in B alone; RMS × 3.00 ({low} to {high}); not clear: kurtosis × 1.00 ({below:.3} to {above:.2})."
             )
         );
     }

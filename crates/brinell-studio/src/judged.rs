@@ -103,14 +103,14 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
         (None, Some(run)) => run.settled_s(),
         (None, None) => 0.0,
     };
-    let x = after(x, from_s, rate)?;
+    let x = after(&x, from_s, rate)?;
     let failed = |e: brinell::analysis::AnalysisError| Trouble::of(e.to_string());
-    let analysis = analyze(&x, rate, &options).map_err(failed)?;
-    let spectrum = shown_spectrum(&x, rate).map_err(failed)?;
+    let analysis = analyze(x, rate, &options).map_err(failed)?;
+    let spectrum = shown_spectrum(x, rate).map_err(failed)?;
     let envelope = &analysis.view.spectrum;
     let mut answer = verdict(&analysis);
     let mut moments = Moments::default();
-    moments.extend(&x);
+    moments.extend(x);
     answer["moments"] = moments_json(&moments);
     answer["from_s"] = json!(from_s);
     answer["rate_hz"] = json!(rate);
@@ -157,15 +157,15 @@ fn options(request: &Value, run: Option<&Scenario>) -> Answer<Options> {
 }
 
 /// What comes after a time, s.
-fn after(mut x: Vec<f64>, from_s: f64, rate: f64) -> Answer<Vec<f64>> {
+fn after(x: &[f64], from_s: f64, rate: f64) -> Answer<&[f64]> {
     let length = x.len() as f64 / rate;
     if !(0.0..length).contains(&from_s) {
         return Err(Trouble::of(format!(
             "the signal begins to count at {from_s} s; allowed: 0 or more, and below its length, {length} s"
         )));
     }
-    x.drain(..(from_s * rate).round() as usize);
-    Ok(x)
+    let first = (from_s * rate).round() as usize;
+    Ok(&x[first.min(x.len())..])
 }
 
 /// The unit of what [`Unit::in_si`] gives.
