@@ -381,13 +381,9 @@ fn prop_a_run_is_saved_as_the_command_saves_it_and_judged_when_it_is_read_again(
         let judged = ask_with(&mut studio, judge.clone(), &bytes);
         let headline = judged.json["headline"].as_str().unwrap();
         assert!(headline.starts_with("Outer race damage"), "{headline}");
-        // A WAV carries no scenario, so nothing of it is left out.
-        let from_s = if format == "npz" {
-            scenario.settled_s()
-        } else {
-            0.0
-        };
-        assert_eq!(heard["run"].is_null(), from_s == 0.0, "{heard}");
+        // Both carry the scenario.
+        let from_s = scenario.settled_s();
+        assert_eq!(heard["run"]["from_s"], json!(from_s), "{heard}");
         assert_eq!(judged.json["from_s"], json!(from_s));
         let count = |answer: &Message| singles(answer, &answer.json["x"]).len();
         let skipped = (from_s * 25600.0).round() as usize;
