@@ -164,7 +164,7 @@ function paintNominal(pen, lines, space, base, colours) {
     for (const { x, colour } of group) triangle(pen, x, base, colour);
     const alone = group.length === 1 && group[0].line.found, [first, last] = [group[0].x, group[group.length - 1].x];
     const words = alone ? [{ word: `nominal ${group[0].line.name}`, colour: group[0].colour }]
-      : group.map(({ line, colour }, i) => ({ word: `${i ? "· " : ""}${line.name} `, colour }));
+      : group.map(({ line, colour }, i) => ({ word: `${i ? " · " : ""}${line.name}`, colour }));
     const wide = words.reduce((sum, { word }) => sum + breadth(word, 10), 0), next = k + 1 < groups.length ? groups[k + 1][0].x - 6 : right;
     let at = last + 7 + wide <= next ? last + 7 : first - 7 - wide >= free ? first - 7 - wide : null;
     free = last + 6;
