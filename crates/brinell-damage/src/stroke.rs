@@ -7,9 +7,14 @@ use std::f64::consts::PI;
 
 /// Corners of half a round end.
 const CORNERS: usize = 8;
-/// Most points of a stroke, and most nodes of a grid that a brush makes.
+/// Areas that are united at once.
+const AT_ONCE: usize = 8;
+/// Most points of a stroke.
 const MOST_POINTS: usize = 2000;
-const MOST_NODES: usize = 1 << 18;
+/// Most nodes of a grid that a brush grows, and of one that it begins, whose steps are wider where it would have more: a stroke is worked out while
+/// the hand moves.
+const MOST_NODES: usize = 1 << 16;
+const MOST_FRESH: f64 = 16384.0;
 /// Widest pen, mm.
 const WIDEST_MM: f64 = 100.0;
 
@@ -48,19 +53,6 @@ impl Stroke<'_> {
         }
         kept
     }
-
-    /// Distance (mm) of a place from the line.
-    fn distance(points: &[[f64; 2]], at: [f64; 2]) -> f64 {
-        let single = points.first().map_or(f64::INFINITY, |p| distance(*p, at));
-        let along = points.windows(2).map(|ends| {
-            let (a, b) = (ends[0], ends[1]);
-            let (d, p) = ([b[0] - a[0], b[1] - a[1]], [at[0] - a[0], at[1] - a[1]]);
-            let length = d[0] * d[0] + d[1] * d[1];
-            let share = ((p[0] * d[0] + p[1] * d[1]) / length).clamp(0.0, 1.0);
-            distance([a[0] + share * d[0], a[1] + share * d[1]], at)
-        });
-        along.fold(single, f64::min)
-    }
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -84,9 +76,20 @@ pub fn scratch(stroke: &Stroke) -> Result<Polygons, DamageError> {
         .map(|(a, b)| capsule(a, b, radius))
         .collect();
     Ok(Polygons {
-        polygons_mm: united(&rings, FillRule::NonZero),
+        polygons_mm: covered(&rings),
         ..Polygons::default()
     })
+}
+
+/// The union of areas that follow each other along a line. Neighbours are united first: what lies inside is gone before far parts meet, so the
+/// cost grows little faster than the number of areas.
+fn covered(rings: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+    if rings.len() <= AT_ONCE {
+        return united(rings, FillRule::NonZero);
+    }
+    let (before, after) = rings.split_at(rings.len() / 2);
+    let halves = [covered(before), covered(after)].concat();
+    united(&halves, FillRule::NonZero)
 }
 
 /// All places within `radius` of the line from `a` to `b`, counter-clockwise.
@@ -117,28 +120,79 @@ pub fn brush(
     let points = stroke.thinned();
     let radius = 0.5 * stroke.width_mm;
     let mut grid = grown(grid, &points, radius)?;
-    let (columns, ds, dz) = (grid.columns, grid.ds_mm, grid.dz_mm);
-    let [s0, z0] = [grid.s0_mm, grid.z0_mm];
-    for (k, depth) in grid.depth_um.iter_mut().enumerate() {
-        let at = [
-            s0 + ds * (k % columns) as f64,
-            z0 + dz * (k / columns) as f64,
-        ];
-        let far = Stroke::distance(&points, at) / radius;
-        if far < 1.0 {
-            *depth = (*depth + depth_um * (1.0 - far * far)).max(0.0);
+    let far = Distances::of(&grid, &points, radius).squared;
+    for (depth, far) in grid.depth_um.iter_mut().zip(far) {
+        let share = far / (radius * radius);
+        if share < 1.0 {
+            *depth = (*depth + depth_um * (1.0 - share)).max(0.0);
         }
     }
     Ok(grid)
 }
 
-/// A grid that reaches a node beyond the brush on every side; its steps are those that it has, or a sixteenth of the brush.
+/// Squared distances (mm^2) of a grid's nodes from a line, where they are within a radius. Only nodes near a part of the line are visited.
+struct Distances {
+    squared: Vec<f64>,
+}
+
+impl Distances {
+    fn of(grid: &DepthGrid, points: &[[f64; 2]], radius: f64) -> Self {
+        let squared = vec![f64::INFINITY; grid.columns * grid.rows];
+        let mut all = Self { squared };
+        let last = points[points.len() - 1];
+        for (k, from) in points.iter().enumerate() {
+            let to = points.get(k + 1).copied().unwrap_or(last);
+            all.along(grid, *from, to, radius);
+        }
+        all
+    }
+
+    fn along(&mut self, grid: &DepthGrid, a: [f64; 2], b: [f64; 2], radius: f64) {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let length = (d[0] * d[0] + d[1] * d[1]).max(f64::MIN_POSITIVE);
+        for row in 0..grid.rows {
+            let z = grid.z0_mm + grid.dz_mm * row as f64;
+            // The part of the line that is within the radius of this row of nodes, from 0 to 1.
+            let [low, high] = match d[1] == 0.0 {
+                true if (z - a[1]).abs() < radius => [0.0, 1.0],
+                true => continue,
+                false => {
+                    let ends = [-radius, radius].map(|r| (z + r - a[1]) / d[1]);
+                    [ends[0].min(ends[1]).max(0.0), ends[0].max(ends[1]).min(1.0)]
+                }
+            };
+            if low > high {
+                continue;
+            }
+            let ends = [a[0] + low * d[0], a[0] + high * d[0]];
+            let node = |s: f64| ((s - grid.s0_mm) / grid.ds_mm).max(0.0);
+            let first = node(ends[0].min(ends[1]) - radius) as usize;
+            let past = (node(ends[0].max(ends[1]) + radius) as usize + 2).min(grid.columns);
+            for column in first..past {
+                let p = [grid.s0_mm + grid.ds_mm * column as f64 - a[0], z - a[1]];
+                let share = ((p[0] * d[0] + p[1] * d[1]) / length).clamp(0.0, 1.0);
+                let off = [p[0] - share * d[0], p[1] - share * d[1]];
+                let place = &mut self.squared[row * grid.columns + column];
+                *place = place.min(off[0] * off[0] + off[1] * off[1]);
+            }
+        }
+    }
+}
+
+/// A grid that reaches a node beyond the brush on every side; its steps are those that it has, or a sixteenth of the brush, or as wide as a long
+/// stroke needs.
 fn grown(
     grid: Option<&DepthGrid>,
     points: &[[f64; 2]],
     radius: f64,
 ) -> Result<DepthGrid, DamageError> {
-    let fresh = (radius / 8.0).clamp(0.005, 0.1);
+    let extent = |axis: usize| {
+        let values = points.iter().map(|p| p[axis]);
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
+        high - low + 2.0 * radius
+    };
+    let wide = (extent(0) * extent(1) / MOST_FRESH).sqrt();
+    let fresh = (radius / 8.0).clamp(0.005, 0.1).max(wide);
     let steps = grid.map_or([fresh; 2], |g| [g.ds_mm, g.dz_mm]);
     let origin = grid.map_or([0.0; 2], |g| [g.s0_mm, g.z0_mm]);
     let counts = grid.map_or([0; 2], |g| [g.columns as i64, g.rows as i64]);
@@ -160,11 +214,12 @@ fn grown(
     };
     let ((s_low, s_high), (z_low, z_high)) = (range(0), range(1));
     let (columns, rows) = ((s_high - s_low) as usize, (z_high - z_low) as usize);
-    if columns.saturating_mul(rows) > MOST_NODES {
+    let is_coarse = grid.is_none() && fresh > radius / 2.0;
+    if is_coarse || columns.saturating_mul(rows) > MOST_NODES {
         return Err(DamageError::Option {
             option: "brush",
             value: format!("{columns} x {rows} nodes"),
-            allowed: "262144 nodes at most; draw smaller, or with a wider brush from the start",
+            allowed: "65536 nodes at most, four across the brush; draw smaller, or with a wider brush from the start",
         });
     }
     let mut depth_um = vec![0.0; columns * rows];
@@ -209,6 +264,53 @@ mod tests {
         }
     }
 
+    /// To and fro over the same place: however the parts are united, the area is that of all at once.
+    #[test]
+    fn prop_a_long_stroke_is_the_union_of_its_parts() {
+        let points: Vec<[f64; 2]> = (0..60)
+            .map(|k| {
+                let k = f64::from(k);
+                [0.05 * k, 1.5 * (2.4 * k).sin()]
+            })
+            .collect();
+        let width_mm = 0.3;
+        let points_mm = &points;
+        let stroke = Stroke {
+            points_mm,
+            width_mm,
+        };
+        let rings: Vec<Vec<[f64; 2]>> = (points.windows(2))
+            .map(|w| capsule(w[0], w[1], 0.5 * width_mm))
+            .collect();
+        let at_once = Polygons {
+            polygons_mm: united(&rings, FillRule::NonZero),
+            ..Polygons::default()
+        };
+        let (area, expected) = (scratch(&stroke).unwrap().area_mm2(), at_once.area_mm2());
+        assert!(
+            (area - expected).abs() < 1e-6 * expected,
+            "{area} {expected}"
+        );
+    }
+
+    #[test]
+    fn prop_a_long_stroke_of_a_narrow_brush_has_a_coarser_grid() {
+        let across = |width_mm: f64| {
+            let points_mm = &[[0.0, -2.0], [20.0, 2.0]];
+            brush(
+                None,
+                &Stroke {
+                    points_mm,
+                    width_mm,
+                },
+                5.0,
+            )
+        };
+        let grid = across(0.5).unwrap();
+        assert!(grid.columns * grid.rows < 20_000 && grid.ds_mm < 0.125);
+        assert!(across(0.1).is_err());
+    }
+
     #[test]
     fn prop_a_stroke_that_crosses_itself_is_one_area() {
         let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
@@ -219,6 +321,32 @@ mod tests {
         let crossed = scratch(&stroke).unwrap();
         let parts: f64 = points.windows(2).map(|w| distance(w[0], w[1]) * 0.2).sum();
         assert!(crossed.area_mm2() < parts + 0.04 && crossed.area_mm2() > parts - 0.12);
+    }
+
+    /// Near the line every node has its distance from it, and elsewhere none is visited.
+    #[test]
+    fn analytic_distances_are_those_from_the_line() {
+        let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.3], [0.4, 1.1], [-0.3, -0.2]];
+        let radius = 0.37;
+        let grid = grown(None, &points, radius).unwrap();
+        let found = Distances::of(&grid, &points, radius).squared;
+        for (k, found) in found.iter().enumerate() {
+            let s = grid.s0_mm + grid.ds_mm * (k % grid.columns) as f64;
+            let z = grid.z0_mm + grid.dz_mm * (k / grid.columns) as f64;
+            // By a thousand points of each part.
+            let parts = points.windows(2).flat_map(|w| {
+                (0..=1000).map(move |i| {
+                    let at = f64::from(i) / 1000.0;
+                    let on = [0, 1].map(|x| w[0][x] + at * (w[1][x] - w[0][x]));
+                    distance(on, [s, z])
+                })
+            });
+            let expected = parts.fold(f64::MAX, f64::min);
+            match expected < radius {
+                true => assert!((found.sqrt() - expected).abs() < 2e-3, "{s} {z}"),
+                false => assert!(found.sqrt() > radius - 2e-3, "{s} {z}"),
+            }
+        }
     }
 
     #[test]

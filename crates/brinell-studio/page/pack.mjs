@@ -7,6 +7,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, writeFil
 import { dirname, join, posix, relative, resolve } from "node:path";
 import { parseArgs } from "node:util";
 import { gzipSync } from "node:zlib";
+import { decode, encode } from "./src/message.js";
 
 const HERE = import.meta.dirname, WORKER = "src/worker.js";
 const IMPORT = /((?:^|\n|;)\s*(?:import|export)\b[^"';]*?["'])(\.{1,2}\/[^"']+)(["'])/g;
@@ -47,9 +48,48 @@ function write(path, text) {
   renameSync(`${path}.partial`, path);
 }
 
+/** Code without its comments of whole lines and of JSDoc, and without indentation: half a browser's download of the page's own code. @param {string} text */
+const bare = (text) => text.replace(/\/\*\* [\s\S]*?\*\/|\/\*\*\n[\s\S]*?\*\//g, "").replace(/^[ \t]*\/\/ .*\n/gm, "").replace(/^[ \t]+/gm, "").replace(/\n{2,}/g, "\n");
+
+/** Of the example that the page begins with: as many samples as the page shows of a live bearing, and a spectrum of so many. */
+const EXAMPLE = "rectangle", SHOWN = 2560, WINDOW = 4096, SLICE = 1024;
+
+/** Numbers for a picture: without the last twelve bits, which nobody sees, they compress. @param {unknown} value */
+function drawn(value) {
+  if (!(value instanceof Float32Array)) return value;
+  const bits = new Uint32Array(Float32Array.from(value).buffer);
+  return new Float32Array(bits.map((b) => (b + 0x800) & ~0xfff).buffer);
+}
+
+/** What the page shows before its engine is there: the engine's own answers, as one message. @param {Uint8Array<ArrayBuffer>} wasm */
+async function stored(wasm) {
+  const { exports } = (await WebAssembly.instantiate(wasm, {})).instance, engine = /** @type {any} */ (exports);
+  const ask = (/** @type {Record<string, unknown>} */ request) => {
+    const bytes = encode(request), at = engine.give(bytes.length) >>> 0;
+    new Uint8Array(engine.memory.buffer, at, bytes.length).set(bytes);
+    const out = engine.ask(at, bytes.length) >>> 0, length = new DataView(engine.memory.buffer).getUint32(out, true);
+    const { ok, ...answer } = decode(new Uint8Array(engine.memory.buffer).slice(out + 4, out + 4 + length));
+    engine.release();
+    if (!ok) throw new Error(`the engine refused ${request.do}: ${JSON.stringify(answer.problems)}`);
+    return answer;
+  };
+  const about = ask({ do: "about" }), { toml } = about.examples.find((/** @type {any} */ e) => e.name === EXAMPLE), slot = 0;
+  const opened = ask({ do: "open", slot, toml, carry: false });
+  let got = /** @type {any} */ (null), x = new Float32Array(0);
+  do {
+    got = ask({ do: "advance", slot, rows: SLICE });
+    x = Float32Array.from([...x, ...got.x]).slice(-SHOWN);
+  } while (!got.done);
+  const spectra = ask({ do: "spectra", slot, longest: WINDOW }), { headline } = ask({ do: "verdict", slot }), { defects: damage } = ask({ do: "damage", slot });
+  for (const one of [spectra.spectrum, spectra.envelope]) one.values = drawn(one.values);
+  return encode({ about, toml, opened, damage, headline, moments: got.moments, first: got.first + got.x.length - x.length, x: drawn(x), spectra });
+}
+
 const html = readFileSync(join(HERE, "index.html"), "utf8");
 const entries = [...html.matchAll(/<script type="module" src="([^"]+)"><\/script>\n/g)].map((m) => m[1]);
 const all = modules(entries);
+const engine = existsSync(wasm) ? readFileSync(wasm) : null;
+const before = engine ? await stored(new Uint8Array(engine)) : null;
 mkdirSync(out, { recursive: true });
 /** Compressed, as text. @param {string | Buffer} data */
 const packed = (data) => gzipSync(data, { level: 9 }).toString("base64");
@@ -66,19 +106,21 @@ for (const name of ${JSON.stringify(entries)}) await import(name);
 `;
 const head = [
   `<style>\n${readFileSync(join(HERE, "studio.css"), "utf8")}</style>`,
-  `<script type="text/plain" id="studio-modules">${packed(JSON.stringify(Object.fromEntries(all)))}</script>`,
+  `<script type="text/plain" id="studio-modules">${packed(JSON.stringify(Object.fromEntries([...all].map(([name, text]) => [name, bare(text)]))))}</script>`,
   `<script type="text/plain" id="studio-worker">${within(readFileSync(join(HERE, WORKER), "utf8"))}</script>`,
-  ...(existsSync(wasm) ? [`<script type="text/plain" id="studio-wasm">${packed(readFileSync(wasm))}</script>`] : []),
+  ...(engine ? [`<script type="text/plain" id="studio-wasm">${packed(engine)}</script>`] : []),
 ].join("\n");
-const page = html.replace(/<link rel="stylesheet"[^>]*>\n/, () => `${head}\n`)
+const still = before ? `<script type="text/plain" id="studio-stored">${packed(Buffer.from(before))}</script>\n` : "";
+const page = html.replace(/<link rel="stylesheet"[^>]*>\n/, () => `${head}\n${still}`)
   .replace(/<script type="module" src="[^"]+"><\/script>\n/g, "")
   .replace("</body>", () => `<script>(async () => {${start}})();</script>\n</body>`);
 write(join(out, "brinell-studio.html"), page);
 
 const site = join(out, "site");
-for (const name of ["index.html", "studio.css", WORKER, ...all.keys()]) {
+for (const name of ["studio.css", WORKER, ...all.keys()]) {
   mkdirSync(dirname(join(site, name)), { recursive: true });
   copyFileSync(place(name), join(site, name));
 }
-if (existsSync(wasm)) copyFileSync(wasm, join(site, "studio.wasm"));
-console.log(`${relative("", join(out, "brinell-studio.html"))}: ${(page.length / 1e6).toFixed(2)} MB, ${all.size} modules, ${existsSync(wasm) ? "with" : "WITHOUT"} the engine; ${relative("", site)}/: the same to serve`);
+write(join(site, "index.html"), html.replace("</head>", () => `${still}</head>`));
+if (engine) copyFileSync(wasm, join(site, "studio.wasm"));
+console.log(`${relative("", join(out, "brinell-studio.html"))}: ${(page.length / 1e6).toFixed(2)} MB, ${all.size} modules, ${engine ? "with" : "WITHOUT"} the engine; ${relative("", site)}/: the same to serve`);

@@ -81,6 +81,11 @@ impl Heard {
         }
     }
 
+    /// Where a run from t = 0 begins to count for indicators and verdict, s.
+    pub(crate) fn settled_s(&self) -> f64 {
+        self.settled as f64 / self.simulation.sample_rate()
+    }
+
     /// Those that count for indicators and verdict, as many as are kept.
     pub(crate) fn settled(&self) -> Vec<f64> {
         self.latest(usize::try_from(self.moments.count()).unwrap_or(KEPT))

@@ -4,10 +4,12 @@ use crate::bench::Bench;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
 use brinell::analysis::{
-    Analysis, COLUMNS, DefectOrders, Options, Quantity, Unit, analyze, shown_spectrum,
+    Analysis, COLUMNS, DefectOrders, Family, Options, Quantity, Unit, analyze, shown_spectrum,
 };
-use brinell::bearing::KnownBearing;
-use brinell::signal::{Indicator, Moments};
+use brinell::bearing::kinematics::Geometry;
+use brinell::bearing::{KnownBearing, orders_of};
+use brinell::scenario::{Scenario, Speed};
+use brinell::signal::{Estimate, Indicator, Moments};
 use brinell_io::{Column, Format, Metadata, Outcome, keys};
 use brinell_io::{SignalFile, open_bytes, rate_of_times};
 use serde_json::{Value, json};
@@ -49,7 +51,29 @@ pub(crate) fn listen(request: &Value, arrays: &Arrays) -> Answer<Value> {
             })
         })
         .collect();
-    Ok(json!({ "channels": channels }))
+    let run = made_by(&file).map(|scenario| {
+        json!({
+            "bearing": scenario.bearing.preset,
+            "rpm": rpm(&scenario),
+            "from_s": scenario.settled_s(),
+        })
+    });
+    Ok(json!({ "channels": channels, "run": run }))
+}
+
+/// The scenario of the run that made a file, where the file carries it.
+fn made_by(file: &SignalFile) -> Option<Scenario> {
+    let mut words = file.metadata().pairs.iter();
+    let (_, text) =
+        words.find(|(key, _)| key.starts_with("brinell") && key.ends_with("scenario"))?;
+    Scenario::from_toml(text).ok()
+}
+
+fn rpm(scenario: &Scenario) -> Option<f64> {
+    match scenario.operation.speed_rpm {
+        Speed::Constant(rpm) if rpm != 0.0 => Some(rpm.abs()),
+        _ => None,
+    }
 }
 
 /// `judge`: one channel, analysed as `brinell analyze` does.
@@ -66,31 +90,29 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     let unit = (request["unit"].as_str().map(str::to_owned))
         .or_else(|| stated.and_then(|c| c.unit.clone()))
         .unwrap_or_default();
-    let positive = |key: &str| request[key].as_f64().filter(|x| *x > 0.0 && x.is_finite());
-    let rate = positive("rate_hz").or(stated_rate);
+    let rate = positive(request, "rate_hz").or(stated_rate);
     let rate =
         rate.ok_or_else(|| Trouble::of("the sample rate is missing: the file does not state it"))?;
-    let rpm =
-        positive("rpm").ok_or_else(|| Trouble::of("the speed of the shaft is missing, r/min"))?;
-    let orders = match request["bearing"].as_str() {
-        None => DefectOrders::default(),
-        Some(name) => {
-            let bearing = KnownBearing::find(name);
-            let bearing = bearing.ok_or_else(|| Trouble::of(KnownBearing::unknown(name)))?;
-            bearing.orders().map_err(Trouble::of)?.0
-        }
-    };
+    let run = made_by(&file);
+    let options = options(request, run.as_ref())?;
     let x = file.read(&name).map_err(|e| Trouble::of(e.to_string()))?;
     let unit = Unit::of(&unit);
     let x = unit.in_si(&x);
+    let from_s = match (request["from_s"].as_f64(), &run) {
+        (Some(from_s), _) => from_s,
+        (None, Some(run)) => run.settled_s(),
+        (None, None) => 0.0,
+    };
+    let x = after(&x, from_s, rate)?;
     let failed = |e: brinell::analysis::AnalysisError| Trouble::of(e.to_string());
-    let analysis = analyze(&x, rate, &Options::new(rpm / 60.0, orders)).map_err(failed)?;
-    let spectrum = shown_spectrum(&x, rate).map_err(failed)?;
+    let analysis = analyze(x, rate, &options).map_err(failed)?;
+    let spectrum = shown_spectrum(x, rate).map_err(failed)?;
     let envelope = &analysis.view.spectrum;
     let mut answer = verdict(&analysis);
     let mut moments = Moments::default();
-    moments.extend(&x);
+    moments.extend(x);
     answer["moments"] = moments_json(&moments);
+    answer["from_s"] = json!(from_s);
     answer["rate_hz"] = json!(rate);
     answer["unit"] = json!(in_si(&unit));
     answer["x"] = arrays.rounded(&x[..x.len().min(SHOWN)]);
@@ -106,6 +128,46 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     Ok(answer)
 }
 
+fn positive(request: &Value, key: &str) -> Option<f64> {
+    request[key].as_f64().filter(|x| *x > 0.0 && x.is_finite())
+}
+
+/// What is known of a signal beside its samples: as requested, else of the run that made it.
+fn options(request: &Value, run: Option<&Scenario>) -> Answer<Options> {
+    let asked = positive(request, "rpm");
+    let turned = asked.or(run.and_then(rpm));
+    let turned = turned.ok_or_else(|| Trouble::of("the speed of the shaft is missing, r/min"))?;
+    let named = request["bearing"].as_str();
+    let own = run.filter(|run| named.is_none() || named == run.bearing.preset.as_deref());
+    let orders = match (own, named) {
+        (Some(run), _) => orders_of(&Geometry::of(&run.bearing)),
+        (None, None) => DefectOrders::default(),
+        (None, Some(name)) => {
+            let bearing = KnownBearing::find(name);
+            let bearing = bearing.ok_or_else(|| Trouble::of(KnownBearing::unknown(name)))?;
+            bearing.orders().map_err(Trouble::of)?.0
+        }
+    };
+    let mut options = Options::new(turned / 60.0, orders);
+    if let Some(run) = run {
+        options.silent = run.sensor.noise_rms().is_none();
+        options.exact = own.is_some() && rpm(run) == Some(turned);
+    }
+    Ok(options)
+}
+
+/// What comes after a time, s.
+fn after(x: &[f64], from_s: f64, rate: f64) -> Answer<&[f64]> {
+    let length = x.len() as f64 / rate;
+    if !(0.0..length).contains(&from_s) {
+        return Err(Trouble::of(format!(
+            "the signal begins to count at {from_s} s; allowed: 0 or more, and below its length, {length} s"
+        )));
+    }
+    let first = (from_s * rate).round() as usize;
+    Ok(&x[first.min(x.len())..])
+}
+
 /// The unit of what [`Unit::in_si`] gives.
 fn in_si(unit: &Unit) -> &str {
     match unit.quantity {
@@ -116,14 +178,29 @@ fn in_si(unit: &Unit) -> &str {
     }
 }
 
-/// Headline, words and table of an analysis.
+/// Headline, words and table of an analysis, and what [`differ`](crate::differ) compares of it.
 pub(crate) fn verdict(analysis: &Analysis) -> Value {
     let words = analysis.verdict();
+    let found = |f: &Family| json!({ "name": f.name, "hz": f.frequency });
     json!({
         "headline": words.lines().next(),
         "words": words,
         "table": { "columns": COLUMNS.map(|c| c.trim_start_matches('#')), "rows": analysis.rows() },
         "samples": analysis.samples,
+        "damage": analysis.causes().map(found).collect::<Vec<_>>(),
+        "indicators": analysis.indicators.iter().map(estimated).collect::<Vec<_>>(),
+    })
+}
+
+/// An indicator with its 95 % interval and that interval's degrees of freedom.
+fn estimated((indicator, estimate): &(Indicator, Estimate)) -> Value {
+    let interval = estimate.interval;
+    json!({
+        "name": indicator.name(),
+        "value": estimate.value,
+        "low": interval.map(|i| i.low),
+        "high": interval.map(|i| i.high),
+        "freedom": interval.map(|i| i.freedom),
     })
 }
 

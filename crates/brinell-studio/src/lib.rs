@@ -9,6 +9,7 @@ mod about;
 mod bench;
 mod course;
 mod damage;
+mod differ;
 mod frames;
 mod judged;
 mod message;

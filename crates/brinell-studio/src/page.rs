@@ -37,6 +37,7 @@ files! {
     "src/server-engine.js": JS,
     "src/side.js": JS,
     "src/state.js": JS,
+    "src/stored.js": JS,
     "src/tools.js": JS,
     "src/trace.js": JS,
     "src/views/bearing.js": JS,

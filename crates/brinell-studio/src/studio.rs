@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use crate::message::{Arrays, Message};
 use crate::report::{Answer, Trouble};
-use crate::{about, damage, judged, pen, spectra, text};
+use crate::{about, damage, differ, judged, pen, spectra, text};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::plausibility::Beforehand;
@@ -80,6 +80,7 @@ impl Studio {
             "brush" => pen::brushed(request, given),
             "listen" => judged::listen(request, given),
             "judge" => judged::judge(request, given, arrays),
+            "differ" => differ::differ(request),
             "save" => judged::save(request, self.bench(request)?, arrays),
             "open" => self.open(request),
             "advance" => self.advance(request, arrays),
@@ -194,6 +195,7 @@ fn opened(bench: &Bench) -> Value {
         "assumed": assumed.collect::<Vec<_>>(),
         "rate_hz": simulation.sample_rate(),
         "samples": simulation.samples(),
+        "settled_s": bench.heard.settled_s(),
         "axis": (["sensor_ax", "sensor_ay"][bench.heard.axis]),
         "unit": "m/s^2",
         "rpm": bench.shaft().map(|f| 60.0 * f),

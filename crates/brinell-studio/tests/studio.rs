@@ -376,11 +376,56 @@ fn prop_a_run_is_saved_as_the_command_saves_it_and_judged_when_it_is_read_again(
         let heard = ask_with(&mut studio, listen, &bytes).json;
         let channels = heard["channels"].as_array().unwrap();
         assert!(channels.iter().any(|c| c["name"] == "sensor_ax"), "{heard}");
-        let judge = json!({ "do": "judge", "name": name, "bytes": reference, "channel": "sensor_ax",
+        let mut judge = json!({ "do": "judge", "name": name, "bytes": reference, "channel": "sensor_ax",
             "bearing": "NN3007", "rpm": 1800, "rate_hz": 25600, "unit": "m/s^2" });
-        let judged = ask_with(&mut studio, judge, &bytes);
+        let judged = ask_with(&mut studio, judge.clone(), &bytes);
         let headline = judged.json["headline"].as_str().unwrap();
         assert!(headline.starts_with("Outer race damage"), "{headline}");
-        assert_eq!(singles(&judged, &judged.json["x"]).len(), lines.len() - 1);
+        // Both carry the scenario.
+        let from_s = scenario.settled_s();
+        assert_eq!(heard["run"]["from_s"], json!(from_s), "{heard}");
+        assert_eq!(judged.json["from_s"], json!(from_s));
+        let count = |answer: &Message| singles(answer, &answer.json["x"]).len();
+        let skipped = (from_s * 25600.0).round() as usize;
+        assert_eq!(count(&judged) + skipped, lines.len() - 1);
+        judge["from_s"] = json!(0.1);
+        let later = ask_with(&mut studio, judge.clone(), &bytes);
+        assert_eq!(count(&later) + 2560, lines.len() - 1);
+        judge["from_s"] = json!(2.0);
+        let beyond = ask_with(&mut studio, judge, &bytes).json;
+        assert_eq!(beyond["ok"], json!(false));
     }
+}
+
+#[test]
+fn prop_two_verdicts_are_held_against_each_other() {
+    let mut studio = Studio::new();
+    let mut verdict = |text: String| {
+        let text = text.replace("0.06", "0.5");
+        let open = json!({ "do": "open", "slot": 0, "toml": text });
+        let opened = good(&mut studio, open).json;
+        let settled = opened["settled_s"].as_f64().unwrap();
+        assert!(settled > 1.0 / 30.0 && settled < 0.25, "{settled}");
+        run(&mut studio, 5000);
+        good(&mut studio, json!({ "do": "verdict", "slot": 0 })).json
+    };
+    let healthy = verdict(HEALTHY.to_owned());
+    let damaged = verdict(format!("{HEALTHY}{SPALL}"));
+    let answer = good(
+        &mut studio,
+        json!({ "do": "differ", "a": healthy, "b": damaged }),
+    )
+    .json;
+    let headline = answer["headline"].as_str().unwrap();
+    assert!(
+        headline.starts_with("B against A: damage at BPFO in B alone; RMS × "),
+        "{headline}"
+    );
+    let rms = &answer["ratios"][0];
+    assert!(
+        rms["apart"] == json!(true) && rms["low"].as_f64().unwrap() > 2.0,
+        "{rms}"
+    );
+    let without = json!({ "do": "differ", "a": healthy });
+    assert_eq!(ask(&mut studio, without).json["ok"], json!(false));
 }

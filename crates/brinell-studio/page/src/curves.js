@@ -42,7 +42,9 @@ export class CurveViews {
     const behind = side.damage.length && healthy?.rate_hz === rate
       ? { x0, dx: 1 / rate, values: whole ? healthy.x.subarray(0, values.length) : healthy.x.subarray(Math.max(0, healthy.x.length - values.length)) } : null;
     const second = other?.opened ? { x0, dx: 1 / other.opened.rate_hz, values: cut(other) } : null;
-    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: ["A", "B"] };
+    // Of a whole run the first view leaves out what does not count yet: the load as it comes up.
+    const settled = whole ? side.opened.settled_s : undefined;
+    return { x0, dx: 1 / rate, values, unit: side.opened.unit, lines: [], behind, second, names: ["A", "B"], settled, stored: "stored" in side };
   }
 
   /** @param {Side} side @param {Side[]} sides @param {any} healthy @param {any} measured @param {"spectrum" | "envelope"} kind */
@@ -53,7 +55,7 @@ export class CurveViews {
     return {
       x0: 0, dx: got.df, values: got.values, unit: first.opened.unit, lines: side.spectra?.lines ?? [], band_hz: got.band_hz,
         behind: first.damage.length ? curve(healthy?.[kind]) : null,
-      second: curve(measured?.[kind]) ?? curve(other?.spectra?.[kind]), names: measured ? ["simulated", "measured"] : ["A", "B"],
+      second: curve(measured?.[kind]) ?? curve(other?.spectra?.[kind]), names: measured ? ["simulated", "measured"] : ["A", "B"], stored: "stored" in first,
     };
   }
 }

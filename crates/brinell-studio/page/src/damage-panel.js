@@ -30,12 +30,12 @@ const TOOLS = [
 ];
 const HINTS = {
   select: "Drag damage to move it, its handles to size it. Arrows 1° / 0.1 mm, Shift ×10; [ ] depth; Del deletes.",
-  pen: "Scratch the raceway: the bearing runs on while you draw.",
-  points: "Click corners; double-click closes the outline.",
+  pen: "Scratch the raceway: the bearing runs on while you draw. A click makes a dot; Esc takes back what is being drawn.",
+  points: "Click at least three corners; Enter, a double click or the first corner closes the outline. Backspace takes a corner back, Esc drops them.",
   brush: "Paint depth; on a selected depth map it adds to it.",
-  rectangle: "Drag from corner to corner, or click for 3 × 4 mm.",
-  circle: "Drag from the centre, or click.",
-  paper: "The irregular spall of Li et al. (2023): click, or drag its width.",
+  rectangle: "Drag from corner to corner, or click for 3 × 4 mm. Esc while dragging takes it back.",
+  circle: "Drag from the centre to the rim, or click for 3 mm. Esc while dragging takes it back.",
+  paper: "The irregular spall of Li et al. (2023): click, or drag its width. Esc while dragging takes it back.",
 };
 const DEEPER = 1.1;
 
@@ -68,7 +68,7 @@ export class DamagePanel {
   #shown = "";
   /** @type {any[]} */
   #damage = [];
-  /** @type {{id: string, index: number | null, base: any} | null} */
+  /** @type {{id: string, index: number | null, base: any, put: boolean, left: boolean} | null} put: it has changed the scenario; left: it was taken back */
   #gesture = null;
   #gestures = 0;
   /** @type {{request: Extract<Request, {type: "stroke"}>, gesture: any} | null} */
@@ -89,18 +89,22 @@ export class DamagePanel {
         h("span", {}, name)));
     this.width = h("input", { type: "number", className: "narrow-number", min: "0.05", max: "10", step: "0.05", value: "0.5",
       "aria-label": "Width of pen and brush, mm", oninput: () => { this.raceway.penWidth = this.width.valueAsNumber || 0.5; } });
+    this.depth = h("input", { type: "number", className: "narrow-number", min: "0.1", max: "1000", step: "any", value: String(this.#depth),
+      "aria-label": "Depth that the brush adds, µm", oninput: () => { if (this.depth.valueAsNumber > 0) this.#depth = this.depth.valueAsNumber; } });
+    this.deepest = h("output", { className: "note" });
     this.raise = h("input", { type: "checkbox" });
     this.undo = button("Undo", () => owner.store().undo(), { title: "Ctrl-Z" });
     this.redo = button("Redo", () => owner.store().redo(), { title: "Ctrl-Shift-Z" });
     this.rollerLabel = h("label", {}, "roller", this.rollers);
     this.widthLabel = h("label", {}, "width", this.width, "mm");
-    this.raiseLabel = h("label", {}, this.raise, "raise");
+    this.depthLabel = h("label", { className: "brush", title: "What a stroke of the brush adds along its middle" }, "adds", this.depth, "µm");
+    this.raiseLabel = h("label", { className: "brush", title: "The brush takes depth off" }, this.raise, "raise");
     const group = (/** @type {string} */ label, /** @type {HTMLElement[]} */ buttons) => h("span", { className: "group", role: "group", "aria-label": label },
       ...buttons);
     this.chosen = h("div", { className: "chosen" });
     root.append(
       h("div", { className: "tools" }, h("h2", {}, "Damage"), group("Surface", this.surfaces), h("label", {}, "row", this.rows), this.rollerLabel,
-        group("Tool", this.tools), this.widthLabel, this.raiseLabel,
+        group("Tool", this.tools), this.widthLabel,
         h("span", { className: "spacer" }), group("History", [this.undo, this.redo]),
         group("View", [button("−", () => this.raceway.zoom(0.8), { "aria-label": "Zoom out" }),
           button("+", () => this.raceway.zoom(1.25), { "aria-label": "Zoom in" }), button("Fit", () => this.raceway.fit())])),
@@ -118,7 +122,6 @@ export class DamagePanel {
     this.raceway.tool = tool;
     for (const button of this.tools) button.setAttribute("aria-pressed", String(button.dataset.tool === tool));
     this.widthLabel.hidden = tool !== "pen" && tool !== "brush";
-    this.raiseLabel.hidden = tool !== "brush";
     this.#shown = "";
     this.update();
   }
@@ -154,6 +157,14 @@ export class DamagePanel {
   set damage(damage) {
     this.#damage = damage;
     this.#lay();
+    this.#deep();
+  }
+
+  /** How deep the depth map that is painted on has become. */
+  #deep() {
+    const grid = this.#damage.find((one) => one.defect === this.selected && one.grid);
+    this.deepest.textContent = grid ? `deepest ${short(grid.deepest_um)} µm` : "";
+    this.deepest.hidden = !grid;
   }
 
   #lay() {
@@ -176,6 +187,8 @@ export class DamagePanel {
   update(all = /** @type {any} */ (null)) {
     const store = this.owner.store(), defect = this.#defects[this.selected - 1];
     if (!defect) this.selected = 0;
+    if (this.depth !== document.activeElement && this.depth.valueAsNumber !== this.#depth) this.depth.value = String(this.#depth);
+    this.#deep();
     this.raceway.selected = this.selected;
     this.raceway.defect = defect ?? null;
     this.undo.disabled = !store.canUndo;
@@ -201,7 +214,8 @@ export class DamagePanel {
     if (same) return void this.chosen.querySelector(".chips")?.replaceWith(chips);
     this.fields = defect ? defectSpecs(schema, defect, this.selected - 1).map((s) => new Field(s, this.owner.changed, { note: false, range: false })) : [];
     const hint = h("p", { className: "hint" }, HINTS[this.raceway.tool]);
-    this.chosen.replaceChildren(chips, ...this.fields.map((f) => f.element),
+    this.chosen.replaceChildren(chips, ...(this.raceway.tool === "brush" ? [this.depthLabel, this.raiseLabel] : []), this.deepest,
+      ...this.fields.map((f) => f.element),
       defect ? h("button", { type: "button", onclick: () => this.#heed({ type: "delete" }) }, "Delete") : hint);
     this.owner.rebuilt();
   }
@@ -231,12 +245,14 @@ export class DamagePanel {
 
   #begin() {
     const chosen = this.#defects[this.selected - 1], grid = this.raceway.tool === "brush" && chosen?.shape?.depth_map?.columns ? chosen : null;
-    this.#gesture = { id: `!${++this.#gestures}`, index: grid ? this.selected - 1 : null, base: structuredClone(grid) };
+    this.#gesture = { id: `!${++this.#gestures}`, index: grid ? this.selected - 1 : null, base: structuredClone(grid), put: false, left: false };
     return this.#gesture;
   }
 
   #cancel() {
-    if (this.#gesture && this.#gesture.index !== null) this.owner.store().undo();
+    // What the engine still works on is not put there any more.
+    if (this.#gesture) this.#gesture.left = true;
+    if (this.#gesture?.put) this.owner.store().undo();
     this.#stroke = this.#gesture = null;
   }
 
@@ -256,6 +272,7 @@ export class DamagePanel {
       if (request.type === "deeper") defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
       if (request.type === "move") this.#lie(defect, request.s, request.z);
     }, this.#gesture?.id ?? request.type);
+    if (this.#gesture) this.#gesture.put = true;
     const depth = this.#defects[at].depth_um;
     if (depth > 0) this.#depth = depth;
     this.raceway.reveal(this.selected);
@@ -273,9 +290,11 @@ export class DamagePanel {
    * @param {any} what
    * @param {number} s
    * @param {number} z
-   * @param {{id: string, index: number | null}} gesture
+   * @param {{id: string, index: number | null, put: boolean, left: boolean}} gesture
    */
   #put(what, s, z, gesture) {
+    if (gesture.left) return;
+    gesture.put = true;
     this.owner.store().change((scenario) => {
       scenario.defects ??= [];
       if (gesture.index === null || !scenario.defects[gesture.index]) {

@@ -3,7 +3,9 @@ import { Refused } from "./answers.js";
 import { Field } from "./controls.js";
 import { byId, h, short } from "./dom.js";
 import { asked, line } from "./measured.js";
+import { notice } from "./readout.js";
 import { fileSpecs } from "./schema.js";
+import { LINK_LIMIT, pathOf, toLink } from "./state.js";
 
 const LARGEST = 1 << 28;
 const KINDS = /** @type {const} */ ({ photo: "image", svg: "svg", depth: "depth_map" });
@@ -69,7 +71,9 @@ function preview(shape) {
 export async function shapeOf(ask, schema, kind, name, bytes) {
   /** @type {Record<string, any>} */
   const options = {};
-  let got = /** @type {any} */ (null), turn = 0;
+  let got = /** @type {any} */ (null), turn = 0, agreed = false;
+  /** Keys that were filled in: only of these, or once all is agreed to, a problem is an error; before, it is what is still needed. */
+  const filled = new Set();
   const told = h("div", { role: "status" }), trouble = h("p", { className: "trouble", role: "alert" });
   const look = async () => {
     const mine = ++turn;
@@ -84,12 +88,15 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
     } catch (error) {
       if (mine !== turn) return;
       got = null;
-      told.replaceChildren();
-      trouble.textContent = error instanceof Refused ? error.problems.map((p) => p.message).join(" ") : String(error);
+      const problems = error instanceof Refused ? error.problems : [{ key: null, message: String(error) }];
+      const open = (/** @type {{key: string | null}} */ p) => !agreed && p.key !== null && !filled.has(String(pathOf(p.key).at(-1)));
+      told.replaceChildren(...problems.filter(open).map((p) => h("p", { className: "note" }, `Still needed: ${p.message}`)));
+      trouble.textContent = problems.filter((p) => !open(p)).map((p) => p.message).join(" ");
     }
   };
   const fields = fileSpecs(schema, KINDS[kind]).map((s) => new Field(s, (spec, value) => {
     spec.write(options, value);
+    filled.add(String(spec.path.at(-1)));
     look();
   }, { range: false }));
   const first = fields.filter((f) => SHOWN.has(String(f.spec.path.at(-1)))), rest = fields.filter((f) => !first.includes(f));
@@ -102,6 +109,7 @@ export async function shapeOf(ask, schema, kind, name, bytes) {
       turn++;
       return null;
     }
+    agreed = true;
     // What was typed last is looked at too; what is refused is shown again with the reason.
     await look();
     if (got) return got;
@@ -148,4 +156,26 @@ export function saveMenu(items, note) {
     else if (e.key === "ArrowUp") all[(at + all.length - 1) % all.length].focus();
   });
   document.addEventListener("pointerdown", (e) => { if (!list.contains(/** @type {Node} */ (e.target)) && e.target !== button) close(); });
+}
+
+/** A link that carries a scenario, into the address and the clipboard. @param {string} toml @param {() => void} save  where it is too long for a link */
+export async function share(toml, save) {
+  const link = await toLink(toml);
+  if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
+    { actions: [["Save the scenario", save]] });
+  history.replaceState(null, "", link);
+  // Without the token of `brinell studio`, which is nobody else's.
+  const address = location.href.replace(location.search, "");
+  const field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
+  const whose = location.search ? " It opens where this server runs; behind the address of another studio, what follows # is enough." : "";
+  let words = `A link to this bearing:${whose}`;
+  try {
+    await navigator.clipboard.writeText(address);
+    words = `The link to this bearing is copied:${whose}`;
+  } catch {
+    // The browser does not let the page write there: the link can be taken from the field.
+  }
+  notice("link", h("p", {}, words));
+  document.querySelector('[data-kind="link"] p')?.after(field);
+  field.select();
 }

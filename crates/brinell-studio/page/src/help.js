@@ -4,10 +4,10 @@ import { byId, h } from "./dom.js";
 const KEYS = [
   ["On the raceway", [
     ["V P O B R C I", "select, pen, points, depth brush, rectangle, circle, irregular spall"],
-      ["Enter", "places the tool's shape; pen and brush down and up; a corner, twice on one closes"],
+      ["Enter", "places the tool's shape; pen and brush down and up; a corner, twice on one closes; closes corners that were clicked"],
     ["Arrows", "move the selected damage 1° or 0.1 mm, Shift ten times as far; without one, the place to draw"], ["[ ]", "shallower, deeper"],
       ["Delete", "deletes the damage"],
-    ["Page up, page down", "the damage before, the next one"], ["+ − 0", "zoom in, out, fit"], ["Escape", "lets go"],
+    ["Page up, page down", "the damage before, the next one"], ["+ − 0", "zoom in, out, fit"], ["Escape", "takes back what is being drawn; else lets go"],
   ]],
   ["Anywhere", [["Ctrl-Z, Ctrl-Shift-Z", "undo, redo"], ["Space, L", "pause, live"], ["H", "hear"], ["A, B", "the bearing that is edited"]]],
   ["By hand", [["One finger", "draws"], ["Two fingers", "move and zoom the raceway"], ["Drop a file", "photo, SVG or depth map of damage, scenario, measured signal"]]],

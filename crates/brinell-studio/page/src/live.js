@@ -123,6 +123,8 @@ export class Live {
         else await this.#slice();
       } catch (error) {
         if (this.#closed) return;
+        // No engine came at all.
+        if (!this.opened && !(error instanceof Lost || error instanceof Refused)) return this.report("absent", { error });
         if (error instanceof Lost) await this.#recover(error);
         else {
           this.#paused = true;

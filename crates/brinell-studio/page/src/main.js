@@ -6,13 +6,14 @@ import { CurveViews } from "./curves.js";
 import { DamagePanel } from "./damage-panel.js";
 import { byId, h, short } from "./dom.js";
 import { engines } from "./engine.js";
-import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, shapeOf } from "./files.js";
+import { bytesOf, chosenKind, download, droppable, kindsOf, saveMenu, shapeOf, share } from "./files.js";
 import { Healthy } from "./healthy.js";
 import { judged, showMeasured } from "./measured.js";
 import { showKeys } from "./help.js";
 import { notice, readout, speak } from "./readout.js";
 import { Side } from "./side.js";
-import { LINK_LIMIT, fromLink, pathOf, remember, remembered, toLink } from "./state.js";
+import { fromLink, pathOf, remember, remembered } from "./state.js";
+import { storedRun } from "./stored.js";
 
 /** @typedef {import("./side.js").Show} Show */
 
@@ -30,6 +31,10 @@ class Studio {
   controls = null;
   /** @type {any} */
   measured = null;
+  /** What tells B from A. */
+  difference = "";
+  /** The stored run, while it is shown. @type {import("./stored.js").Still | null} */
+  still = null;
   #dirty = new Set();
   #read = -Infinity;
   #keep = 0;
@@ -51,29 +56,46 @@ class Studio {
   get side() { return this.sides[this.active]; }
   get other() { return this.beside ? this.sides[1 - this.active] : undefined; }
 
-  /** @param {() => Promise<import("./answers.js").Engine>} start */
-  async begin(start) {
-    this.start = start;
+  /** @param {Promise<() => Promise<import("./answers.js").Engine>>} starting */
+  async begin(starting) {
     // The first engine says what the page is about, and then holds bearing A.
-    const engine = await start();
-    let taken = false;
+    const engine = starting.then((start) => start());
+    engine.catch(() => {});
+    const another = async () => (await starting)();
+    this.start = another;
+    let taken = false, slots = false;
     const a = this.#add("A", () => {
       const first = !taken;
       taken = true;
-      return first ? Promise.resolve(engine) : start();
+      return first ? engine : another();
     });
-    this.about = await engine.ask({ do: "about" });
     // An engine of many slots has two of them: B outranks the healthy bearing.
-    this.healthy = new Healthy(start, 1, () => !(engine.slots && this.sides.length > 1), () => this.#dirty.add("curves"));
+    this.healthy = new Healthy(another, 1, () => !(slots && this.sides.length > 1), () => this.#dirty.add("curves"));
+    // A page that holds a stored run can be used, and shows it, before the engine is there.
+    const stored = await storedRun();
+    this.about = stored?.about ?? await (await engine).ask({ do: "about" });
     this.controls = new Controls(byId("controls"), this.about.schema, (spec, value, live) => this.#change(spec, value, live));
     this.#fill();
     this.#bind();
-    await this.#first(a);
+    const toml = await this.#first(a);
+    if (stored && stored.toml === toml) this.#still(a, stored);
     const frame = () => {
       this.#draw();
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
+    slots = (await engine).slots;
+  }
+
+  /** Shows the stored run until the engine has curves of its own. @param {Side} side @param {any} stored */
+  #still(side, { still, opened, moments, headline, damage }) {
+    if (side.opened) return;
+    this.still = still;
+    side.store.replace(opened.scenario);
+    Object.assign(side, { opened, moments, damage, verdict: { headline: `Stored run, shown while the engine loads. ${headline}` } });
+    this.#opened({ opened, edit: { toml: "" } });
+    this.#damaged(damage);
+    byId("state").textContent = "stored run, engine loading";
   }
 
   /** @param {string} name @param {() => Promise<import("./answers.js").Engine>} start */
@@ -101,6 +123,7 @@ class Studio {
     side.live.edit({ toml }, false);
     // A scenario that is refused leaves the page without a bearing: the example comes instead.
     this.fallback = () => { if (example) side.live.edit({ toml: example.toml }, false); };
+    return toml;
   }
 
   #fill() {
@@ -119,6 +142,7 @@ class Studio {
           s.bearing = { preset: name };
         });
         this.side.store.seal();
+        this.#kept(name);
       }
     });
     saveMenu([
@@ -126,6 +150,17 @@ class Studio {
         ["Arrays, NPZ", () => this.#save("npz")],
       ["Pictures, SVG", () => this.#pictures("svg")], ["Pictures, PNG", () => this.#pictures("png")],
     ], "Signals are those of a run from t = 0, which is done first.");
+  }
+
+  /** Damage stays where it was drawn, on whatever bearing: that is said. @param {string} bearing */
+  #kept(bearing) {
+    const { store } = this.side, count = store.scenario.defects?.length ?? 0;
+    if (!count) return notice("kept", null);
+    notice("kept", `${bearing} has the damage that was drawn before: ${count} ${count === 1 ? "place" : "places"}, at the same angles and of the same size.`,
+      { actions: [["Remove the damage", () => {
+        store.change((s) => { s.defects = []; });
+        store.seal();
+      }]] });
   }
 
   #bind() {
@@ -162,10 +197,14 @@ class Studio {
 
   /** @type {Show} */
   #show(side, kind, data) {
+    // A stored run is not what was edited, and makes room for what is live.
+    if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
+    if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
     if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one goes on with the last good bearing.`);
     if (kind === "recovered") speak("The engine was lost and runs again");
     if (kind === "problems") this.#refused(side, data);
+    if (kind === "verdict" || kind === "opened") this.#differ();
     if (side !== this.side) return void (side === this.other && this.#dirty.add("curves").add("readout"));
     if (kind === "opened") this.#opened(data);
     else if (kind === "scenario") this.#dirty.add("fields");
@@ -181,6 +220,20 @@ class Studio {
       speak(data.headline ?? "");
       this.#dirty.add("curves").add("readout");
     } else this.#dirty.add("curves").add("readout");
+  }
+
+  /** What tells B from A, in the engine's words: of the latest verdicts of both. */
+  async #differ() {
+    const [a, b] = this.sides.map((s) => s.verdict), before = this.difference;
+    this.difference = "";
+    try {
+      if (this.beside && a?.damage && b?.damage) this.difference = (await this.side.live.ask({ do: "differ", a, b })).headline;
+    } catch {
+      // An engine that is lost gives new verdicts when it runs again.
+    }
+    if (this.difference === before) return;
+    if (this.difference) speak(this.difference);
+    this.#dirty.add("readout");
   }
 
   /** @param {any} data */
@@ -269,12 +322,13 @@ class Studio {
       this.panel.update(side.opened.all);
       if (side.problems.length) this.#lay(side);
     }
-    if (dirty.delete("state")) this.#state();
-    if (dirty.has("curves") && this.curves.draw(side, this.beside ? this.sides : [side], this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
+    if (dirty.delete("state") && side.live.opened) this.#state();
+    const shown = /** @type {Side} */ (/** @type {unknown} */ (this.still ?? side)), all = this.beside ? this.sides : [shown];
+    if (dirty.has("curves") && this.curves.draw(shown, all, this.healthy?.curves ?? null, this.measured, now)) dirty.delete("curves");
     if (dirty.has("readout") && now - this.#read > SLOW_READOUT_MS) {
       dirty.delete("readout");
       this.#read = now;
-      readout(byId("readout"), this.beside ? this.sides : [side]);
+      readout(byId("readout"), this.beside ? this.sides : [side], this.difference);
     }
   }
 
@@ -331,6 +385,7 @@ class Studio {
     if (on && !this.sides[1]) this.#second();
     this.beside = on;
     byId("both").setAttribute("aria-pressed", String(on));
+    this.#differ();
     this.#dirty.add("curves").add("readout");
   }
 
@@ -412,27 +467,7 @@ class Studio {
     }
   }
 
-  async #share() {
-    if (this.#isRefused()) return;
-    const { toml } = this.side.opened, link = await toLink(toml);
-    if (link.length > LINK_LIMIT) return notice("link", `The link would have ${link.length} characters, which many programs cut. Share the file instead.`,
-      { actions: [["Save the scenario", () => this.#saveToml()]] });
-    history.replaceState(null, "", link);
-    // Without the token of `brinell studio`, which is nobody else's.
-    const address = location.href.replace(location.search, "");
-    const field = h("input", { type: "text", readOnly: true, value: address, "aria-label": "Link to this bearing" });
-    const whose = location.search ? " It opens where this server runs; behind the address of another studio, what follows # is enough." : "";
-    let words = `A link to this bearing:${whose}`;
-    try {
-      await navigator.clipboard.writeText(address);
-      words = `The link to this bearing is copied:${whose}`;
-    } catch {
-      // The browser does not let the page write there: the link can be taken from the field.
-    }
-    notice("link", h("p", {}, words));
-    document.querySelector('[data-kind="link"] p')?.after(field);
-    field.select();
-  }
+  #share() { if (!this.#isRefused()) share(this.side.opened.toml, () => this.#saveToml()); }
 }
 
 async function main() {
@@ -440,7 +475,7 @@ async function main() {
   // For tests and for the console.
   Object.assign(globalThis, { brinellStudio: studio });
   try {
-    await studio.begin(await engines());
+    await studio.begin(engines());
   } catch (error) {
     const state = byId("state");
     state.textContent = error instanceof NoWasm ? "no WebAssembly" : "no engine";

@@ -34,15 +34,17 @@ const number = (text) => (text.trim() === "" ? null : Number(text));
  * @param {{bearing: string, rpm: number}} guess  of the bearing on the page
  */
 export async function judged(ask, name, bytes, bearings, guess) {
-  const { channels } = await ask({ do: "listen", name, bytes });
+  const { channels, run } = await ask({ do: "listen", name, bytes });
   if (!channels?.length) throw new Error(`${name} holds no signal`);
   const channel = h("select", {},
     ...channels.map((/** @type {any} */ c) => h("option", { value: c.name },
       `${c.name}, ${c.samples} samples${c.rate_hz ? ` at ${short(c.rate_hz, 6)} Hz` : ""}${c.unit ? `, ${c.unit}` : ""}`)));
   const rate = h("input", { type: "number", step: "any", min: "0" }), unit = h("input", { type: "text" }),
-    rpm = h("input", { type: "number", step: "any", value: String(guess.rpm || "") });
-  const bearing = h("select", {}, h("option", { value: "" }, "not known"),
-    ...bearings.map((b) => h("option", { value: b.name, selected: b.name === guess.bearing }, b.name)));
+    rpm = h("input", { type: "number", step: "any", value: String(run?.rpm ?? (guess.rpm || "")) }),
+    from = h("input", { type: "number", step: "any", min: "0", value: String(run?.from_s ?? 0) });
+  const known = run ? run.bearing : guess.bearing;
+  const bearing = h("select", {}, h("option", { value: "" }, run ? "that of the run" : "not known"),
+    ...bearings.map((b) => h("option", { value: b.name, selected: b.name === known }, b.name)));
   const fill = () => {
     const c = channels.find((/** @type {any} */ one) => one.name === channel.value);
     rate.value = c?.rate_hz ? String(c.rate_hz) : "";
@@ -54,10 +56,11 @@ export async function judged(ask, name, bytes, bearings, guess) {
   const form = await asked(`Measured signal: ${name}`, [
     line("Channel", channel, "", ""), line("Sampling rate", rate, "Hz", ""), line("Unit", unit, "", "as m/s^2, g or mV; left empty: not known"),
     line("Bearing", bearing, "", "its defect frequencies are looked for"), line("Speed of the shaft", rpm, "r/min", ""),
+    line("Counts from", from, "s", run ? "after the load's ramp and a turn of the shaft of the run that made the file" : "what comes before is left out"),
   ], "Judge");
   if (!form) return null;
   return ask({ do: "judge", name, bytes, channel: channel.value, rate_hz: number(rate.value), unit: unit.value || null, bearing: bearing.value || null,
-    rpm: number(rpm.value) });
+    rpm: number(rpm.value), from_s: number(from.value) });
 }
 
 /**
@@ -69,7 +72,7 @@ export async function judged(ask, name, bytes, bearings, guess) {
 export function showMeasured(found, name, { beside, close }) {
   const root = byId("measured"), lay = h("input", { type: "checkbox", checked: true, onchange: () => beside(lay.checked) });
   const curve = (/** @type {string} */ kind, /** @type {any} */ data) => Object.assign(document.createElement("brinell-curve"), { data }), unit = found.unit ?? "";
-  const curves = [["waveform", { x0: 0, dx: 1 / found.rate_hz, values: found.x, unit, lines: [], behind: null, second: null }],
+  const curves = [["waveform", { x0: found.from_s ?? 0, dx: 1 / found.rate_hz, values: found.x, unit, lines: [], behind: null, second: null }],
     ["envelope", { x0: 0, dx: found.envelope?.df, values: found.envelope?.values, unit, lines: found.lines ?? [], behind: null, second: null }]]
     .filter(([, data]) => /** @type {any} */ (data).values)
     .map(([kind, data]) => {

@@ -17,7 +17,7 @@
  * @property {number} heaviest
  * @property {number | null} load  direction of the load on this surface, mm
  * @property {Float32Array} forces largest force seen at each place of the turn
- * @property {{points: [number, number][], width: number, closed: boolean} | null} stroke
+ * @property {{points: [number, number][], width: number, closed: boolean, words?: string} | null} stroke
  * @property {[number, number] | null} cursor
  * @property {[number, number][]} handles
  */
@@ -284,6 +284,11 @@ function marks(g, scene, c) {
     g.setLineDash([]);
     g.globalAlpha = 1;
     if (stroke.closed) for (const [s, z] of stroke.points) g.fillRect(xOf(scene, s) - 2.5, yOf(scene, z) - 2.5, 5, 5);
+    if (stroke.words) {
+      g.fillStyle = c.ink;
+      g.textAlign = "left";
+      g.fillText(stroke.words, 8, TOP + 14, width - 16);
+    }
   }
   if (cursor) {
     const [x, y] = [xOf(scene, cursor[0]), yOf(scene, cursor[1])];

@@ -1,14 +1,16 @@
 // <brinell-raceway>: the raceway unrolled, rollers running over it in slow motion, damage drawn on it with pointer or keys.
 import { still } from "./dom.js";
-import { Player } from "./player.js";
+import { Felt, Player } from "./player.js";
 import { TOP, box, colours, copies, draw, middle, xOf, yOf } from "./raceway-draw.js";
-import { TOOL_KEYS, handles, hits, polygon, resized, shapeBetween } from "./tools.js";
+import { Corners, TOOL_KEYS, handles, hits, resized, shapeBetween } from "./tools.js";
 
 /** @typedef {import("./tools.js").Tool} Tool */
 /** @typedef {import("./tools.js").Request} Request */
 /** @typedef {[number, number]} Place */
 
-const BINS = 360, HANDLE_PX = 11, SLIP_PX = 5, FADE = 0.995;
+const HANDLE_PX = 11, SLIP_PX = 5;
+// Clicks that follow each other so soon at one place are one.
+const DOUBLE_MS = 450, SAME_PX = 3;
 const NEAREST = 400;
 
 export class Raceway extends HTMLElement {
@@ -21,14 +23,14 @@ export class Raceway extends HTMLElement {
   #player = new Player();
   /** @type {any[]} */
   #damage = [];
-  #forces = new Float32Array(BINS);
-  #heaviest = 0;
+  #felt = new Felt();
   /** @type {any} */
   #drag = null;
   /** @type {Map<number, Place>} */
   #fingers = new Map();
-  /** @type {Place[]} */
-  #corners = [];
+  #corners = new Corners();
+  /** The last click of a tool that places something. */
+  #tapped = { at: -Infinity, pixel: [0, 0] };
   /** @type {Place[] | null} */
   #stroke = null;
   /** @type {Place | null} */
@@ -65,6 +67,7 @@ export class Raceway extends HTMLElement {
     canvas.addEventListener("pointerup", (e) => this.#up(e));
     canvas.addEventListener("pointercancel", (e) => this.#cancel(e));
     canvas.addEventListener("dblclick", () => this.#close());
+    canvas.addEventListener("pointerleave", () => { this.#corners.next = null; });
     canvas.addEventListener("keydown", (e) => this.#key(e));
     canvas.addEventListener("blur", () => { this.#cursor = null; });
     canvas.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
@@ -82,7 +85,7 @@ export class Raceway extends HTMLElement {
   /** @param {Tool} tool */
   set tool(tool) {
     this.#tool = tool;
-    this.#corners = [];
+    this.#corners.clear();
     this.#stroke = null;
     this.canvas.style.cursor = tool === "select" ? "default" : "crosshair";
   }
@@ -93,9 +96,11 @@ export class Raceway extends HTMLElement {
   show(surface, row, roller) {
     const other = surface !== this.#surface;
     [this.#surface, this.#row, this.#rollerOf] = [surface, row, roller];
-    this.#forces.fill(0);
-    this.#heaviest = 0;
-    if (other) this.fit();
+    this.#felt.clear();
+    if (other) {
+      this.#corners.clear();
+      this.fit();
+    }
     this.describe();
   }
 
@@ -105,8 +110,7 @@ export class Raceway extends HTMLElement {
     this.#geometry = geometry;
     if (!first) return;
     this.#player.reset(geometry.elements);
-    this.#forces.fill(0);
-    this.#heaviest = 0;
+    this.#felt.clear();
     this.fit();
   }
 
@@ -120,7 +124,7 @@ export class Raceway extends HTMLElement {
   /** @param {any} frames */
   set frames(frames) {
     this.#player.push(frames);
-    if (frames?.rows) this.#feel(frames);
+    if (this.#surface !== "roller" && frames?.rows) this.#felt.take(frames, this.#surface, this.#row, this.#geometry?.elements ?? 0);
   }
 
   /** Real seconds for a simulated one. @param {number} slowness */
@@ -187,25 +191,6 @@ export class Raceway extends HTMLElement {
     return [{ s: at(angle), force: row.outer[k], offset: 0 }, { s: at(angle + Math.PI), force: row.inner[k], offset: 0 }];
   }
 
-  /** Keeps the largest force at each place; what was long ago fades. @param {any} frames */
-  #feel(frames) {
-    const n = this.#geometry?.elements ?? 0, row = frames.rows[this.#row - 1];
-    if (!n || !row || this.#surface === "roller") return;
-    const forces = this.#surface === "outer-raceway" ? row.outer_n : row.inner_n;
-    for (let k = 0; k < BINS; k++) this.#forces[k] *= FADE;
-    this.#heaviest *= FADE;
-    for (let f = 0; f < frames.count; f++) {
-      for (let i = 0; i < n; i++) {
-        const force = forces[f * n + i];
-        /** @type {number} */
-        const angle = row.orbit[f * n + i] - (this.#surface === "inner-raceway" ? frames.ring[f] : 0);
-        const bin = Math.floor(((angle / (2 * Math.PI) + 0.5) % 1 + 1) % 1 * BINS) % BINS;
-        this.#forces[bin] = Math.max(this.#forces[bin], force);
-        this.#heaviest = Math.max(this.#heaviest, force);
-      }
-    }
-  }
-
   /** @param {number} now */
   #paint(now) {
     const dt = Math.min(0.1, (now - this.#last) / 1000);
@@ -224,12 +209,12 @@ export class Raceway extends HTMLElement {
   /** @param {import("./raceway-draw.js").Contact[]} contacts @returns {import("./raceway-draw.js").Scene} */
   #scene(contacts) {
     const g = this.#geometry, offset = this.defect?.axial_offset_mm ?? 0;
-    const heaviest = this.#surface === "roller" ? Math.max(1e-9, ...contacts.map((c) => c.force)) : this.#heaviest;
+    const heaviest = this.#surface === "roller" ? Math.max(1e-9, ...contacts.map((c) => c.force)) : this.#felt.heaviest;
     return {
       width: this.#width, height: this.#height, turn: this.turn, across: g.length_mm, view: this.#view, damage: this.#damage, selected: this.selected,
-      contacts, half: this.#surface === "roller" ? 0 : g.element_mm, ball: g.element === "ball", heaviest, forces: this.#forces,
+      contacts, half: this.#surface === "roller" ? 0 : g.element_mm, ball: g.element === "ball", heaviest, forces: this.#felt.forces,
       load: this.#surface === "outer-raceway" && this.loadDeg !== null ? this.loadDeg / 360 * this.turn : null,
-      stroke: this.#corners.length ? { points: this.#corners, width: 0, closed: true } : this.#stroke && { points: this.#stroke, width: this.penWidth, closed: false },
+      stroke: this.#corners.list.length ? { points: this.#corners.shown, width: 0, closed: true, words: this.#corners.words } : this.#stroke && { points: this.#stroke, width: this.penWidth, closed: false },
       cursor: this.#cursor, handles: this.#tool === "select" ? handles(this.defect?.shape).map(([s, z]) => [s, z + offset]) : [],
     };
   }
@@ -286,8 +271,9 @@ export class Raceway extends HTMLElement {
 
   /** @param {PointerEvent} e */
   #move(e) {
-    if (!this.#fingers.has(e.pointerId)) return;
     const pixel = this.#pixel(e), drag = this.#drag;
+    if (this.#corners.list.length) this.#corners.next = this.#mm(pixel);
+    if (!this.#fingers.has(e.pointerId)) return;
     this.#fingers.set(e.pointerId, pixel);
     if (!drag) return;
     if (drag.kind === "pinch") return this.#spread();
@@ -333,7 +319,7 @@ export class Raceway extends HTMLElement {
     const drag = this.#drag;
     if (this.#fingers.size || !drag) return;
     this.#drag = null;
-    if (drag.kind === "corner") return this.#corner(drag.from);
+    if (drag.kind === "corner") return this.#corner(drag.moved ? this.#mm(this.#pixel(e)) : drag.from);
     if (drag.kind === "pan" && !drag.moved && this.#tool === "select") this.#send({ type: "select", defect: 0 });
     if (drag.kind === "stroke" || drag.kind === "shape") {
       if (!drag.moved) this.#tap(drag);
@@ -344,6 +330,9 @@ export class Raceway extends HTMLElement {
 
   /** A click places the usual shape, or one dot of the pen. @param {any} drag */
   #tap(drag) {
+    const [before, now] = [this.#tapped, performance.now()];
+    this.#tapped = { at: now, pixel: drag.pixel };
+    if (now - before.at < DOUBLE_MS && Math.hypot(drag.pixel[0] - before.pixel[0], drag.pixel[1] - before.pixel[1]) < 2 * SLIP_PX) return;
     this.#send({ type: "begin" });
     if (drag.kind === "shape") this.#send({ type: "shape", ...shapeBetween(this.#tool, drag.from, drag.from, this.#geometry.length_mm) });
     else this.#send({ type: "stroke", tool: /** @type {any} */ (this.#tool), points: [drag.from, [drag.from[0] + 0.01, drag.from[1]]], fresh: true });
@@ -358,19 +347,16 @@ export class Raceway extends HTMLElement {
 
   /** @param {Place} at */
   #corner(at) {
-    const first = this.#corners[0];
-    if (first && this.#corners.length > 2 && Math.hypot(at[0] - first[0], at[1] - first[1]) * this.#view.scale < HANDLE_PX) return this.#close();
-    this.#corners.push(at);
+    if (this.#corners.closes(at, HANDLE_PX / this.#view.scale)) return this.#close();
+    this.#corners.list.push(at);
   }
 
-  /** Closes the polygon of the points tool. */
+  /** Closes the outline of the points tool. */
   #close() {
-    // The second click of a double one set the same corner again.
-    const corners = this.#corners.filter((p, k, all) => !k || Math.hypot(p[0] - all[k - 1][0], p[1] - all[k - 1][1]) * this.#view.scale > 3);
-    this.#corners = [];
-    if (corners.length < 3) return;
+    const outline = this.#corners.closed(SAME_PX / this.#view.scale);
+    if (!outline) return;
     this.#send({ type: "begin" });
-    this.#send({ type: "shape", ...polygon(corners) });
+    this.#send({ type: "shape", ...outline });
     this.#send({ type: "end" });
   }
 
@@ -411,6 +397,7 @@ export class Raceway extends HTMLElement {
     else if (command || e.altKey) return;
     else if (arrow) this.#step(arrow, e.shiftKey ? 10 : 1);
     else if (e.key === "[" || e.key === "]") this.#send({ type: "deeper", factor: e.key === "]" ? 1 : -1 });
+    else if (this.#corners.list.length && (e.key === "Delete" || e.key === "Backspace")) this.#corners.list.pop();
     else if (e.key === "Delete" || e.key === "Backspace") this.#send({ type: "delete" });
     else if (e.key === "Enter") this.#enter();
     else if (e.key === "Escape") this.#escape();
@@ -443,6 +430,8 @@ export class Raceway extends HTMLElement {
   /** Enter puts the tool down where the keyboard's place is; pen and brush are lifted by it again. */
   #enter() {
     if (this.#tool === "select") return this.#next(1);
+    // Corners that the pointer set are closed by Enter; the keys set them where their own place is.
+    if (!this.#cursor && this.#corners.list.length) return this.#close();
     if (!this.#cursor) {
       this.selected = 0;
       this.#send({ type: "select", defect: 0 });
@@ -453,11 +442,11 @@ export class Raceway extends HTMLElement {
       this.#stroke = this.#cursor = null;
       this.#send({ type: "end" });
     } else if (this.#tool === "points") {
-      const first = this.#corners[0], last = this.#corners.at(-1);
-      if (this.#corners.length > 2 && [first, last].some((p) => p && Math.hypot(p[0] - at[0], p[1] - at[1]) < 1e-6)) {
+      const { list } = this.#corners;
+      if (list.length > 2 && [list[0], list.at(-1)].some((p) => p && Math.hypot(p[0] - at[0], p[1] - at[1]) < 1e-6)) {
         this.#cursor = null;
         this.#close();
-      } else this.#corners.push(at);
+      } else list.push(at);
     } else if (this.#tool === "pen" || this.#tool === "brush") {
       this.#stroke = [at];
       this.#send({ type: "begin" });
@@ -470,11 +459,12 @@ export class Raceway extends HTMLElement {
     }
   }
 
+  /** Takes back what is being drawn; else what is selected is let go. */
   #escape() {
-    if (this.#stroke) this.#send({ type: "end" });
-    else if (!this.#corners.length && !this.#cursor) this.#send({ type: "select", defect: 0 });
-    this.#corners = [];
-    this.#stroke = this.#cursor = null;
+    if (this.#drag?.begun || this.#stroke) this.#send({ type: "cancel" });
+    else if (!this.#corners.list.length && !this.#cursor) this.#send({ type: "select", defect: 0 });
+    this.#corners.clear();
+    this.#drag = this.#stroke = this.#cursor = null;
   }
 
   /** @param {number} way */

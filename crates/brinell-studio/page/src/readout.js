@@ -40,16 +40,18 @@ function figures(side) {
 /** How a bearing's run stands, in words. @param {Side} side */
 function standing(side) {
   const { live, opened, moments } = side;
+  if (live.state === "loading") return opened ? "stored run" : "";
   if (live.state === "done") return `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
   const settled = side.indicators?.settled && live.state === "live" ? "" : live.state === "live" || live.state === "paused" ? ", settling" : "";
   return `${opened ? "live" : ""}${moments ? `, ${moments.samples} samples` : ""}${settled}`;
 }
 
-/** @param {HTMLElement} root @param {Side[]} sides the one that is shown first */
-export function readout(root, sides) {
+/** @param {HTMLElement} root @param {Side[]} sides the one that is shown first @param {string} difference of two, in words */
+export function readout(root, sides, difference) {
   const several = sides.length > 1;
   root.classList.toggle("several", several);
-  root.replaceChildren(...sides.flatMap((side) => [
+  const differ = several ? h("span", { className: "headline differ" }, difference || "How B differs is said when both have a verdict") : null;
+  root.replaceChildren(...(differ ? [differ] : []), ...sides.flatMap((side) => [
     h("span", { className: "headline" }, several ? h("span", { className: "name" }, side.name) : null,
       side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
     h("span", { className: "note" },

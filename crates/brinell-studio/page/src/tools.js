@@ -20,14 +20,14 @@ export const TOOL_KEYS = { v: "select", p: "pen", o: "points", b: "brush", r: "r
 const tidy = (v) => Number(v.toFixed(3));
 
 /**
- * The shape between two corners, or the usual one where they are close.
+ * The shape between two corners, or the usual one where they are the same.
  * @param {Tool} tool
  * @param {[number, number]} a
  * @param {[number, number]} b
  * @param {number} across
  */
 export function shapeBetween(tool, a, b, across) {
-  const length = Math.abs(b[0] - a[0]), width = Math.abs(b[1] - a[1]), tiny = Math.max(length, width) < SMALLEST_MM;
+  const length = Math.abs(b[0] - a[0]), width = Math.abs(b[1] - a[1]), tiny = length === 0 && width === 0;
   const at = tiny ? a : [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
   if (tool === "rectangle") {
     const shape = tiny ? { length_mm: USUAL.length_mm, width_mm: Math.min(USUAL.width_mm, tidy(0.7 * across)) }
@@ -35,15 +35,52 @@ export function shapeBetween(tool, a, b, across) {
     return { shape: { rectangle: shape }, s: at[0], z: at[1] };
   }
   if (tool === "circle") {
-    const diameter = tiny ? Math.min(USUAL.length_mm, tidy(0.6 * across)) : tidy(2 * Math.hypot(length, width));
+    const diameter = tiny ? Math.min(USUAL.length_mm, tidy(0.6 * across)) : tidy(Math.max(SMALLEST_MM, 2 * Math.hypot(length, width)));
     return { shape: { circle: { diameter_mm: diameter } }, s: a[0], z: a[1] };
   }
   const widest = tiny ? Math.min(USUAL.width_mm, tidy(0.7 * across)) : tidy(Math.max(SMALLEST_MM, width));
   return { shape: { li2023_irregular: { max_width_mm: widest } }, s: at[0], z: at[1] };
 }
 
+/** The corners of an outline that is being set, in mm. */
+export class Corners {
+  /** @type {[number, number][]} */
+  list = [];
+  /** Where the pointer is, after the last corner. @type {[number, number] | null} */
+  next = null;
+
+  get shown() { return this.next && this.list.length ? [...this.list, this.next] : this.list; }
+  get words() {
+    const n = this.list.length;
+    return n < 3 ? `${n} of at least 3 corners · Esc drops them` : `${n} corners · Enter, double-click or the first corner closes · Backspace takes one back · Esc drops them`;
+  }
+
+  /** Whether a place closes the outline. @param {[number, number]} at @param {number} reach mm */
+  closes(at, reach) {
+    const first = this.list[0];
+    return this.list.length > 2 && Math.hypot(at[0] - first[0], at[1] - first[1]) < reach;
+  }
+
+  clear() {
+    this.list = [];
+    this.next = null;
+  }
+
+  /** The outline, and none is being set any more; null and everything as it was with fewer than three corners apart. @param {number} reach mm */
+  closed(reach) {
+    // The second click of a double one set the same corner again.
+    const apart = this.list.filter((p, k, all) => !k || Math.hypot(p[0] - all[k - 1][0], p[1] - all[k - 1][1]) > reach);
+    if (apart.length < 3) {
+      this.list = apart;
+      return null;
+    }
+    this.clear();
+    return polygon(apart);
+  }
+}
+
 /** A polygon about its own middle. @param {[number, number][]} corners */
-export function polygon(corners) {
+function polygon(corners) {
   const s = corners.map((p) => p[0]), z = corners.map((p) => p[1]);
   const [cs, cz] = [(Math.min(...s) + Math.max(...s)) / 2, (Math.min(...z) + Math.max(...z)) / 2];
   return { shape: { outline: { points_mm: corners.map((p) => [tidy(p[0] - cs), tidy(p[1] - cz)]) } }, s: cs, z: cz };

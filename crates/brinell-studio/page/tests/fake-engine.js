@@ -40,7 +40,7 @@
     slots[slot] = { scenario, all, n: 0, t: carried ? before.t : 0, live: carried, x: [] };
     const [x, y] = scenario.operation.load_n;
     return {
-      carried, live: carried, toml: text(scenario), scenario, all, warnings: [], assumed: [], rate_hz: RATE, samples: Math.round(all.simulation.duration_s * RATE) + 1, axis: "sensor_ax", unit: "m/s^2",
+      carried, live: carried, toml: text(scenario), scenario, all, warnings: [], assumed: [], rate_hz: RATE, samples: Math.round(all.simulation.duration_s * RATE) + 1, settled_s: 0.083, axis: "sensor_ax", unit: "m/s^2",
       rpm: scenario.operation.speed_rpm, constant_speed: true, orders: { BPFO: 8.336, BPFI: 10.66, BSF: 4.02, FTF: 0.4388 },
       geometry: { inner_mm: 21.5, outer_mm: 27.5, pitch_mm: 24.5, element_mm: 3, length_mm: 6, rows: ROWS, elements: ELEMENTS, element: "roller" }, load_deg: Math.atan2(y, x) * 180 / Math.PI,
     };
@@ -139,7 +139,8 @@
     about: () => ({ version: "0.0.0-fake", engine: "webassembly", schema: SCHEMA, bearings: [{ name: "NN3007", words: "double row", element: "roller" }, { name: "6205", words: "deep groove", element: "ball" }],
       examples: [{ name: "healthy", words: "without damage", toml: text({ ...BASE, name: "healthy" }) }, { name: "rectangle", words: "a spall", toml: text({ ...BASE, defects: [RECTANGLE] }) }] }),
     open, advance, spectra, damage, scratch, brush,
-    verdict: ({ slot }) => ({ headline: (slots[slot].scenario.defects ?? []).length ? "BPFO is detected at 249.6 Hz: outer raceway damage" : "No line of a defect is significant", table: TABLE, samples: slots[slot].n }),
+    verdict: ({ slot }) => ({ headline: (slots[slot].scenario.defects ?? []).length ? "BPFO is detected at 249.6 Hz: outer raceway damage" : "No line of a defect is significant", table: TABLE, samples: slots[slot].n, damage: (slots[slot].scenario.defects ?? []).length ? [{ name: "BPFO", hz: 249.6 }] : [], indicators: [] }),
+    differ: ({ a, b }) => ({ headline: `B against A: damage at BPFO in ${a.damage.length ? "A" : b.damage.length ? "B" : "neither"} alone; RMS × 2.00 (1.90 to 2.10).`, ratios: [] }),
     indicators: ({ slot }) => {
       const m = moments(slots[slot].x);
       return { settled: slots[slot].n > 8192, quantities: [["RMS", "m/s^2", m.rms], ["peak", "m/s^2", m.peak], ["crest factor", "", m.crest], ["kurtosis", "", m.kurtosis]].map(([name, unit, value]) => ({ name, unit, value, low: 0.97 * value, high: 1.03 * value, meaning: `${name} of the acceleration` })) };
@@ -159,8 +160,8 @@
       if (slots[slot].live || slots[slot].n < slots[slot].all.simulation.duration_s * RATE) refuse(null, "only a run from t = 0 that is done is saved");
       return { name: `signals.${format}`, type: "text/csv", bytes: new TextEncoder().encode(`t,sensor_ax\n${slots[slot].x.map((v, k) => `${k / RATE},${v}`).join("\n")}\n`) };
     },
-    listen: ({ name, bytes }) => (bytes.length < 20 ? refuse(null, `${name} holds no signal`) : { channels: [{ name: "x", samples: 4096, rate_hz: null, unit: null }] }),
-    judge: ({ rate_hz }) => ({ headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [], moments: { rms: 1, peak: 4, crest: 4, kurtosis: 3, samples: 4096 }, x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" }),
+    listen: ({ name, bytes }) => (bytes.length < 20 ? refuse(null, `${name} holds no signal`) : { channels: [{ name: "x", samples: 4096, rate_hz: null, unit: null }], run: null }),
+    judge: ({ rate_hz, from_s }) => ({ from_s, headline: "BPFO is detected", table: TABLE, spectrum: { df: 10, values: new Float32Array(512).fill(0.4) }, envelope: { df: 10, values: new Float32Array(128).fill(0.3) }, lines: [], moments: { rms: 1, peak: 4, crest: 4, kurtosis: 3, samples: 4096 }, x: Float32Array.from({ length: 4096 }, (_, k) => noise(k)), rate_hz, unit: "m/s^2" }),
   };
 
   // As in src/message.js, which a Worker from a Blob cannot import.

@@ -46,6 +46,15 @@ impl Scenario {
         self.bearing.profile == RollerProfile::Straight
             && self.simulation.model != ModelKind::Tilting
     }
+
+    /// Where statistics of its run begin, s: after the load ramp and a turn of the shaft, half-way through at the latest.
+    pub fn settled_s(&self) -> f64 {
+        let turn = match &self.operation.speed_rpm {
+            Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
+            _ => 0.0,
+        };
+        (self.operation.load_ramp_s + turn).min(0.5 * self.simulation.duration_s)
+    }
 }
 
 /// What rolls between the raceways.

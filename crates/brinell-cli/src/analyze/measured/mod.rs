@@ -236,16 +236,18 @@ fn start(wanted: &Wanted, run: Option<&Loaded>, notes: &mut Vec<String>) -> Resu
     };
     positive("--start", wanted.start, 0.0)?;
     positive("--duration", wanted.duration, f64::MIN_POSITIVE)?;
-    Ok(match (wanted.start, run.map(settled)) {
-        (Some(start), _) => start,
-        (None, Some(settled)) => {
-            notes.push(format!(
-                "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
-            ));
-            settled
-        }
-        (None, None) => 0.0,
-    })
+    Ok(
+        match (wanted.start, run.map(|run| run.scenario.settled_s())) {
+            (Some(start), _) => start,
+            (None, Some(settled)) => {
+                notes.push(format!(
+                    "begins at {settled:.4} s, after the run's load ramp and a turn of the shaft"
+                ));
+                settled
+            }
+            (None, None) => 0.0,
+        },
+    )
 }
 
 /// Whatever is wrong with a file that is read is bad input.
@@ -299,13 +301,4 @@ fn scenario(file: &SignalFile, path: &Path) -> Option<Box<Loaded>> {
     };
     let text = carried.or_else(beside)?;
     read(&text, &[]).ok().map(Box::new)
-}
-
-/// Where a run's statistics begin: after the load ramp and a full turn, or half-way through.
-fn settled(run: &Loaded) -> f64 {
-    let turn = match &run.scenario.operation.speed_rpm {
-        Speed::Constant(rpm) if *rpm != 0.0 => 60.0 / rpm.abs(),
-        _ => 0.0,
-    };
-    (run.scenario.operation.load_ramp_s + turn).min(0.5 * run.scenario.simulation.duration_s)
 }

@@ -9,8 +9,8 @@ import { decibel, labelRoom, orders, paintBand, paintLines, part, STRIP, trace, 
 /** @typedef {import("./trace.js").Curve} Curve */
 /** @typedef {import("./trace.js").Line} Line */
 /**
- * @typedef {Curve & { unit: string, lines?: Line[], band_hz?: [number, number] | null, behind?: Curve | null, second?: Curve | null, names?: string[] }} CurveData
- * x in s or Hz; `behind` the healthy bearing, `second` the bearing B
+ * @typedef {Curve & { unit: string, lines?: Line[], band_hz?: [number, number] | null, behind?: Curve | null, second?: Curve | null, names?: string[], settled?: number, stored?: boolean }} CurveData
+ * x in s or Hz; `stored`: of no bearing that runs; `settled` where a waveform's first view begins; `behind` the healthy bearing, `second` the bearing B
  */
 
 const TITLES = { waveform: "Waveform", spectrum: "Spectrum", envelope: "Envelope spectrum" };
@@ -122,7 +122,7 @@ export class BrinellCurve extends View {
 
   entitle() {
     this.scaleButton.hidden = this.kind === "waveform";
-    this.allButton.hidden = this.kind !== "envelope";
+    this.allButton.hidden = this.kind !== "envelope" && this.held?.settled === undefined;
     if (this.kind === "waveform") this.log = false;
     this.name.replaceChildren(SHORT[this.kind], " ", element("span", { class: "unit" }, this.unit()));
     this.tellSoon?.();
@@ -144,7 +144,8 @@ export class BrinellCurve extends View {
   full() { return this.held ? [0, this.held.dx * (this.held.values.length - 1)] : [0, 1]; }
   /** @returns {[number, number]} */
   home() {
-    const full = this.full();
+    const full = this.full(), settled = (this.held?.settled ?? 0) - (this.held?.x0 ?? 0);
+    if (this.kind === "waveform" && settled > 0 && settled < 0.9 * full[1]) return [settled, full[1]];
     if (this.kind !== "envelope" || !this.held?.lines?.length) return full;
     const reach = ENVELOPE_ORDERS * Math.max(...this.held.lines.map((line) => line.nominal_hz).filter(Number.isFinite));
     return reach > 0 ? [0, Math.min(full[1], reach)] : full;
@@ -161,6 +162,8 @@ export class BrinellCurve extends View {
       if (Math.abs(span[0] - home[0]) + Math.abs(span[1] - home[1]) < 1e-6 * full[1]) span = null;
     }
     this.zoomed = span;
+    // What a zoom shows fills the height at once.
+    this.limit = new Limit();
     this.requestDraw();
     this.dispatchEvent(new CustomEvent("zoom", { detail: span }));
   }
@@ -219,7 +222,7 @@ export class BrinellCurve extends View {
     if (this.details.open) this.tableSoon();
   }
   entitleOnce() {
-    const data = this.held, key = `${this.kind} ${this.unit()} ${!!data?.behind} ${!!data?.second}`;
+    const data = this.held, key = `${this.kind} ${this.unit()} ${!!data?.behind} ${!!data?.second} ${data?.settled} ${data?.stored}`;
     if (key === this.entitled) return;
     this.entitled = key;
     this.entitle();
@@ -232,6 +235,7 @@ export class BrinellCurve extends View {
   /** Names of the curves and their colours. */
   legend() {
     const data = this.held, keys = /** @type {[string, keyof import("./theme.js").Colours][]} */ ([]);
+    if (data?.stored) keys.push(["stored run", "blue"]);
     if (data?.second) keys.push([this.named(data, 0), "blue"], [this.named(data, 1), "second"]);
     if (data?.behind) keys.push(["healthy", "healthy"]);
     return keys;

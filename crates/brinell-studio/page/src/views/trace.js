@@ -67,7 +67,7 @@ export function trace(pen, curve, space, peaks, colour, width, alpha = 1) {
 export function familyColour(name, colours) {
   const key = name.toLowerCase();
   return key.startsWith("bpfo") ? colours.bpfo
-    : key.startsWith("bpfi") ? colours.bpfi : key.startsWith("bsf") ? colours.bsf : key.startsWith("ftf") ? colours.ftf : colours.text;
+    : key.startsWith("bpfi") ? colours.bpfi : key.endsWith("bsf") ? colours.bsf : key.startsWith("ftf") ? colours.ftf : colours.text;
 }
 
 const DASHES = [[5, 3], [2, 2], [8, 2, 2, 2], [1, 3]];
@@ -137,29 +137,57 @@ export function paintLines(pen, lines, space, base, colours) {
 /** Height below the curves in which the nominal frequencies are marked, px. */
 export const STRIP = 14;
 
-/** @param {Pen} pen @param {Line[]} lines @param {Space} space @param {number} base where the curves end, px @param {Colours} colours */
+/** Marks this close share a label that names them from left to right, px. */
+const TOGETHER = 12;
+
+/**
+ * Triangles at the nominal frequencies. Each has its name, unless it is alone and the line that was found there has it above.
+ * @param {Pen} pen
+ * @param {Line[]} lines
+ * @param {Space} space
+ * @param {number} base where the curves end, px
+ * @param {Colours} colours
+ */
 function paintNominal(pen, lines, space, base, colours) {
   const { frame, X } = space, right = frame.left + frame.width;
-  const marks = lines.map((line) => ({ line, x: X(line.nominal_hz) })).filter(({ x }) => x >= frame.left && x <= right).sort((a, b) => a.x - b.x);
+  const marks = lines.map((line) => ({ line, x: X(line.nominal_hz), colour: familyColour(line.name, colours) }))
+    .filter(({ x }) => x >= frame.left && x <= right).sort((a, b) => a.x - b.x);
+  /** @type {(typeof marks)[]} */
+  const groups = [];
+  for (const mark of marks) {
+    const last = groups.at(-1)?.at(-1);
+    if (last && mark.x - last.x < TOGETHER) groups.at(-1)?.push(mark);
+    else groups.push([mark]);
+  }
   let free = frame.left;
-  marks.forEach(({ line, x }, k) => {
-    const colour = familyColour(line.name, colours), next = k + 1 < marks.length ? marks[k + 1].x - 6 : right;
-    pen.beginPath();
-    pen.moveTo(x, base + 1.5);
-    pen.lineTo(x - 4, base + 8.5);
-    pen.lineTo(x + 4, base + 8.5);
-    pen.closePath();
-    pen.strokeStyle = colour;
-    pen.lineWidth = 1.2;
-    pen.setLineDash([]);
-    pen.stroke();
-    const label = line.found ? `nominal ${line.name}` : line.name, wide = breadth(label, 10), apart = !line.found || Math.abs(X(line.hz) - x) > 10;
-    const at = x + 7 + wide <= next ? x + 7 : x - 7 - wide >= free ? x - 7 - wide : null;
-    free = x + 6;
-    if (!apart || at === null) return;
+  groups.forEach((group, k) => {
+    for (const { x, colour } of group) triangle(pen, x, base, colour);
+    const alone = group.length === 1 && group[0].line.found, [first, last] = [group[0].x, group[group.length - 1].x];
+    const words = alone ? [{ word: `nominal ${group[0].line.name}`, colour: group[0].colour }]
+      : group.map(({ line, colour }, i) => ({ word: `${i ? " · " : ""}${line.name}`, colour }));
+    const wide = words.reduce((sum, { word }) => sum + breadth(word, 10), 0), next = k + 1 < groups.length ? groups[k + 1][0].x - 6 : right;
+    let at = last + 7 + wide <= next ? last + 7 : first - 7 - wide >= free ? first - 7 - wide : null;
+    free = last + 6;
+    if (at === null || (alone && Math.abs(X(group[0].line.hz) - first) <= 10)) return;
     pen.font = font(10);
-    pen.fillStyle = colour;
-    pen.fillText(label, at, base + 10);
-    free = Math.max(free, at + wide + 4);
+    for (const { word, colour } of words) {
+      pen.fillStyle = colour;
+      pen.fillText(word, at, base + 10);
+      at += breadth(word, 10);
+    }
+    free = Math.max(free, at + 4);
   });
+}
+
+/** @param {Pen} pen @param {number} x @param {number} base @param {string} colour */
+function triangle(pen, x, base, colour) {
+  pen.beginPath();
+  pen.moveTo(x, base + 1.5);
+  pen.lineTo(x - 4, base + 8.5);
+  pen.lineTo(x + 4, base + 8.5);
+  pen.closePath();
+  pen.strokeStyle = colour;
+  pen.lineWidth = 1.2;
+  pen.setLineDash([]);
+  pen.stroke();
 }
