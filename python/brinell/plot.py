@@ -1,4 +1,7 @@
-"""Pictures of results with matplotlib. Each function draws on the axes given, or on new ones, and returns them."""
+"""Pictures of results with matplotlib: those of the command's reports, with their quantities, marks and axis names.
+
+Each function draws on the axes given, or on new ones, and returns them.
+"""
 
 from __future__ import annotations
 
@@ -19,16 +22,31 @@ if TYPE_CHECKING:
 
 __all__ = ["analysis", "envelope", "kurtogram", "load_zone", "roller_pass", "signal", "spectrogram", "spectrum", "statics", "table"]
 
-LINE = "#1f4e79"
-SECOND = "#c0571c"
-MARK = "#8a8a8a"
+#: Okabe and Ito's colours, as the reports have them.
+LINE = "#0072B2"
+SECOND = "#D55E00"
+GREEN = "#009E73"
+BLACK = "#1b1f24"
+FAINT = "#68727d"
+#: Shades from least to most.
+_STOPS = ((250, 251, 253), (205, 222, 240), (140, 184, 222), (66, 134, 190), (20, 78, 140), (8, 26, 58))
 
 
-def _axes(ax: Any) -> matplotlib.axes.Axes:
+def _axes(ax: Any, height: float = 3.2) -> matplotlib.axes.Axes:
     plt = tables.need("matplotlib.pyplot", "plot")
     if ax is None:
-        _, ax = plt.subplots(figsize=(8.0, 3.2), layout="constrained")
+        _, ax = plt.subplots(figsize=(8.0, height), layout="constrained")
     return cast("matplotlib.axes.Axes", ax)
+
+
+def _shades() -> Any:
+    colors = tables.need("matplotlib.colors", "plot")
+    return colors.LinearSegmentedColormap.from_list("brinell", [tuple(part / 255 for part in stop) for stop in _STOPS])
+
+
+def _time(span: float) -> tuple[str, float]:
+    """Seconds or milliseconds, whichever reads better, and how many go into a second."""
+    return ("s", 1.0) if span >= 0.5 else ("ms", 1e3)
 
 
 def _plain(ax: matplotlib.axes.Axes, x: str, y: str, title: str) -> matplotlib.axes.Axes:
@@ -60,14 +78,14 @@ def signal(
     to_s: float | None = None,
     ax: Any = None,
 ) -> matplotlib.axes.Axes:
-    """A channel over time; shaded where a roller is on damage.
+    """A channel over time; lines where a roller enters damage, dashed ones where it leaves.
 
     Examples
     --------
     >>> import brinell, brinell.plot
     >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.05})
     >>> brinell.plot.signal(brinell.simulate(scenario), "outer_ax").get_xlabel()
-    'time (s)'
+    'Time (ms)'
     """
     ax = _axes(ax)
     if channel is None:
@@ -78,68 +96,95 @@ def signal(
     first = 0.0 if from_s is None else from_s
     last = float(t[-1]) if to_s is None else to_s
     part = (t >= first) & (t <= last)
-    for begin, end in _on_damage(result, first, last):
-        ax.axvspan(begin, end, color=SECOND, alpha=0.12, linewidth=0)
-    ax.plot(t[part], x[part], color=LINE, linewidth=0.8)
-    ax.set_xlim(first, last)
-    return _plain(ax, "time (s)", f"{channel} ({_unit(result.units[channel])})", result.scenario.name)
+    unit, scale = _time(last - first)
+    ax.plot(scale * t[part], x[part], color=LINE, linewidth=0.8)
+    ax.set_xlim(scale * first, scale * last)
+    entries, exits = _passes(result, first, last)
+    ax.vlines(scale * entries, 0.0, 1.0, transform=ax.get_xaxis_transform(), color=SECOND, linewidth=0.8, alpha=0.75)
+    ax.vlines(
+        scale * exits, 0.0, 1.0, transform=ax.get_xaxis_transform(), color=GREEN, linewidth=0.8, alpha=0.75, linestyle=(0, (5, 3))
+    )
+    return _plain(ax, f"Time ({unit})", f"{channel} ({_unit(result.units[channel])})", result.scenario.name)
 
 
 #: More passes than that are a blur.
-_MOST_SPANS = 40
+_MOST_PASSES = 40
 
 
-def _on_damage(result: Result, first: float, last: float) -> list[tuple[float, float]]:
-    events = result.events
-    begun: dict[tuple[int, int, int], float] = {}
-    spans: list[tuple[float, float]] = []
-    columns = (events[name] for name in ("t", "defect", "row", "roller", "enters"))
-    for t, defect, row, roller, enters in zip(*columns, strict=True):
-        which = (int(defect), int(row), int(roller))
-        if enters:
-            begun[which] = float(t)
-        elif which in begun:
-            begin = begun.pop(which)
-            if begin <= last and t >= first:
-                spans.append((begin, float(t)))
-    return spans if len(spans) <= _MOST_SPANS else []
+def _passes(result: Result, first: float, last: float) -> tuple[Any, Any]:
+    """When rollers enter damage and when they leave it, s."""
+    t, enters = result.events["t"], result.events["enters"].astype(bool)
+    seen = (t >= first) & (t <= last)
+    if np.count_nonzero(seen & enters) > _MOST_PASSES:
+        seen = np.zeros_like(seen)
+    return t[seen & enters], t[seen & ~enters]
+
+
+def _amplitude(unit: str) -> str:
+    return f"Acceleration amplitude ({_unit(unit)})" if unit == "m/s^2" else f"Amplitude ({_unit(unit)})"
 
 
 def spectrum(of: Spectrum, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
-    """Amplitude over frequency.
+    """Amplitude over frequency, the largest of it on a logarithmic axis.
 
     Examples
     --------
     >>> import brinell, brinell.plot, numpy as np
     >>> lines = brinell.spectrum(np.sin(np.arange(256.0)), rate_hz=256.0, unit="g")
     >>> brinell.plot.spectrum(lines).get_ylabel()
-    'amplitude (g)'
+    'Amplitude (g)'
     """
     ax = _axes(ax)
     top = float(of.frequency_hz[-1]) if to_hz is None else to_hz
     part = of.frequency_hz <= top
     ax.plot(of.frequency_hz[part], of.amplitude[part], color=LINE, linewidth=0.8)
     ax.set_xlim(0.0, top)
-    ax.set_ylim(bottom=0.0)
-    return _plain(ax, "frequency (Hz)", f"amplitude ({_unit(of.unit)})", of.channel or "")
+    positive = of.amplitude[part][of.amplitude[part] > 0.0]
+    if len(positive):
+        # Whole decades, from the bulk of the lines on, six at most.
+        high = np.log10(positive.max())
+        low = min(max(np.floor(np.log10(np.quantile(positive, 0.05))), np.floor(high) - 5.0), np.floor(high) - 1.0)
+        ax.set_yscale("log")
+        ax.set_ylim(10.0**low, 10.0 ** (high + 0.1))
+    return _plain(ax, "Frequency (Hz)", _amplitude(of.unit), of.channel or "")
+
+
+def _lines(of: Spectrum, label: str, to_hz: float | None, ax: Any) -> matplotlib.axes.Axes:
+    """Amplitude from zero on; the line at 0 Hz, the mean of an envelope, does not set the scale."""
+    ax = _axes(ax, 4.2)
+    top = float(of.frequency_hz[-1]) if to_hz is None else to_hz
+    part = of.frequency_hz <= top
+    ax.plot(of.frequency_hz[part], of.amplitude[part], color=LINE, linewidth=0.8)
+    ax.set_xlim(0.0, top)
+    highest = float(of.amplitude[part][1:].max(initial=0.0))
+    ax.set_ylim(0.0, 1.08 * highest if highest > 0.0 else 1.0)
+    return _plain(ax, "Frequency (Hz)", f"{label} ({_unit(of.unit)})", of.channel or "")
+
+
+#: From the strongest down, at most.
+_RANGE_DB = 60.0
 
 
 def spectrogram(of: Spectrogram, *, ax: Any = None) -> matplotlib.axes.Axes:
-    """Density over time and frequency, 80 dB from the strongest down.
+    """Density over time and frequency.
 
     Examples
     --------
     >>> import brinell, brinell.plot, numpy as np
     >>> map_ = brinell.spectrogram(np.sin(np.arange(1024.0)), rate_hz=1024.0, unit="g", length=256)
     >>> brinell.plot.spectrogram(map_).get_ylabel()
-    'frequency (Hz)'
+    'Frequency (Hz)'
     """
     ax = _axes(ax)
-    top = max(float(of.density.max(initial=0.0)), np.finfo(float).tiny)
-    decibels = 10.0 * np.log10(np.maximum(of.density.T, 1e-8 * top))
-    mesh = ax.pcolormesh(of.time_s, of.frequency_hz, decibels, cmap="viridis", shading="nearest", rasterized=True)
+    unit, scale = _time(float(of.time_s[-1] - of.time_s[0])) if len(of.time_s) else ("s", 1.0)
+    decibels = 10.0 * np.log10(np.maximum(of.density.T, np.finfo(float).tiny))
+    # The scale's foot follows the bulk, not the deepest notch.
+    high = 5.0 * np.ceil(decibels.max() / 5.0)
+    low = np.clip(5.0 * np.floor(np.quantile(decibels, 0.02) / 5.0), high - _RANGE_DB, high - 10.0)
+    shades = {"cmap": _shades(), "vmin": low, "vmax": high}
+    mesh = ax.pcolormesh(scale * of.time_s, of.frequency_hz, decibels, shading="nearest", rasterized=True, **shades)
     ax.figure.colorbar(mesh, ax=ax, label=f"dB re 1 ({_unit(of.unit)})²/Hz")
-    return _bare(ax, "time (s)", "frequency (Hz)")
+    return _bare(ax, f"Time ({unit})", "Frequency (Hz)")
 
 
 def kurtogram(of: Kurtogram, *, ax: Any = None) -> matplotlib.axes.Axes:
@@ -150,62 +195,82 @@ def kurtogram(of: Kurtogram, *, ax: Any = None) -> matplotlib.axes.Axes:
     >>> import brinell, brinell.plot, numpy as np
     >>> x = np.random.default_rng(1).normal(size=8192)
     >>> brinell.plot.kurtogram(brinell.kurtogram(x, rate_hz=8192.0)).get_xlabel()
-    'frequency (Hz)'
+    'Frequency (Hz)'
     """
     ax = _axes(ax)
     widths = np.round(of.high_hz - of.low_hz, 6)
     rows = {width: row for row, width in enumerate(sorted(set(widths.tolist()), reverse=True))}
     places = np.array([rows[width] for width in widths.tolist()])
-    colours = ax.figure.colorbar(ax.scatter([], [], c=[], cmap="viridis", vmin=0.0, vmax=max(float(of.kurtosis.max()), 1e-9)), ax=ax)
+    colours = ax.figure.colorbar(ax.scatter([], [], c=[], cmap=_shades(), vmin=0.0, vmax=max(float(of.kurtosis.max()), 1e-9)), ax=ax)
     colours.set_label("kurtosis")
     shade = colours.mappable.to_rgba(of.kurtosis)
-    ax.barh(places, of.high_hz - of.low_hz, left=of.low_hz, height=1.0, color=shade, linewidth=0)
+    ax.barh(places + 0.5, of.high_hz - of.low_hz, left=of.low_hz, height=1.0, color=shade, linewidth=0)
     if of.best_hz is not None:
         low, high = of.best_hz
-        ax.barh(rows[round(high - low, 6)], high - low, left=low, height=1.0, fill=False, edgecolor=SECOND, linewidth=2.0)
-    ax.set_yticks(list(rows.values()), [f"{width:.0f}" for width in rows])
-    ax.invert_yaxis()
+        ax.barh(rows[round(high - low, 6)] + 0.5, high - low, left=low, height=1.0, fill=False, edgecolor=SECOND, linewidth=2.0)
     ax.margins(x=0.0, y=0.0)
-    return _bare(ax, "frequency (Hz)", "width of a band (Hz)")
+    return _bare(ax, "Frequency (Hz)", "Level")
 
 
 #: Of what is marked first, second, and so on.
-_MARKS = (SECOND, "#3f7d4e", "#7a4f9a")
+_MARKS = (SECOND, GREEN, "#CC79A7", "#E69F00", "#56B4E9", BLACK)
+#: Height of a line of marks, points.
+_LANE = 11.0
 
 
-def _mark(ax: Any, hz: float, label: str, harmonics: int, top: float, place: int = 0) -> None:
-    """Harmonics of a frequency; a second one's labels stand below the first one's."""
-    across, colour = ax.get_xaxis_transform(), _MARKS[place % len(_MARKS)]
-    for k in range(1, harmonics + 1):
-        if k * hz > top:
-            break
-        ax.axvline(k * hz, color=colour, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.8, zorder=0)
-        text = label if k == 1 else f"{k}×"
-        ax.text(k * hz, 0.98 - 0.08 * place, f" {text}", transform=across, va="top", fontsize="small", color=colour)
+def _lanes(ax: Any, marks: list[tuple[str, float, bool]], harmonics: int) -> None:
+    """Harmonics of each frequency on a line of their own above the plot; those of damage run down through it."""
+    top = ax.get_xlim()[1]
+    for k, (label, hz, through) in enumerate(reversed(marks)):
+        colour = _MARKS[(len(marks) - 1 - k) % len(_MARKS)]
+        words = BLACK if through else FAINT
+        lane = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center", "fontsize": "small", "annotation_clip": False}
+        height = 6.0 + _LANE * k
+        ax.annotate(label, (0.0, 1.0), (-6.0, height), ha="right", color=words, fontweight="bold", **lane)
+        ax.annotate(f"{hz:.4g} Hz", (1.0, 1.0), (6.0, height), color=words, **lane)
+        for n in range(1, harmonics + 1):
+            if n * hz > top:
+                break
+            place = (n * hz / top, 1.0)
+            ax.annotate("|", place, (0.0, height), ha="center", color=colour, alpha=1.0 if through else 0.6, **lane)
+            if through:
+                if n > 1:
+                    ax.annotate(f"×{n}", place, (3.0, height), color=words, **lane)
+                ax.axvline(n * hz, color=colour, linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.75)
 
 
-def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 4, ax: Any = None) -> matplotlib.axes.Axes:
-    """The envelope spectrum of a run, with harmonics of the frequencies that its defects are struck with in pure rolling.
+def _titled(ax: Any, title: str, lanes: int) -> None:
+    """A title over the lines of marks."""
+    ax.set_title(title, loc="left", fontsize="medium", pad=6.0 + _LANE * lanes)
+
+
+#: What a report marks, and what a summary calls it.
+_FREQUENCIES = {"BPFO": "bpfo", "BPFI": "bpfi", "2 BSF": "2bsf", "FTF": "ftf", "shaft": "shaft"}
+
+
+def envelope(result: Result, *, to_hz: float | None = None, harmonics: int = 5, ax: Any = None) -> matplotlib.axes.Axes:
+    """The envelope spectrum of a run; above it the harmonics of every defect frequency, those of its damage dashed through it.
 
     Examples
     --------
     >>> import brinell, brinell.plot
     >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
     >>> brinell.plot.envelope(brinell.simulate(scenario)).get_xlabel()
-    'frequency (Hz)'
+    'Frequency (Hz)'
     """
     found = result.envelope
     if found is None:
         raise ValueError("the run is too short for an envelope spectrum")
-    struck = {d["frequency"]: d["pure_rolling_hz"] for d in result.defects if d["pure_rolling_hz"]}
+    damage = {d["frequency"] for d in result.defects}
+    hertz = result.summary["defect_frequencies"]["hz"] or {}
+    marks = [(label, hertz[key], label in damage) for label, key in _FREQUENCIES.items() if hertz.get(key)]
     if to_hz is None:
-        to_hz = (harmonics + 0.6) * max(struck.values()) if struck else 1000.0
-    to_hz = min(to_hz, float(found.frequency_hz[-1]))
-    axes = spectrum(found, to_hz=to_hz, ax=ax)
-    for place, (name, hz) in enumerate(struck.items()):
-        _mark(axes, hz, name, harmonics, to_hz, place)
+        there = [hz for _, hz, through in marks if through] or [hz for _, hz, _ in marks]
+        to_hz = (harmonics + 0.5) * max(there) if there else float(found.frequency_hz[-1])
+    axes = _lines(found, "Envelope amplitude", min(to_hz, float(found.frequency_hz[-1])), ax)
+    _lanes(axes, marks, harmonics)
     low, high = found.band_hz or (0.0, 0.0)
-    axes.set_title(f"envelope of {found.channel}, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
+    _titled(axes, f"{found.channel}, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", len(marks))
     return axes
 
 
@@ -230,8 +295,8 @@ def _beside(ax: Any) -> None:
     ax.legend(loc="upper left", bbox_to_anchor=(-0.12, 0.04), fontsize="small", frameon=False)
 
 
-def load_zone(result: Result, *, ax: Any = None) -> matplotlib.axes.Axes:
-    """Mean force of the outer contacts around the bearing, a line a row.
+def load_zone(result: Result, *, row: int = 1, ax: Any = None) -> matplotlib.axes.Axes:
+    """Force at the outer contacts of a row around the bearing: mean, largest, and that of static equilibrium.
 
     Examples
     --------
@@ -240,18 +305,31 @@ def load_zone(result: Result, *, ax: Any = None) -> matplotlib.axes.Axes:
     >>> brinell.plot.load_zone(brinell.simulate(scenario)).name
     'polar'
     """
-    ax = _polar_axes(ax)
+    from brinell.statics import static_analysis
+
     zone = result.summary["load_zone"]
+    rows = zone["outer_contacts_by_row"]
+    if not 1 <= row <= len(rows):
+        raise ValueError(f"row = {row}: no such row\n  allowed: 1 to {len(rows)}")
+    ax = _polar_axes(ax)
     angle = np.radians(zone["bin_centers_deg"])
-    styles = [(LINE, "-"), (SECOND, "--"), (MARK, ":")]
-    for row, forces in enumerate(zone["outer_contacts_by_row"]):
-        mean = np.array([np.nan if f is None else f for f in forces["mean_n"]], dtype=float)
-        colour, style = styles[row % len(styles)]
-        closed = [np.r_[values, values[:1]] for values in (angle, mean)]
-        ax.plot(*closed, color=colour, linestyle=style, linewidth=1.2, label=f"row {row + 1}")
-    if len(zone["outer_contacts_by_row"]) > 1:
-        _beside(ax)
-    return _polar(ax, "mean force of outer contacts (N)")
+
+    def around(angles: Any, forces: Any, **style: Any) -> None:
+        values = np.array([0.0 if f is None else f for f in forces], dtype=float)
+        ax.plot(np.r_[angles, angles[:1]], np.r_[values, values[:1]], linewidth=1.2, **style)
+
+    mean = rows[row - 1]["mean_n"]
+    ax.fill(angle, [f or 0.0 for f in mean], color=LINE, alpha=0.18, linewidth=0)
+    around(angle, rows[row - 1]["max_n"], color=SECOND, linestyle=(0, (5, 3)), label="largest force")
+    around(angle, mean, color=LINE, label="mean force")
+    if zone["static"] is not None:
+        rest = static_analysis(result.scenario)
+        there = rest.row == row
+        order = np.argsort(rest.angle_deg[there])
+        at, forces = np.radians(rest.angle_deg[there][order]), rest.outer_force_n[there][order]
+        around(at, forces, color=BLACK, linestyle=":", label="static equilibrium")
+    _beside(ax)
+    return _polar(ax, f"Row {row}, force at the outer contact (N)")
 
 
 def statics(zone: LoadZone, *, ax: Any = None) -> matplotlib.axes.Axes:
@@ -273,38 +351,45 @@ def statics(zone: LoadZone, *, ax: Any = None) -> matplotlib.axes.Axes:
 
 
 def roller_pass(result: Result, defect: int = 1, *, ax: Any = None) -> matplotlib.axes.Axes:
-    """Contact force and effective length as a roller passes a defect: the heaviest pass.
+    """Contact length, stiffness and force as a roller passes a defect: the heaviest pass.
+
+    Three panels, in place of the axes given; the lowest is returned.
 
     Examples
     --------
     >>> import brinell, brinell.plot
     >>> scenario = brinell.Scenario.from_toml(brinell.template(), {"simulation.duration_s": 0.1})
     >>> brinell.plot.roller_pass(brinell.simulate(scenario)).get_ylabel()
-    'contact force (N)'
+    'Force (N)'
     """
     passes = [p for p in result.passes if p["defect"] == defect]
     if not passes:
         raise ValueError(f"defect = {defect}: no roller passed it\n  allowed: 1 to {len(result.defects)}, the scenario's defects")
-    left = _axes(ax)
     shown = passes[0]
-    order = np.argsort(shown["t"])
-    ms = 1e3 * (shown["t"][order] - shown["t"][order][0])
-    left.plot(ms, shown["force_n"][order], color=LINE, linewidth=1.2)
-    title = f"roller {shown['roller']} of row {shown['row']} over defect {defect}"
-    _plain(left, "time (ms)", "contact force (N)", title)
-    left.yaxis.label.set_color(LINE)
-    left.set_ylim(bottom=0.0)
-    left.set_xlim(ms[0], ms[-1])
-    right = left.twinx()
-    right.plot(ms, shown["effective_length_mm"][order], color=SECOND, linewidth=1.2, linestyle="--")
-    right.set_ylabel("effective length (mm)", color=SECOND)
-    right.set_ylim(bottom=0.0)
-    right.spines["top"].set_visible(False)
-    return left
+    plt = tables.need("matplotlib.pyplot", "plot")
+    if ax is None:
+        figure, panels = plt.subplots(3, 1, sharex=True, figsize=(8.0, 5.2), layout="constrained")
+    else:
+        figure, place = ax.figure, ax.get_subplotspec()
+        if place is None:
+            raise ValueError("ax: needed is one of a grid, such as plt.subplots gives")
+        ax.remove()
+        panels = place.subgridspec(3, 1).subplots(sharex=True)
+    exponent = result.scenario["contact.exponent"]
+    unit = "N/m$^{10/9}$" if abs(exponent - 10.0 / 9.0) < 1e-9 else "N/m$^n$"
+    columns = (("effective_length_mm", "Contact length (mm)"), ("stiffness", f"Stiffness ({unit})"), ("force_n", "Force (N)"))
+    for panel, (name, label) in zip(panels, columns, strict=True):
+        panel.plot(shown["angle_deg"], shown[name], color=LINE, linewidth=1.2)
+        _plain(panel, "", label, "")
+        panel.set_ylim(bottom=0.0)
+    panels[0].set_title(f"Roller {shown['roller']} of row {shown['row']} over defect {defect}", loc="left", fontsize="medium")
+    panels[-1].set_xlabel("Angle from the defect's centre (°)")
+    panels[-1].margins(x=0.0)
+    return cast("matplotlib.axes.Axes", panels[-1])
 
 
 def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
-    """The envelope spectrum of an analysis, with the causes that were found.
+    """The envelope spectrum of an analysis; above it the harmonics of every family, those of damage dashed through it.
 
     Examples
     --------
@@ -312,15 +397,13 @@ def analysis(of: Analysis, *, to_hz: float | None = None, ax: Any = None) -> mat
     >>> x = np.random.default_rng(1).normal(size=24000)
     >>> found = brinell.analyze(x, rate_hz=12000.0, unit="g", speed_rpm=1800.0, bearing="6205-2RS")
     >>> brinell.plot.analysis(found).get_ylabel()
-    'amplitude (g)'
+    'Envelope amplitude (g)'
     """
-    axes = spectrum(of.envelope, to_hz=to_hz, ax=ax)
-    top = axes.get_xlim()[1]
-    causes = [family for family in of.families if family["says"] == "damage"]
-    for place, cause in enumerate(causes):
-        _mark(axes, cause["found_hz"], cause["name"], 5, top, place)
+    axes = _lines(of.envelope, "Envelope amplitude", to_hz, ax)
+    marks = [(f["name"], f["found_hz"], f["says"] == "damage") for f in of.families if f.get("found_hz")]
+    _lanes(axes, marks, 5)
     low, high = of.envelope.band_hz or (0.0, 0.0)
-    axes.set_title(f"envelope, {low / 1e3:.1f} to {high / 1e3:.1f} kHz", loc="left", fontsize="medium")
+    _titled(axes, f"{low / 1e3:.1f} to {high / 1e3:.1f} kHz", len(marks))
     return axes
 
 

@@ -236,7 +236,7 @@ class Result:
     def plot_signal(
         self, channel: str | None = None, *, from_s: float | None = None, to_s: float | None = None, ax: Any = None
     ) -> matplotlib.axes.Axes:
-        """A channel over time; shaded where a roller is on damage.
+        """A channel over time; lines where a roller enters damage, dashed ones where it leaves.
 
         Parameters
         ----------
@@ -257,20 +257,20 @@ class Result:
 
         return plot.spectrum(_there(self.spectrum), to_hz=to_hz, ax=ax)
 
-    def plot_envelope(self, *, to_hz: float | None = None, harmonics: int = 4, ax: Any = None) -> matplotlib.axes.Axes:
-        """The envelope spectrum, with harmonics of the frequencies that the defects are struck with."""
+    def plot_envelope(self, *, to_hz: float | None = None, harmonics: int = 5, ax: Any = None) -> matplotlib.axes.Axes:
+        """The envelope spectrum; above it the harmonics of every defect frequency, those of the damage dashed through it."""
         from brinell import plot
 
         return plot.envelope(self, to_hz=to_hz, harmonics=harmonics, ax=ax)
 
-    def plot_load_zone(self, *, ax: Any = None) -> matplotlib.axes.Axes:
-        """Mean force of the outer contacts around the bearing, on polar axes."""
+    def plot_load_zone(self, *, row: int = 1, ax: Any = None) -> matplotlib.axes.Axes:
+        """Mean, largest and static force at the outer contacts of a row, on polar axes."""
         from brinell import plot
 
-        return plot.load_zone(self, ax=ax)
+        return plot.load_zone(self, row=row, ax=ax)
 
     def plot_pass(self, defect: int = 1, *, ax: Any = None) -> matplotlib.axes.Axes:
-        """Contact force and effective length as a roller passes a defect."""
+        """Contact length, stiffness and force as a roller passes a defect: three panels, of which the lowest is returned."""
         from brinell import plot
 
         return plot.roller_pass(self, defect, ax=ax)

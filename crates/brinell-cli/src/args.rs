@@ -1,5 +1,6 @@
 //! The command line. Its help teaches.
 
+use crate::figures::Print;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -120,9 +121,11 @@ pub(crate) struct RunArgs {
         value_name = "FORMAT"
     )]
     pub(crate) signals: Vec<SignalFormat>,
-    /// Also write each picture of the report into FOLDER/plots, as files of these formats
+    /// Also write each picture of the report into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Also write line_loads.csv: the load along every loaded roller, slice by slice, at the samples next to these instants (s); of scenarios with
     /// simulation.model = "tilting" or a bearing.profile
     #[arg(
@@ -173,8 +176,10 @@ pub(crate) enum SignalFormat {
 pub(crate) enum PlotFormat {
     /// Vector drawing
     Svg,
-    /// Pixels, twice the drawing's size
+    /// Pixels: twice the drawing's size, or 600 an inch with --width
     Png,
+    /// One page, its typeface inside
+    Pdf,
 }
 
 #[derive(Debug, Args)]
@@ -298,6 +303,8 @@ pub(crate) struct PreviewArgs {
         value_name = "FORMAT"
     )]
     pub(crate) formats: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Replace the results of another command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,

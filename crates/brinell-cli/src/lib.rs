@@ -12,6 +12,7 @@ mod dataset;
 mod defect;
 mod diff;
 mod failure;
+mod figures;
 mod files;
 mod init;
 mod inputs;

@@ -22,6 +22,13 @@ pub(crate) const REPORT: &str = "report.html";
 pub(crate) const ANALYSIS: &str = "analysis.json";
 pub(crate) const COMPARISON: &str = "compare.json";
 pub(crate) const PREVIEW: &str = "preview.json";
+const PREVIEWED: [&str; 5] = [
+    PREVIEW,
+    "damage-*.svg",
+    "damage-*.png",
+    "damage-*.pdf",
+    "damage-*.csv",
+];
 /// Folder of the pictures.
 pub(crate) const PLOTS: &str = "plots";
 
@@ -113,7 +120,7 @@ impl Results {
 
     /// Files that it may leave, by their names below the folder; `*` represents whatever has no `/`.
     fn files(self) -> Vec<&'static str> {
-        const PICTURES: [&str; 2] = ["plots/*.svg", "plots/*.png"];
+        const PICTURES: [&str; 4] = ["plots/*.svg", "plots/*.png", "plots/*.pdf", "curves/*.csv"];
         let (own, pictures): (&[&str], _) = match self {
             Self::Run => (&[SCENARIO, SUMMARY, REPORT], true),
             Self::Analysis => (&[ANALYSIS, REPORT], true),
@@ -127,10 +134,7 @@ impl Results {
                 ],
                 true,
             ),
-            Self::Preview => (
-                &[PREVIEW, "damage-*.svg", "damage-*.png", "damage-*.csv"],
-                false,
-            ),
+            Self::Preview => (&PREVIEWED, false),
             Self::Sweep => (
                 &[
                     JOURNAL,
@@ -179,6 +183,7 @@ impl Results {
         let mut all = own.to_vec();
         if self == Self::Run {
             all.extend(Format::ALL.into_iter().map(Format::file_name));
+            all.push("spectra.parquet");
         }
         if pictures {
             all.extend(PICTURES);
@@ -192,11 +197,8 @@ impl Results {
 
     /// Folders below the folder that it leaves files in.
     fn folders(self) -> BTreeSet<&'static str> {
-        let files = self.files();
-        let folders = files
-            .iter()
-            .filter_map(|file| Some(file.split_once('/')?.0));
-        folders.collect()
+        let files = self.files().into_iter();
+        files.filter_map(|f| Some(f.split_once('/')?.0)).collect()
     }
 
     /// The list of its results in a folder; [`Value::Null`] where nothing does.

@@ -2,15 +2,17 @@
 
 mod line_loads;
 mod many;
+mod spectra;
 
-use crate::args::{PlotFormat, RunArgs, ScenarioArgs, SignalFormat};
+use crate::args::{RunArgs, ScenarioArgs, SignalFormat};
 use crate::failure::{Failure, INTERRUPTED, print_problems};
+use crate::figures::{picture_files, ready_pictures};
 use crate::files;
 use crate::files::Source;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Shown};
 use crate::results::{
-    Earlier, PLOTS, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
+    Earlier, Place, REPORT, Results, SCENARIO, SUMMARY, is_of, is_written, names_below,
 };
 use crate::say::{complain, document, one_line, say, short};
 use brinell::document::Loaded;
@@ -21,7 +23,7 @@ use brinell::signal::Indicator;
 use brinell::simulate::{End, Simulation};
 use brinell::summary::{self, Parts};
 use brinell_damage::Photo;
-use brinell_io::{Column, Complete, Format, Metadata, SignalWriter, atomic_prepare, keys};
+use brinell_io::{Column, Format, Metadata, SignalWriter, atomic_prepare, keys};
 use brinell_report::Report;
 use brinell_study::runner::Recorder;
 use std::path::{Path, PathBuf};
@@ -30,6 +32,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(crate) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
+    args.print.layout(&args.plots)?;
     let [path] = &args.scenarios[..] else {
         let alone = match (args.open, args.json) {
             (true, _) => "--open shows the report",
@@ -142,6 +145,9 @@ fn earlier(
 ) -> Result<Earlier, Failure> {
     let mut writes: Vec<&str> = formats(args).into_iter().map(Format::file_name).collect();
     writes.push(SUMMARY);
+    if writes.contains(&Format::Parquet.file_name()) {
+        writes.push(spectra::FILE);
+    }
     if !args.line_loads.is_empty() {
         writes.push(line_loads::FILE);
     }
@@ -173,6 +179,7 @@ fn execute(
     stop: &AtomicBool,
 ) -> Result<Done, Failure> {
     let end = loaded.scenario.simulation.duration_s;
+    let layout = args.print.layout(&args.plots)?;
     let loads = line_loads::asked(args, &simulation, end)?;
     make_folder(folder)?;
     // These lock their files: another run into the same folder ends here, before anything is removed.
@@ -197,6 +204,9 @@ fn execute(
     if let Some(loads) = &loads {
         ready.push(line_loads::ready(loads, folder)?);
     }
+    if formats(args).contains(&Format::Parquet) {
+        ready.extend(spectra::ready(&finished.findings, folder)?);
+    }
     let RunResult {
         simulation,
         outcome,
@@ -219,7 +229,7 @@ fn execute(
         report
     });
     let pictures = match &report {
-        Some(report) if !args.plots.is_empty() => pictures(report),
+        Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
         _ => Vec::new(),
     };
     let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
@@ -312,73 +322,6 @@ pub(crate) fn signal_metadata(scenario_toml: String, simulation: &Simulation) ->
         .with(keys::SCENARIO, scenario_toml)
         .with(keys::VERSION, brinell::VERSION)
         .with(keys::SAMPLE_RATE_HZ, simulation.sample_rate().to_string())
-}
-
-/// Each picture of the report, and the one that says most on its own.
-fn pictures(report: &brinell_report::Report) -> Vec<brinell_report::Picture> {
-    let mut pictures = brinell_report::pictures(report);
-    pictures.push(brinell_report::headline(report));
-    pictures
-}
-
-/// Name of a picture's file.
-fn picture_file(picture: &brinell_report::Picture, format: PlotFormat) -> String {
-    let ending = match format {
-        PlotFormat::Svg => "svg",
-        PlotFormat::Png => "png",
-    };
-    format!("{}.{ending}", picture.name)
-}
-
-/// What [`write_pictures`] will write.
-pub(crate) fn picture_files(
-    pictures: &[brinell_report::Picture],
-    formats: &[PlotFormat],
-    folder: &Path,
-) -> Vec<PathBuf> {
-    let file = |picture: &brinell_report::Picture, format: &PlotFormat| {
-        folder.join(PLOTS).join(picture_file(picture, *format))
-    };
-    let of = |picture| formats.iter().map(move |format| file(picture, format));
-    pictures.iter().flat_map(of).collect()
-}
-
-/// Pictures as files of `folder`/plots.
-pub(crate) fn write_pictures(
-    pictures: &[brinell_report::Picture],
-    formats: &[PlotFormat],
-    folder: &Path,
-    written: &mut Vec<PathBuf>,
-) -> Result<(), Failure> {
-    for file in ready_pictures(pictures, formats, folder)? {
-        written.push(file.publish()?);
-    }
-    Ok(())
-}
-
-/// The same up to the files' names.
-pub(crate) fn ready_pictures(
-    pictures: &[brinell_report::Picture],
-    formats: &[PlotFormat],
-    folder: &Path,
-) -> Result<Vec<Complete>, Failure> {
-    let mut ready = Vec::new();
-    if pictures.is_empty() {
-        return Ok(ready);
-    }
-    let folder = folder.join(PLOTS);
-    make_folder(&folder)?;
-    for picture in pictures {
-        for format in formats {
-            let bytes = match format {
-                PlotFormat::Svg => picture.svg().into_bytes(),
-                PlotFormat::Png => picture.png(2.0).map_err(Failure::Picture)?,
-            };
-            let path = folder.join(picture_file(picture, *format));
-            ready.push(atomic_prepare(path, bytes)?);
-        }
-    }
-    Ok(ready)
 }
 
 pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {

@@ -320,6 +320,9 @@ fn regress_bad_arguments_exit_2() {
         &["run"],
         &["run", "s.toml", "--signals", "flac"],
         &["run", "s.toml", "--plots", "gif"],
+        &["run", "s.toml", "--width", "90mm"],
+        &["run", "s.toml", "--plots", "pdf", "--width", "90"],
+        &["run", "s.toml", "--plots", "pdf", "--width", "79mm"],
         &["bearing", "show", "6999"],
         &["frequencies"],
     ] {

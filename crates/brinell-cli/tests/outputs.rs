@@ -269,6 +269,46 @@ fn regress_report_stands_alone() {
 }
 
 #[test]
+fn regress_pictures_for_print_come_with_their_numbers() {
+    let folder = folder_with(SHORT);
+    let here = folder.path();
+    let args = [
+        "run",
+        "s.toml",
+        "-q",
+        "--no-report",
+        "-o",
+        "o",
+        "--plots",
+        "pdf,svg",
+        "--width",
+        "9cm",
+    ];
+    brinell(here, &args).exits(0).keeps_quiet();
+    let names = files(&here.join("o"));
+    for name in [
+        "plots/waveform.pdf",
+        "plots/waveform.svg",
+        "plots/headline.pdf",
+    ] {
+        assert!(names.contains(&name.to_owned()), "{names:?}");
+    }
+    let svg = fs::read_to_string(here.join("o/plots/waveform.svg")).unwrap();
+    assert!(svg.contains(" width=\"90mm\""));
+    let curve = fs::read_to_string(here.join("o/curves/waveform.csv")).unwrap();
+    let head = curve.lines().next().unwrap();
+    assert!(
+        head.starts_with("Time (ms),Outer ring acceleration; ") && head.ends_with(" (m/s^2)"),
+        "{head}"
+    );
+    assert!(curve.lines().count() > 100);
+    let bad = ["run", "s.toml", "--plots", "pdf", "--width", "250mm"];
+    brinell(here, &bad)
+        .exits(2)
+        .complains(&["250mm", "--width", "80 to 200 mm"]);
+}
+
+#[test]
 fn regress_signal_formats_are_what_was_asked_for() {
     let folder = folder_with(&SHORT.replace("0.02", "0.002"));
     let here = folder.path();

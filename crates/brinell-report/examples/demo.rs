@@ -6,8 +6,9 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use brinell_report::{
-    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
-    Pass, Report, RowLoad, Series, Spectrum, Waveform, bin_centres, headline_png, html, pictures,
+    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Layout, Marker,
+    MinMax, Pass, Report, RowLoad, Series, Spectrum, Waveform, bin_centres, headline_png, html,
+    pictures,
 };
 
 const RATE: f64 = 25_600.0;
@@ -22,9 +23,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::write(out.join("report.html"), page)?;
     std::fs::write(out.join("empty.html"), html(&Report::default()))?;
     std::fs::write(out.join("headline.png"), headline_png(&report)?)?;
-    for picture in pictures(&report) {
+    for picture in pictures(&report, Layout::Wide) {
         std::fs::write(out.join(format!("{}.svg", picture.name)), picture.svg())?;
-        std::fs::write(out.join(format!("{}.png", picture.name)), picture.png(2.0)?)?;
+        std::fs::write(
+            out.join(format!("{}.png", picture.name)),
+            picture.png_file()?,
+        )?;
     }
     Ok(())
 }

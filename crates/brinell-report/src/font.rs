@@ -1,11 +1,12 @@
-//! The typeface that pictures are measured with and, in PNG, drawn with. See `font/README.md`.
+//! The typeface that pictures are measured with and, in PNG and PDF, drawn with. See `font/README.md`.
 
 use std::sync::LazyLock;
 
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use crate::embedded::base64;
+use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
-pub(crate) const REGULAR: &[u8] = include_bytes!("../font/Inter-Regular-subset.otf");
-pub(crate) const SEMI_BOLD: &[u8] = include_bytes!("../font/Inter-SemiBold-subset.otf");
+const REGULAR: &[u8] = include_bytes!("../font/Inter-Regular-subset.otf");
+const SEMI_BOLD: &[u8] = include_bytes!("../font/Inter-SemiBold-subset.otf");
 
 /// What an SVG asks for: the embedded face on the page, something close elsewhere.
 pub(crate) const FAMILY: &str = "Inter, 'Helvetica Neue', Arial, sans-serif";
@@ -21,6 +22,73 @@ fn glyph(face: &Face<'_>, c: char) -> GlyphId {
     face.glyph_index(c)
         .or_else(|| face.glyph_index('\u{fffd}'))
         .unwrap_or(GlyphId(0))
+}
+
+/// The style rule with which a page or a picture brings its typeface along.
+pub(crate) fn css(bold: bool) -> String {
+    let (weight, file) = if bold {
+        (600, SEMI_BOLD)
+    } else {
+        (400, REGULAR)
+    };
+    format!(
+        "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}\n",
+        base64(file)
+    )
+}
+
+/// One character as a face has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Glyph {
+    /// Its number in the face.
+    pub(crate) id: u16,
+    pub(crate) character: char,
+    /// From here to the next, thousandths of the size.
+    pub(crate) advance: f64,
+}
+
+/// The glyphs of `text`, one a character.
+pub(crate) fn glyphs(text: &str, bold: bool) -> impl Iterator<Item = Glyph> {
+    face(bold).into_iter().flat_map(move |face| {
+        text.chars().map(move |character| {
+            let id = glyph(face, character);
+            let units = f64::from(face.glyph_hor_advance(id).unwrap_or(0));
+            Glyph {
+                id: id.0,
+                character,
+                advance: 1000.0 * units / f64::from(face.units_per_em()),
+            }
+        })
+    })
+}
+
+/// A face as a file of another format holds it; lengths in thousandths of the size.
+pub(crate) struct Program {
+    pub(crate) name: &'static str,
+    /// Its outlines: the table `CFF` of OpenType.
+    pub(crate) cff: &'static [u8],
+    pub(crate) bounds: [f64; 4],
+    pub(crate) ascent: f64,
+    pub(crate) descent: f64,
+    pub(crate) cap_height: f64,
+}
+
+pub(crate) fn program(bold: bool) -> Option<Program> {
+    let face = face(bold)?;
+    let length = |units: i16| 1000.0 * f64::from(units) / f64::from(face.units_per_em());
+    let around = face.global_bounding_box();
+    Some(Program {
+        name: if bold {
+            "Inter-SemiBold"
+        } else {
+            "Inter-Regular"
+        },
+        cff: face.raw_face().table(Tag::from_bytes(b"CFF "))?,
+        bounds: [around.x_min, around.y_min, around.x_max, around.y_max].map(length),
+        ascent: length(face.ascender()),
+        descent: length(face.descender()),
+        cap_height: length(face.capital_height().unwrap_or(face.ascender())),
+    })
 }
 
 /// Width of `text` at `size`.

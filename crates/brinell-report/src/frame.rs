@@ -93,12 +93,8 @@ fn head(page: &mut String, title: &str) {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n{CHARSET}\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title} · brinell</title>\n<style>\n",
     );
-    for (weight, face) in [(400, font::REGULAR), (600, font::SEMI_BOLD)] {
-        let _ = writeln!(
-            page,
-            "@font-face {{ font-family: Inter; font-weight: {weight}; src: url(data:font/otf;base64,{}) format(\"opentype\"); }}",
-            base64(face)
-        );
+    for bold in [false, true] {
+        page.push_str(&font::css(bold));
     }
     page.push_str(include_str!("page.css"));
     let _ = write!(

@@ -50,7 +50,7 @@ impl Kurtogram {
 }
 
 pub(crate) fn kurtogram(view: &Kurtogram, layout: Layout) -> Picture {
-    let size = layout.size(if layout == Layout::Wide { 260.0 } else { 240.0 });
+    let size = layout.size(if layout.roomy() { 260.0 } else { 240.0 });
     let rows = view.levels.len().max(1) as f64;
     let top = view.top();
     let mut chart = Chart::new(Spec {

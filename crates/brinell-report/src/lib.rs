@@ -77,10 +77,10 @@ pub use number::short;
 pub use orbit::cage_orbit;
 pub use orbit::{CageOrbit, CageOrbits};
 pub use page::html;
-pub use picture::{Error, Picture};
+pub use picture::{CurveTable, Error, Picture};
+pub use plots::{Layout, headline_png, pictures};
 #[doc(hidden)]
-pub use plots::{Layout, detail_window, headline, overview};
-pub use plots::{headline_png, pictures};
+pub use plots::{detail_window, headline, overview};
 #[doc(hidden)]
 pub use run::defect_markers;
 pub use sensor::SensorView;

@@ -6,19 +6,19 @@ use crate::chart::{Size, range};
 use crate::data::RowLoad;
 use crate::font;
 use crate::number::{linear_ticks, tick_labels};
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, ink};
+use crate::picture::{Anchor, Axis, Curve, Paint, Picture, Rect, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 use crate::thin::straightened;
 
 /// Contact force around the bearing, one circle to a row: 0° is +X, angles run counter-clockwise.
 pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
-    let per_line = if layout == Layout::Wide {
+    let per_line = if layout.roomy() {
         rows.len().clamp(1, 2)
     } else {
         1
     };
-    let cell = if layout == Layout::Wide { 400.0 } else { 350.0 };
+    let cell = layout.cell(400.0, per_line);
     let lines = rows.len().div_ceil(per_line).max(1);
     let entries = [
         (
@@ -68,10 +68,34 @@ pub fn load_distribution(rows: &[RowLoad], layout: Layout) -> Picture {
         polar.grid(&mut picture, (x, y), &rings);
         polar.curves(&mut picture, (x, y), row, entries.map(|e| e.1));
         polar.numbers(&mut picture, (x, y), &rings);
+        keep(&mut picture, row);
         let title = font::fitted(&row.title, font, true, cell);
         picture.text(Text::new(x, y - 0.5 * cell + 6.0, font, Anchor::Middle, &title).bold());
     }
     picture
+}
+
+/// The numbers that a circle is drawn from.
+fn keep(picture: &mut Picture, row: &RowLoad) {
+    let axis = |label: &str, unit: &str| Axis {
+        label: label.to_owned(),
+        unit: unit.to_owned(),
+    };
+    let (angles, forces) = row.static_points.iter().copied().unzip();
+    for (label, xs, ys) in [
+        ("Mean force", &row.angle_deg, &row.mean_n),
+        ("Largest force", &row.angle_deg, &row.max_n),
+        ("Force in static equilibrium", &angles, &forces),
+    ] {
+        let count = xs.len().min(ys.len());
+        picture.curves.push(Curve {
+            name: row.title.clone(),
+            x: axis("Angle", "°"),
+            y: axis(label, "N"),
+            xs: xs[..count].to_vec(),
+            ys: ys[..count].to_vec(),
+        });
+    }
 }
 
 /// Forces over angles.

@@ -157,12 +157,12 @@ const COLORS: [(&str, Paint); 4] = [
 pub fn bearing_motion(motion: &Motion, frame: usize, layout: Layout) -> Picture {
     let size = layout.size(0.0);
     let font = size.font;
-    let per_line = if layout == Layout::Wide {
+    let per_line = if layout.roomy() {
         motion.rows.len().clamp(1, 2)
     } else {
         1
     };
-    let cell = if layout == Layout::Wide { 460.0 } else { 350.0 };
+    let cell = layout.cell(460.0, per_line);
     let mut picture = Picture::new("motion", "The bearing in motion", size.width, 0.0);
     let shown = &COLORS[..if motion.damage.is_empty() { 3 } else { 4 }];
     let frames = motion.frames();

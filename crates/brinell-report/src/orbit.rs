@@ -44,12 +44,12 @@ const MOST: usize = 2048;
 /// A square a cage, both axes to one scale.
 pub fn cage_orbit(orbits: &CageOrbits, layout: Layout) -> Picture {
     let size = layout.size(0.0);
-    let per_line = if layout == Layout::Wide {
+    let per_line = if layout.roomy() {
         orbits.rows.len().clamp(1, 2)
     } else {
         1
     };
-    let cell = if layout == Layout::Wide { 440.0 } else { 350.0 };
+    let cell = layout.cell(440.0, per_line);
     let finite = |row: &CageOrbit| -> Vec<(f64, f64)> {
         let points = row.x_um.iter().copied().zip(row.y_um.iter().copied());
         points
@@ -137,6 +137,10 @@ fn orbit_chart(
     let mut chart = Chart::new(spec);
     if points.is_empty() {
         chart.say("Not recorded");
+    } else {
+        chart.of(&row.title);
+        let (xs, ys) = points.iter().copied().unzip();
+        chart.keep("", xs, ys);
     }
     let turn = points.len().saturating_sub(row.last_turn.max(1));
     let before = &points[..(turn + 1).min(points.len())];

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+mod curve;
+mod pdf;
 mod pixels;
 
 use crate::font;
@@ -9,6 +11,11 @@ use crate::raster;
 
 pub(crate) use crate::shape::{Anchor, Paint, Rect, Shape, Text, ink};
 use crate::shape::{run_drop, run_size};
+pub use curve::CurveTable;
+pub(crate) use curve::{Axis, Curve};
+
+/// Of CSS: what a length without unit means.
+const CSS_PX_PER_INCH: f64 = 96.0;
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -36,6 +43,10 @@ pub struct Picture {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) shapes: Vec<Shape>,
+    /// Width on paper, where it is drawn for that.
+    pub(crate) print_mm: Option<f64>,
+    /// What its curves are drawn from.
+    pub(crate) curves: Vec<Curve>,
     /// Attributes for the page's script.
     pub(crate) attributes: String,
 }
@@ -48,6 +59,8 @@ impl Picture {
             width,
             height,
             shapes: vec![],
+            print_mm: None,
+            curves: vec![],
             attributes: String::new(),
         }
     }
@@ -55,6 +68,17 @@ impl Picture {
     /// Width and height in CSS pixels.
     pub fn size(&self) -> (f64, f64) {
         (self.width, self.height)
+    }
+
+    /// Lengths on paper to those of the drawing, mm per px.
+    fn mm_per_px(&self) -> f64 {
+        self.print_mm
+            .map_or(25.4 / CSS_PX_PER_INCH, |mm| mm / self.width)
+    }
+
+    /// The curves as tables, those over the same values of x together.
+    pub fn tables(&self) -> Vec<CurveTable> {
+        curve::tables(&self.name, &self.curves)
     }
 
     pub(crate) fn path(&mut self, points: &[(f64, f64)], paint: Paint) {
@@ -88,6 +112,7 @@ impl Picture {
 
     /// Lays `other` over this picture, its corner at (dx, dy).
     pub(crate) fn place(&mut self, other: Picture, dx: f64, dy: f64) {
+        self.curves.extend(other.curves);
         for mut shape in other.shapes {
             match &mut shape {
                 Shape::Path { lines, clip, .. } => {
@@ -121,18 +146,43 @@ impl Picture {
         }
     }
 
-    /// A stand-alone SVG file.
+    /// A stand-alone SVG file; one for print has its size in mm and holds its typeface.
     pub fn svg(&self) -> String {
         let (width, height) = (coordinate(self.width), coordinate(self.height));
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-             role=\"img\" font-family=\"{}\"><title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        let mut svg = String::from("<svg xmlns=\"http://www.w3.org/2000/svg\"");
+        let _ = match self.print_mm {
+            Some(mm) => {
+                let tall = self.height * self.mm_per_px();
+                write!(svg, " width=\"{mm}mm\" height=\"{tall:.3}mm\"")
+            }
+            None => write!(svg, " width=\"{width}\" height=\"{height}\""),
+        };
+        let _ = writeln!(
+            svg,
+            " viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{}\"><title>{}</title>",
             font::FAMILY,
             escape(&self.title)
         );
+        if self.print_mm.is_some() {
+            svg.push_str("<style>\n");
+            for bold in [false, true]
+                .into_iter()
+                .filter(|bold| self.has_text(*bold))
+            {
+                svg.push_str(&font::css(bold));
+            }
+            svg.push_str("</style>\n");
+        }
+        svg.push_str("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
         self.body(&mut svg, &self.name);
         svg.push_str("</svg>\n");
         svg
+    }
+
+    /// Whether there are words of a weight.
+    fn has_text(&self, bold: bool) -> bool {
+        let of = |shape: &Shape| matches!(shape, Shape::Text(text) if text.bold == bold);
+        self.shapes.iter().any(of)
     }
 
     /// The same inside a page: no background, no namespace, ids that start with `id`.

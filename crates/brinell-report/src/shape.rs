@@ -18,6 +18,12 @@ pub(crate) mod ink {
     pub(crate) const FRAME: &str = "#9aa4ae";
 }
 
+/// Of "#rrggbb".
+pub(crate) fn rgb(color: &str) -> [u8; 3] {
+    let part = |at| u8::from_str_radix(color.get(at..at + 2).unwrap_or("0"), 16).unwrap_or(0);
+    [1, 3, 5].map(part)
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rect {
     pub(crate) left: f64,
@@ -132,6 +138,14 @@ impl Text {
         Self {
             upright: true,
             ..self
+        }
+    }
+    /// From the text's place to where its first letter begins.
+    pub(crate) fn start(&self) -> f64 {
+        match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -0.5 * self.width(),
+            Anchor::End => -self.width(),
         }
     }
     pub(crate) fn width(&self) -> f64 {

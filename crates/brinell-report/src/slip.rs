@@ -111,7 +111,7 @@ fn specs(
     panels: &[(&str, Vec<Curve>)],
 ) -> Vec<Spec> {
     let size = layout.size(0.0);
-    let part = if layout == Layout::Wide { 140.0 } else { 130.0 };
+    let part = if layout.roomy() { 140.0 } else { 130.0 };
     let xs = panels.iter().flat_map(|p| &p.1).flat_map(|c| &c.0);
     let (lo, hi) = range(xs.copied()).unwrap_or((0.0, 1.0));
     let count = panels.len();
@@ -187,10 +187,13 @@ fn panels(
         }
         let close = crowded(curves, chart.frame.width());
         for (row, curve) in curves.iter().enumerate().filter(|_| close) {
+            chart.of(&rows[row].name);
             shade(&mut chart, curve, paint(row));
         }
         for (row, (xs, ys)) in curves.iter().enumerate() {
+            chart.of(&rows[row].name);
             if close {
+                chart.of(&format!("{} mean", rows[row].name));
                 let (xs, ys) = means(xs, ys);
                 chart.points(&xs, &ys, paint(row));
             } else {

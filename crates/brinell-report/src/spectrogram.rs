@@ -70,7 +70,7 @@ impl Spectrogram {
 
 /// Frequency over time, with the scale of its shades.
 pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
-    let size = layout.size(if layout == Layout::Wide { 330.0 } else { 280.0 });
+    let size = layout.size(if layout.roomy() { 330.0 } else { 280.0 });
     let frames = view.frames();
     let (first, last) = if frames > 0 {
         (
@@ -102,7 +102,7 @@ pub fn spectrogram(view: &Spectrogram, layout: Layout) -> Picture {
         right: SCALE_MARGIN * size.font,
         x_axis: true,
     });
-    let (columns, levels) = view.levels(if layout == Layout::Wide { 400 } else { 200 });
+    let (columns, levels) = view.levels(if layout.roomy() { 400 } else { 200 });
     let Some((_, highest)) = range(levels.iter().copied()) else {
         chart.say("No spectrogram");
         return chart.finish();

@@ -25,10 +25,10 @@ pub struct TrendReport {
     pub failures: Vec<(String, String)>,
 }
 
-/// The page's pictures, drawn wide.
-pub fn trend_pictures(report: &TrendReport) -> Vec<Picture> {
-    let wide = |plot| indicator_plot(plot, Layout::Wide);
-    report.plots.iter().map(wide).collect()
+/// The page's pictures, for saving as files.
+pub fn trend_pictures(report: &TrendReport, layout: Layout) -> Vec<Picture> {
+    let drawn = report.plots.iter().map(|p| indicator_plot(p, layout));
+    layout.finished(drawn.collect())
 }
 
 /// The self-contained page.
@@ -91,6 +91,6 @@ mod tests {
         ] {
             assert!(page.contains(part), "{part}");
         }
-        assert_eq!(trend_pictures(&report)[0].name, "trend-rms");
+        assert_eq!(trend_pictures(&report, Layout::Wide)[0].name, "trend-rms");
     }
 }

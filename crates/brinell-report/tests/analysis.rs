@@ -1,8 +1,8 @@
 //! The page of an analysis: what must be on it, and that nothing odd breaks it.
 
 use brinell_report::{
-    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Marker, Series, Spectrum, Table,
-    analysis_html, analysis_pictures,
+    AnalysisReport, Badge, Fact, Kurtogram, KurtogramLevel, Layout, Marker, Series, Spectrum,
+    Table, analysis_html, analysis_pictures,
 };
 use proptest::prelude::*;
 
@@ -138,7 +138,10 @@ fn regress_the_verdict_is_the_headline_and_has_its_colour() {
 #[test]
 fn regress_pictures_and_their_names() {
     let names = |r: &AnalysisReport| -> Vec<String> {
-        analysis_pictures(r).into_iter().map(|p| p.name).collect()
+        analysis_pictures(r, Layout::Wide)
+            .into_iter()
+            .map(|p| p.name)
+            .collect()
     };
     let mut r = plain();
     let all = [
@@ -161,7 +164,7 @@ fn regress_pictures_and_their_names() {
 fn analytic_a_second_signal_has_its_own_curve_and_name() {
     let mut r = plain();
     r.names = vec!["measured".into(), "simulated".into()];
-    let svg = |r: &AnalysisReport| analysis_pictures(r)[2].svg();
+    let svg = |r: &AnalysisReport| analysis_pictures(r, Layout::Wide)[2].svg();
     assert!(svg(&r).contains("measured") && svg(&r).contains("simulated"));
     let two = svg(&r).matches("<path").count() + svg(&r).matches("<polyline").count();
     r.spectra.truncate(1);
@@ -195,7 +198,7 @@ proptest! {
         let r = report("x", &values);
         let page = analysis_html(&r);
         prop_assert!(page.ends_with("</html>\n"));
-        for picture in analysis_pictures(&r) {
+        for picture in analysis_pictures(&r, Layout::Wide) {
             let svg = numbers(&picture.svg());
             prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", picture.name);
         }

@@ -1,6 +1,7 @@
 //! The options of `brinell analyze`.
 
 use crate::args::PlotFormat;
+use crate::figures::Print;
 use brinell::analysis::MachineClass;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -170,7 +171,7 @@ pub(crate) struct AnalyzeArgs {
     /// Replace the results of another signal or command in the folder, all of them
     #[arg(long, requires = "output")]
     pub(crate) overwrite: bool,
-    /// Formats of the pictures in FOLDER/plots
+    /// Formats of the pictures in FOLDER/plots; their curves go to FOLDER/curves as CSV
     #[arg(
         long,
         value_delimiter = ',',
@@ -178,6 +179,8 @@ pub(crate) struct AnalyzeArgs {
         value_name = "FORMAT"
     )]
     pub(crate) plots: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Print nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

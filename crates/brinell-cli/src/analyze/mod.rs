@@ -13,9 +13,9 @@ pub(crate) use args::AnalyzeArgs;
 
 use crate::args::PlotFormat;
 use crate::failure::Failure;
+use crate::figures::{picture_files, ready_pictures};
 use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
-use crate::run::{make_folder, picture_files, ready_pictures};
 use crate::say::{complain, document};
 use brinell::analysis::{
     Analysis, Comparison, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of,
@@ -124,7 +124,7 @@ fn one(args: &AnalyzeArgs, path: &Path) -> Result<ExitCode, Failure> {
             &args.plots,
             &json,
             &brinell_report::analysis_html(&report),
-            &brinell_report::analysis_pictures(&report),
+            &brinell_report::analysis_pictures(&report, args.print.layout(&args.plots)?),
             &earlier,
         )?;
     }
@@ -471,7 +471,7 @@ fn put_pages(
     pictures: &[Picture],
     earlier: &Earlier,
 ) -> Result<Vec<PathBuf>, Failure> {
-    make_folder(folder)?;
+    crate::run::make_folder(folder)?;
     let mut files: Vec<PathBuf> = [ANALYSIS, REPORT].map(|name| folder.join(name)).into();
     files.extend(picture_files(pictures, formats, folder));
     let mut listing = json.clone();

@@ -248,7 +248,7 @@ fn write(
             &args.plots,
             &json,
             &trend_html(&report),
-            &trend_pictures(&report),
+            &trend_pictures(&report, args.print.layout(&args.plots)?),
             earlier,
         )?;
     }

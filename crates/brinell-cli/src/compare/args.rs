@@ -1,6 +1,7 @@
 //! The command line of `brinell compare`.
 
 use crate::args::PlotFormat;
+use crate::figures::Print;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -37,9 +38,11 @@ pub(crate) struct CompareArgs {
     /// Runs at a time [default: one a core]
     #[arg(short, long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
-    /// Also write each plot into FOLDER/plots, as files of these formats
+    /// Also write each plot into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Replace the results of other scenarios or another command in the folder, all of them
     #[arg(long)]
     pub(crate) overwrite: bool,

@@ -7,11 +7,12 @@ mod sides;
 mod table;
 
 use crate::failure::Failure;
+use crate::figures::{picture_files, ready_pictures};
 use crate::files::{self, stem};
 use crate::inputs::Inputs;
 use crate::progress::Joint;
 use crate::results::{COMPARISON, Earlier, Place, Results, names_below};
-use crate::run::{make_folder, picture_files, ready_pictures, safe_name, stop_flag};
+use crate::run::{make_folder, safe_name, stop_flag};
 use crate::say::{complain, document, say, short};
 pub(crate) use args::CompareArgs;
 use brinell::simulate::Simulation;
@@ -33,6 +34,7 @@ const SCENARIOS: &str = "scenarios";
 const NOT_DONE: u8 = 1;
 
 pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
+    let layout = args.print.layout(&args.plots)?;
     let mut inputs = Inputs::default();
     let sides = sides::read(args, &mut inputs)?;
     for side in &sides {
@@ -66,7 +68,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     ready.push(table.prepare_parquet(folder.join(PARQUET), &metadata)?);
     let pictures = match &args.plots[..] {
         [] => Vec::new(),
-        _ => brinell_report::side_by_side_pictures(&report),
+        _ => brinell_report::side_by_side_pictures(&report, layout),
     };
     let mut files: Vec<PathBuf> = ready.iter().map(|file| file.path().to_owned()).collect();
     files.extend([COMPARISON, PAGE].map(|name| folder.join(name)));

@@ -1,15 +1,16 @@
 //! `brinell defect preview`: damage as it is seen before it is simulated.
 
 use super::chosen;
-use crate::args::{PlotFormat, PreviewArgs};
+use crate::args::PreviewArgs;
 use crate::failure::Failure;
+use crate::figures::drawn;
 use crate::files::Source;
 use crate::results::{PREVIEW, Place, Results, names_below};
 use crate::run::{make_folder, safe_name};
 use crate::say::{document, say, short};
 use brinell::scenario::Scenario;
 use brinell_io::{Complete, atomic_prepare};
-use brinell_report::{Damage, DamagePanel, Picture, damage_of};
+use brinell_report::{Damage, DamagePanel, Layout, Picture, damage_of};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     let source = Source::open(&args.scenario)?;
     let loaded = source.load(&[], false)?;
     let s = &loaded.scenario;
+    let layout = args.print.layout(&args.formats)?;
     chosen(s, args.defect.unwrap_or(1))?;
     let mut all = damages(s, args)?;
     let mut photos = source.photos();
@@ -42,7 +44,8 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
         if !args.json {
             tell(damage);
         }
-        pictures(*index, damage, &args.formats, &folder, &mut ready)?;
+        let pictures = pictures(*index, damage, layout);
+        ready.extend(drawn(&pictures, &args.formats, &folder)?);
         tables(*index, damage, &folder, &mut ready)?;
         entries.push(entry(*index, damage));
     }
@@ -93,31 +96,21 @@ fn damages(s: &Scenario, args: &PreviewArgs) -> Result<Vec<(usize, Damage)>, Fai
     Ok(previewed)
 }
 
-fn pictures(
-    index: usize,
-    damage: &Damage,
-    formats: &[PlotFormat],
-    folder: &Path,
-    ready: &mut Vec<Complete>,
-) -> Result<(), Failure> {
-    let wide = brinell_report::Layout::Wide;
+fn pictures(index: usize, damage: &Damage, layout: Layout) -> Vec<Picture> {
     let view = &damage.view;
-    let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, wide)
+    let mut pictures: Vec<Picture> = brinell_report::damage_photo(view, index, layout)
         .into_iter()
         .collect();
-    pictures.push(brinell_report::damage_plan(view, index, wide));
-    pictures.push(brinell_report::damage_passage(view, index, wide));
+    pictures.push(brinell_report::damage_plan(view, index, layout));
+    pictures.push(brinell_report::damage_passage(view, index, layout));
     if !view.section.is_empty() {
-        pictures.push(brinell_report::damage_section(view, index, wide));
+        pictures.push(brinell_report::damage_section(view, index, layout));
     }
     if let Some(along) = &view.along {
         let name = format!("damage-{}-along", index + 1);
-        pictures.push(brinell_report::load_along(along, &name, wide));
+        pictures.push(brinell_report::load_along(along, &name, layout));
     }
-    for picture in &pictures {
-        save(picture, formats, folder, ready)?;
-    }
-    Ok(())
+    layout.finished(pictures)
 }
 
 /// The curves of each picture as CSV.
@@ -166,23 +159,6 @@ fn tell(damage: &Damage) {
     }
     say!("  Section: {}", view.section_note);
     say!("");
-}
-
-fn save(
-    picture: &Picture,
-    formats: &[PlotFormat],
-    folder: &Path,
-    ready: &mut Vec<Complete>,
-) -> Result<(), Failure> {
-    for format in formats {
-        let (ending, bytes) = match format {
-            PlotFormat::Svg => ("svg", picture.svg().into_bytes()),
-            PlotFormat::Png => ("png", picture.png(2.0).map_err(Failure::Picture)?),
-        };
-        let path = folder.join(format!("{}.{ending}", picture.name));
-        ready.push(atomic_prepare(path, bytes)?);
-    }
-    Ok(())
 }
 
 /// "stiffness_k_ecl_point".

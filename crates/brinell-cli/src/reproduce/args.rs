@@ -1,6 +1,7 @@
 //! The command line of `brinell reproduce`.
 
 use crate::args::PlotFormat;
+use crate::figures::Print;
 use brinell_li2023::FIGURES;
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
@@ -46,6 +47,8 @@ pub(crate) struct ReproduceArgs {
     /// Also write each picture into FOLDER/plots, as files of these formats
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Also write reproduction.md and its pictures (SVG) into this folder; the file is meant to be included from the folder above
     #[arg(long, value_name = "FOLDER")]
     pub(crate) book: Option<PathBuf>,

@@ -4,9 +4,10 @@ mod args;
 
 use crate::campaign;
 use crate::failure::Failure;
+use crate::figures::write_plots;
 use crate::inputs::Inputs;
 use crate::results::{Place, Results};
-use crate::run::{make_folder, stop_flag, write_pictures};
+use crate::run::{make_folder, stop_flag};
 use crate::say::{complain, document, say, short};
 use crate::sweep::plural;
 use args::OtherModel;
@@ -223,12 +224,13 @@ fn write(
         let all = brinell_report::damage_of(scenario, None).ok()?;
         all.into_iter().next().map(|damage| damage.view)
     });
-    let pictures = brinell_report::study_pictures(&study);
     written.push(write_page(&study, folder)?);
     if !args.plots.is_empty() {
-        write_pictures(&pictures, &args.plots, folder, &mut written)?;
+        let pictures = brinell_report::study_pictures(&study, args.print.layout(&args.plots)?);
+        write_plots(&pictures, &args.plots, folder, &mut written)?;
     }
     if let Some(book) = &args.book {
+        let pictures = brinell_report::study_pictures(&study, brinell_report::Layout::Wide);
         written.extend(reproduction.write_book(&study, &pictures, book)?);
     }
     Ok(written)
@@ -255,9 +257,10 @@ fn tell(reproduction: &Reproduction, written: &[PathBuf], done: usize, begin: In
         say!("{found}");
     }
     // One line for all pictures of a folder.
-    let (pictures, files): (Vec<_>, Vec<_>) = written
-        .iter()
-        .partition(|p| p.extension().is_some_and(|e| e == "svg" || e == "png"));
+    let (pictures, files): (Vec<_>, Vec<_>) = written.iter().partition(|p| {
+        p.extension()
+            .is_some_and(|e| ["svg", "png", "pdf"].iter().any(|known| e == *known))
+    });
     for path in files {
         say!("  wrote {}", path.display());
     }

@@ -1,6 +1,7 @@
 //! The command line of `brinell sweep`.
 
 use crate::args::PlotFormat;
+use crate::figures::Print;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -46,9 +47,11 @@ pub(crate) struct SweepArgs {
     /// rings and a cage, along the load]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) plot: Vec<String>,
-    /// Also write each plot into FOLDER/plots, as files of these formats
+    /// Also write each plot into FOLDER/plots, as files of these formats, and its curves as CSV into FOLDER/curves
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     pub(crate) plots: Vec<PlotFormat>,
+    #[command(flatten)]
+    pub(crate) print: Print,
     /// Keep the recorded channels of each point, as Parquet
     #[arg(long)]
     pub(crate) keep_signals: bool,

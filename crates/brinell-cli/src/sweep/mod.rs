@@ -7,9 +7,10 @@ mod table;
 
 use crate::campaign;
 use crate::failure::Failure;
+use crate::figures::ready_pictures;
 use crate::files::stem;
 use crate::results::{Place, Results};
-use crate::run::{make_folder, stop_flag, write_pictures};
+use crate::run::{make_folder, stop_flag};
 use crate::say::{complain, document, say, short};
 pub(crate) use args::SweepArgs;
 use brinell::document::read;
@@ -348,8 +349,11 @@ fn write(
     let report = page::report(points, standings, plots);
     put("sweep.html", brinell_report::sweep_html(&report))?;
     if !args.plots.is_empty() {
-        let pictures = brinell_report::sweep_pictures(&report);
-        write_pictures(&pictures, &args.plots, folder, &mut written)?;
+        let layout = args.print.layout(&args.plots)?;
+        let pictures = brinell_report::sweep_pictures(&report, layout);
+        for file in ready_pictures(&pictures, &args.plots, folder)? {
+            written.push(file.publish()?);
+        }
     }
     Ok(written)
 }

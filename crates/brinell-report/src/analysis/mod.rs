@@ -124,6 +124,9 @@ fn draw(
         let (x0, dx, values) = curves[index];
         let paint = paints()[index.min(1)];
         let paint = if above > 0 { paint.faded(0.75) } else { paint };
+        if curves.len() > 1 {
+            chart.of(&report.names[index.min(1)]);
+        }
         chart.curve(x0, dx, values, peak, paint);
     }
     if !plot.is_empty() {
@@ -220,7 +223,7 @@ fn spectrum_domain(report: &AnalysisReport) -> Domain {
 
 fn spectrum(report: &AnalysisReport, layout: Layout) -> Picture {
     let first = report.spectra.first().cloned().unwrap_or_default();
-    let height = if layout == Layout::Wide { 320.0 } else { 280.0 };
+    let height = if layout.roomy() { 320.0 } else { 280.0 };
     let (y, top) = (spectrum_domain(report), end(&report.spectra));
     let spec = spectrum_spec("spectrum", &first, layout, height, top, y, vec![]);
     let curves = curves(&report.spectra);
@@ -241,7 +244,7 @@ fn envelope_domain(report: &AnalysisReport) -> Domain {
 
 fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     let first = report.envelopes.first().cloned().unwrap_or_default();
-    let height = if layout == Layout::Wide { 400.0 } else { 360.0 };
+    let height = if layout.roomy() { 400.0 } else { 360.0 };
     let lanes = marker_lanes(&report.markers);
     let (y, top) = (envelope_domain(report), end(&report.envelopes));
     let spec = spectrum_spec("envelope-spectrum", &first, layout, height, top, y, lanes);
@@ -256,17 +259,16 @@ fn envelope(report: &AnalysisReport, layout: Layout) -> Picture {
     )
 }
 
-/// The page's pictures, drawn wide.
-pub fn analysis_pictures(report: &AnalysisReport) -> Vec<Picture> {
-    let wide = Layout::Wide;
+/// The page's pictures, for saving as files.
+pub fn analysis_pictures(report: &AnalysisReport, layout: Layout) -> Vec<Picture> {
     let mut pictures = vec![
-        whole(report, wide),
-        close(report, wide),
-        spectrum(report, wide),
+        whole(report, layout),
+        close(report, layout),
+        spectrum(report, layout),
     ];
-    pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, wide)));
-    pictures.push(envelope(report, wide));
-    pictures
+    pictures.extend(report.kurtogram.as_ref().map(|k| kurtogram(k, layout)));
+    pictures.push(envelope(report, layout));
+    layout.finished(pictures)
 }
 
 /// The self-contained page.

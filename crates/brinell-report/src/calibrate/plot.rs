@@ -38,7 +38,7 @@ fn spec(
     y: Domain,
     x_label: (&str, &str),
 ) -> Spec {
-    let height = if layout == Layout::Wide { 300.0 } else { 260.0 };
+    let height = if layout.roomy() { 300.0 } else { 260.0 };
     Spec {
         name,
         title,

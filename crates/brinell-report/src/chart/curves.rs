@@ -1,10 +1,55 @@
 //! What is drawn on a plot: curves, bands, a shaded stretch, words.
 
+use super::axis::halves;
 use super::{Chart, Domain};
-use crate::picture::{Anchor, Paint, Rect, Shape, Text, ink};
+use crate::picture::{Anchor, Axis, Curve, Paint, Rect, Shape, Text, ink};
 use crate::thin::{straightened, thinned};
 
+/// Points of a curve that are kept as numbers, at most.
+const MOST_KEPT: usize = 65_536;
+
+/// Which values of a curve are kept: all, or of so long a curve the smallest and the largest of each of as many stretches as there is room for.
+fn telling(values: &[f64]) -> Box<dyn Iterator<Item = usize> + '_> {
+    if values.len() <= MOST_KEPT {
+        return Box::new(0..values.len());
+    }
+    let stretch = values.len().div_ceil(MOST_KEPT / 2);
+    let ends = move |k: usize| {
+        let first = k * stretch;
+        let part = first..(first + stretch).min(values.len());
+        let known = || part.clone().filter(|i| values[*i].is_finite());
+        let by = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
+        let (low, high) = (known().min_by(by), known().max_by(by));
+        let mut ends = [low.unwrap_or(first), high.unwrap_or(first)];
+        ends.sort_unstable();
+        let [one, other] = ends;
+        std::iter::once(one).chain((one != other).then_some(other))
+    };
+    Box::new((0..values.len().div_ceil(stretch)).flat_map(ends))
+}
+
 impl Chart {
+    /// What the curves drawn from here on are of, where there are several on the axes.
+    pub(crate) fn of(&mut self, name: &str) {
+        name.clone_into(&mut self.curve);
+    }
+
+    /// Keeps what a curve is drawn from; `kind` is said after its name.
+    pub(crate) fn keep(&mut self, kind: &str, xs: Vec<f64>, ys: Vec<f64>) {
+        let axis = |label: &str, unit: &str| Axis {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+        };
+        let both = !self.curve.is_empty() && !kind.is_empty();
+        self.picture.curves.push(Curve {
+            name: format!("{}{}{kind}", self.curve, if both { " " } else { "" }),
+            x: axis(&self.spec.x_label, &self.spec.x_unit),
+            y: axis(&self.spec.y_label, &self.spec.y_unit),
+            xs,
+            ys,
+        });
+    }
+
     /// A curve through evenly spaced values; `peak` keeps the largest value where there are several to a pixel.
     pub(crate) fn curve(&mut self, x0: f64, dx: f64, values: &[f64], peak: bool, paint: Paint) {
         let Domain { lo, hi, .. } = self.spec.x;
@@ -27,6 +72,9 @@ impl Chart {
                 )
             });
         let lines = thinned(points, peak);
+        let seen = telling(&values[first.min(last)..last]).map(|i| first + i);
+        let (xs, ys) = seen.map(|i| (x0 + i as f64 * dx, values[i])).unzip();
+        self.keep("", xs, ys);
         self.lines(lines, paint);
     }
 
@@ -40,11 +88,18 @@ impl Chart {
             )
         });
         let lines = straightened(thinned(points, false));
+        let count = xs.len().min(ys.len());
+        self.keep("", xs[..count].to_vec(), ys[..count].to_vec());
         self.lines(lines, paint);
     }
 
     /// The area between two curves of bins.
     pub(crate) fn band(&mut self, x0: f64, dx: f64, low: &[f64], high: &[f64], paint: Paint) {
+        let bins = low.len().min(high.len());
+        for (kind, edge) in [("smallest", low), ("largest", high)] {
+            let xs = (0..bins).map(|bin| x0 + (bin as f64 + 0.5) * dx);
+            self.keep(kind, xs.collect(), edge[..bins].to_vec());
+        }
         let mut columns: Vec<(f64, f64, f64)> = vec![];
         let mut lines = vec![];
         let mut flush = |columns: &mut Vec<(f64, f64, f64)>| {
@@ -137,15 +192,21 @@ impl Chart {
     pub(crate) fn remark(&mut self, words: &str) {
         let font = self.spec.size.font - 1.0;
         let (x, y) = (self.frame.left + 6.0, self.frame.top + 1.4 * font);
-        let text = Text::with_unit(x, y, font, Anchor::Start, words);
+        let text = |y: f64, words: &str| Text::with_unit(x, y, font, Anchor::Start, words);
+        let mut lines = vec![text(y, words)];
+        if lines[0].width() > self.frame.width() - 12.0 {
+            let (first, second) = halves(words);
+            lines = vec![text(y, &first), text(y + 1.3 * font, &second)];
+        }
+        let widest = lines.iter().map(Text::width).fold(0.0, f64::max);
         let back = Rect {
             left: self.frame.left + 1.0,
-            right: (x + text.width() + 5.0).min(self.frame.right),
+            right: (x + widest + 5.0).min(self.frame.right),
             top: self.frame.top + 1.0,
-            bottom: y + 0.5 * font,
+            bottom: y + (0.5 + 1.3 * (lines.len() - 1) as f64) * font,
         };
         self.picture.rect(back, Paint::fill("#ffffff", 0.85));
-        self.picture.text(text);
+        lines.into_iter().for_each(|line| self.picture.text(line));
     }
 
     /// Words where a curve should be.

@@ -47,6 +47,8 @@ pub(crate) struct Chart {
     pub(crate) x: Scale,
     pub(crate) y: Scale,
     spec: Spec,
+    /// Of the curves that are drawn next; may be empty.
+    curve: String,
 }
 
 /// Margin that the y axis of a plot needs: numbers, label, and the names of its lanes.
@@ -123,6 +125,7 @@ impl Chart {
             x,
             y,
             spec,
+            curve: String::new(),
         };
         let y_power = chart.ticks_y();
         let x_power = chart.ticks_x();

@@ -65,7 +65,7 @@ fn stack(
     layout: Layout,
 ) -> Picture {
     let size = layout.size(0.0);
-    let part = if layout == Layout::Wide { 118.0 } else { 112.0 };
+    let part = if layout.roomy() { 118.0 } else { 112.0 };
     let (lo, hi) = range(xs.iter().copied()).unwrap_or((-1.0, 1.0));
     let mut specs: Vec<Spec> = panels
         .iter()
@@ -125,6 +125,7 @@ fn stack(
             chart.say("Not computed");
         }
         for (k, curve) in panel.curves.iter().enumerate() {
+            chart.of(&curve.name);
             chart.points(xs, &curve.values, paint(k));
         }
         picture.place(chart.finish(), 0.0, top);

@@ -169,6 +169,10 @@ impl<'a> Plan<'a> {
             let depths = shade(&mut self.chart, patch, self.extent, clipped);
             return Some(depths.into_iter().fold(0.0, f64::max));
         }
+        for (k, outline) in self.view.polygons_mm.iter().enumerate() {
+            let (s, z) = outline.iter().map(|[s, z]| (*s, *z)).unzip();
+            self.chart.keep(&format!("outline {}", k + 1), s, z);
+        }
         let (x, y) = (&self.chart.x, &self.chart.y);
         let lines: Vec<Vec<(f64, f64)>> = wound(&self.view.polygons_mm)
             .iter()

@@ -1,5 +1,6 @@
 //! The run in one picture.
 
+use super::Layout;
 use super::spectrum::{draw_envelope, envelope_spec};
 use super::waveform::{draw_waveform, waveform_spec};
 use crate::chart::{Size, left_margin, right_margin};
@@ -7,19 +8,54 @@ use crate::data::Report;
 use crate::font;
 use crate::picture::{Anchor, Error, Picture, Text, ink};
 
+/// Where title and charts are.
+struct Plan {
+    width: f64,
+    /// Of the title and of the line that follows it.
+    type_sizes: [f64; 2],
+    /// Of the charts.
+    chart: Size,
+    /// Where the first chart begins.
+    top: f64,
+    /// Whether the report's subtitle has a line of its own.
+    below: bool,
+}
+
+impl Plan {
+    fn of(layout: Layout) -> Self {
+        let Layout::Print(_) = layout else {
+            return Self {
+                width: 1400.0 / HEADLINE_SCALE,
+                type_sizes: [16.0, 13.0],
+                chart: Size {
+                    width: 1400.0 / HEADLINE_SCALE - 12.0,
+                    height: 0.5 * (700.0 / HEADLINE_SCALE - 34.0),
+                    font: 12.5,
+                },
+                top: 32.0,
+                below: false,
+            };
+        };
+        let chart = layout.size(210.0);
+        Self {
+            width: chart.width,
+            type_sizes: [chart.font + 1.0, chart.font],
+            top: 40.0,
+            below: true,
+            chart,
+        }
+    }
+}
+
 /// Waveform over envelope spectrum under the report's title: the run in one picture.
-pub fn headline(report: &Report) -> Picture {
-    const WIDTH: f64 = 1400.0 / HEADLINE_SCALE;
-    const HEIGHT: f64 = 700.0 / HEADLINE_SCALE;
-    let mut picture = Picture::new("headline", &report.title, WIDTH, HEIGHT);
-    let size = |height| Size {
-        width: WIDTH - 12.0,
-        height,
-        font: 12.5,
-    };
-    let height = 0.5 * (HEIGHT - 34.0);
-    let mut upper = waveform_spec(report, size(height));
-    let mut lower = envelope_spec(report, size(height));
+pub fn headline(report: &Report, layout: Layout) -> Picture {
+    let plan = Plan::of(layout);
+    let Plan { width, chart, .. } = plan;
+    let [large, small] = plan.type_sizes;
+    let height = plan.top + 2.0 * chart.height + 2.0;
+    let mut picture = Picture::new("headline", &report.title, width, height);
+    let mut upper = waveform_spec(report, chart);
+    let mut lower = envelope_spec(report, chart);
     if lower.lanes.iter().any(|lane| lane.through) {
         lower.lanes.retain(|lane| lane.through);
     }
@@ -28,23 +64,29 @@ pub fn headline(report: &Report) -> Picture {
     for spec in [&mut upper, &mut lower] {
         (spec.left, spec.right) = (left, right);
     }
-    let title = font::fitted(&report.title, 16.0, true, 0.45 * WIDTH);
-    let used = font::width(&title, 16.0, true);
-    let subtitle = font::fitted(&report.subtitle, 13.0, false, WIDTH - used - left - 40.0);
+    let (title_room, start) = match plan.below {
+        true => (width - 16.0, 8.0),
+        false => (0.45 * width, left),
+    };
+    let title = font::fitted(&report.title, large, true, title_room);
+    let first = 1.5 * large;
+    let (beside, second) = match plan.below {
+        true => (start, first + 1.4 * small),
+        false => (start + font::width(&title, large, true) + 14.0, first),
+    };
+    let room = match plan.below {
+        true => width - 16.0,
+        false => width - beside - 26.0,
+    };
+    let subtitle = font::fitted(&report.subtitle, small, false, room);
     picture.text(
-        Text::new(left, 24.0, 16.0, Anchor::Start, &title)
+        Text::new(start, first, large, Anchor::Start, &title)
             .bold()
             .color(ink::BLACK),
     );
-    picture.text(Text::new(
-        left + used + 14.0,
-        24.0,
-        13.0,
-        Anchor::Start,
-        &subtitle,
-    ));
-    picture.place(draw_waveform(report, upper), 0.0, 32.0);
-    picture.place(draw_envelope(report, lower), 0.0, 32.0 + height);
+    picture.text(Text::new(beside, second, small, Anchor::Start, &subtitle));
+    picture.place(draw_waveform(report, upper), 0.0, plan.top);
+    picture.place(draw_envelope(report, lower), 0.0, plan.top + chart.height);
     picture
 }
 
@@ -52,5 +94,5 @@ const HEADLINE_SCALE: f64 = 1.5;
 
 /// [`headline`] as a PNG of 1400 x 700 pixels.
 pub fn headline_png(report: &Report) -> Result<Vec<u8>, Error> {
-    headline(report).png(HEADLINE_SCALE)
+    headline(report, Layout::Wide).png(HEADLINE_SCALE)
 }

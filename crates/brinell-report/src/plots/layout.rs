@@ -1,18 +1,52 @@
 //! What every picture shares: its size on a page or a phone, the unit of time, the legend.
 
 use crate::chart::Size;
+use crate::font::fitted;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 
 /// What a picture is drawn for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Layout {
-    /// A desktop page, print, a file: 960 pixels across.
+    /// A desktop page, a file: 960 pixels across.
     Wide,
     /// A phone: 360 pixels across.
     Narrow,
+    /// Print, so many mm wide, 80 to 200: text of 7 to 9 pt at that width.
+    Print(f64),
 }
 
+/// Pixels of a drawing to a mm of print: type of 11 px is 7.8 pt high there.
+pub(crate) const PX_PER_MM: f64 = 4.0;
+/// Print at least this wide has room for two circles side by side, mm.
+const ROOMY_MM: f64 = 140.0;
+
 impl Layout {
+    /// Widths that a picture can be printed at, mm: those of a narrow column and of a page.
+    pub const WIDTHS_MM: std::ops::RangeInclusive<f64> = 80.0..=200.0;
+
+    /// Whether pictures may spread out.
+    pub(crate) fn roomy(self) -> bool {
+        match self {
+            Self::Wide => true,
+            Self::Narrow => false,
+            Self::Print(mm) => mm >= ROOMY_MM,
+        }
+    }
+
+    /// Side of one of so many squares in a line, px: `wide` where there is room.
+    pub(crate) fn cell(self, wide: f64, per_line: usize) -> f64 {
+        let side = if self.roomy() { wide } else { 350.0 };
+        side.min(self.size(0.0).width / per_line as f64 - 10.0)
+    }
+
+    /// The pictures as they go to files.
+    pub fn finished(self, mut pictures: Vec<Picture>) -> Vec<Picture> {
+        if let Self::Print(mm) = self {
+            pictures.iter_mut().for_each(|p| p.print_mm = Some(mm));
+        }
+        pictures
+    }
+
     pub(crate) fn size(self, height: f64) -> Size {
         match self {
             Self::Wide => Size {
@@ -22,6 +56,11 @@ impl Layout {
             },
             Self::Narrow => Size {
                 width: 360.0,
+                height,
+                font: 11.0,
+            },
+            Self::Print(mm) => Size {
+                width: PX_PER_MM * mm,
                 height,
                 font: 11.0,
             },
@@ -70,7 +109,9 @@ pub(crate) fn legend(
 ) -> f64 {
     let (mut x, mut y) = (left, top + font);
     for (label, paint) in entries {
-        let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, label);
+        // What no line has room for is cut.
+        let label = fitted(label, font, false, right - left - 32.0);
+        let words = Text::with_unit(0.0, 0.0, font, Anchor::Start, &label);
         let width = 26.0 + words.width() + 18.0;
         if x > left && x + width > right + 12.0 {
             x = left;

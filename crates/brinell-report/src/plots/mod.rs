@@ -28,22 +28,22 @@ pub(crate) use waveform::waveform;
 pub use waveform::{detail_window, overview};
 pub(crate) use waveform::{event_lanes, waveform_domain, waveform_unit};
 
-/// Every picture of the report, for saving as files.
-pub fn pictures(report: &Report) -> Vec<Picture> {
+/// Every picture of the report and, last, the one that says most on its own, for saving as files.
+pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
     let mut pictures = vec![
-        overview(report, Layout::Wide),
-        waveform(report, Layout::Wide),
-        spectrum(report, Layout::Wide),
-        envelope_spectrum(report, Layout::Wide),
+        overview(report, layout),
+        waveform(report, layout),
+        spectrum(report, layout),
+        envelope_spectrum(report, layout),
     ];
     for (index, view) in report.damage.iter().enumerate() {
-        pictures.extend(damage_photo(view, index, Layout::Wide));
-        pictures.push(damage_plan(view, index, Layout::Wide));
+        pictures.extend(damage_photo(view, index, layout));
+        pictures.push(damage_plan(view, index, layout));
         if !view.passage.is_empty() {
-            pictures.push(damage_passage(view, index, Layout::Wide));
+            pictures.push(damage_passage(view, index, layout));
         }
         if !view.section.is_empty() {
-            pictures.push(damage_section(view, index, Layout::Wide));
+            pictures.push(damage_section(view, index, layout));
         }
     }
     pictures.extend(
@@ -51,33 +51,30 @@ pub fn pictures(report: &Report) -> Vec<Picture> {
             .passes
             .iter()
             .enumerate()
-            .map(|(i, p)| pass(p, i, Layout::Wide)),
+            .map(|(i, p)| pass(p, i, layout)),
     );
     if !report.load_distribution.is_empty() {
-        pictures.push(load_distribution(&report.load_distribution, Layout::Wide));
+        pictures.push(load_distribution(&report.load_distribution, layout));
     }
     if !report.spectrogram.density.is_empty() {
-        pictures.push(spectrogram(&report.spectrogram, Layout::Wide));
+        pictures.push(spectrogram(&report.spectrogram, layout));
     }
     if !report.motion.rows.is_empty() {
-        pictures.push(bearing_motion(&report.motion, usize::MAX, Layout::Wide));
+        pictures.push(bearing_motion(&report.motion, usize::MAX, layout));
         if let Some(section) = &report.motion.section {
-            pictures.push(axial_section(
-                section,
-                section.telling_frame(),
-                Layout::Wide,
-            ));
+            pictures.push(axial_section(section, section.telling_frame(), layout));
         }
     }
     if !report.sensor.gain_db.is_empty() {
-        pictures.push(sensor_response(&report.sensor, Layout::Wide));
+        pictures.push(sensor_response(&report.sensor, layout));
     }
     if !report.cage_orbits.rows.is_empty() {
-        pictures.push(cage_orbit(&report.cage_orbits, Layout::Wide));
+        pictures.push(cage_orbit(&report.cage_orbits, layout));
     }
     if slip::there_is(&report.slip_rows) {
-        pictures.push(slip_over_time(&report.slip_rows, Layout::Wide));
-        pictures.push(slip_over_angle(&report.slip_rows, Layout::Wide));
+        pictures.push(slip_over_time(&report.slip_rows, layout));
+        pictures.push(slip_over_angle(&report.slip_rows, layout));
     }
-    pictures
+    pictures.push(headline(report, layout));
+    layout.finished(pictures)
 }

@@ -41,8 +41,10 @@ pub(crate) fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
             chart.say("Not recorded");
         }
         if let (0, Some(other)) = (index, other) {
+            chart.of(&names.1);
             chart.points(&pass.angle_deg, other, second);
         }
+        chart.of(&names.0);
         chart.points(&pass.angle_deg, curve, first);
         picture.place(chart.finish(), 0.0, top);
         top += height;
@@ -52,7 +54,7 @@ pub(crate) fn pass(pass: &Pass, index: usize, layout: Layout) -> Picture {
 
 /// Height of a panel, px.
 fn part(layout: Layout) -> f64 {
-    if layout == Layout::Wide { 130.0 } else { 120.0 }
+    if layout.roomy() { 130.0 } else { 120.0 }
 }
 
 /// The panels of length, stiffness and force, one above the other on one axis.

@@ -19,7 +19,7 @@ fn envelope_top(report: &Report) -> f64 {
 
 /// The whole amplitude spectrum over decades.
 pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
-    let size = layout.size(if layout == Layout::Wide { 320.0 } else { 270.0 });
+    let size = layout.size(if layout.roomy() { 320.0 } else { 270.0 });
     let spectrum = &report.spectrum;
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
     let title = format!("Spectrum: {}", spectrum.label);
@@ -40,7 +40,7 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
 
 /// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
 pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
-    let height = if layout == Layout::Wide { 370.0 } else { 330.0 };
+    let height = if layout.roomy() { 370.0 } else { 330.0 };
     draw_envelope(report, envelope_spec(report, layout.size(height)))
 }
 

@@ -67,7 +67,7 @@ pub fn overview(report: &Report, layout: Layout) -> Picture {
     let mut chart = Chart::new(Spec {
         name: "overview".into(),
         title: format!("Whole run: {}", series.label),
-        size: layout.size(if layout == Layout::Wide { 190.0 } else { 170.0 }),
+        size: layout.size(if layout.roomy() { 190.0 } else { 170.0 }),
         x: Domain::exact(t0 * scale, end * scale),
         y,
         x_label: "Time".into(),
@@ -135,7 +135,7 @@ pub(crate) fn event_lanes(report: &Report, scale: f64) -> Vec<Lane> {
 
 /// The sensor signal close up, with the instants at which rollers enter and leave defects.
 pub(crate) fn waveform(report: &Report, layout: Layout) -> Picture {
-    let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
+    let height = if layout.roomy() { 340.0 } else { 300.0 };
     draw_waveform(report, waveform_spec(report, layout.size(height)))
 }
 

@@ -115,14 +115,14 @@ pub struct SideBySide {
     pub parts: Vec<Part>,
 }
 
-/// The page's pictures, drawn wide.
-pub fn side_by_side_pictures(report: &SideBySide) -> Vec<Picture> {
+/// The page's pictures, for saving as files.
+pub fn side_by_side_pictures(report: &SideBySide, layout: Layout) -> Vec<Picture> {
     let pieces = report.parts.iter().flat_map(|part| &part.pieces);
     let overlays = pieces.filter_map(|piece| match piece {
-        Piece::Overlay(one) => Some(overlay(one, &report.names, Layout::Wide)),
+        Piece::Overlay(one) => Some(overlay(one, &report.names, layout)),
         _ => None,
     });
-    overlays.collect()
+    layout.finished(overlays.collect())
 }
 
 /// The self-contained page.

@@ -47,7 +47,7 @@ fn shown(curve: &OverlaidCurve, (lo, hi): (f64, f64)) -> Vec<f64> {
 
 /// The plot; `names` are those of the runs.
 pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
-    let height = if layout == Layout::Wide { 330.0 } else { 290.0 };
+    let height = if layout.roomy() { 330.0 } else { 290.0 };
     plot(overlay, names, layout, height, None)
 }
 
@@ -137,6 +137,7 @@ fn plot(
         let full = paint(curve.of);
         // What lies on top lets the lower ones shine through.
         let paint = if curve.of > 0 { full.faded(0.8) } else { full };
+        chart.of(names.get(curve.of).map_or("", String::as_str));
         match &curve.along {
             Along::Even { first, step } => chart.curve(*first, *step, &curve.values, peak, paint),
             Along::At(places) => chart.points(places, &curve.values, paint),

@@ -140,12 +140,10 @@ pub struct Study {
     pub footer: String,
 }
 
-/// The page's pictures, drawn wide.
-pub fn study_pictures(study: &Study) -> Vec<Picture> {
+/// The page's pictures, for saving as files.
+pub fn study_pictures(study: &Study, layout: Layout) -> Vec<Picture> {
     let pieces = study.chapters.iter().flat_map(|chapter| &chapter.pieces);
-    pieces
-        .filter_map(|piece| draw(piece, Layout::Wide))
-        .collect()
+    layout.finished(pieces.filter_map(|piece| draw(piece, layout)).collect())
 }
 
 fn draw(piece: &StudyPiece, layout: Layout) -> Option<Picture> {
@@ -336,7 +334,7 @@ mod tests {
         ] {
             assert!(page.contains(part), "{part}");
         }
-        let pictures = study_pictures(&study);
+        let pictures = study_pictures(&study, Layout::Wide);
         assert_eq!(pictures.len(), 4);
         assert_eq!(pictures[3].name, "seen-from-above");
     }

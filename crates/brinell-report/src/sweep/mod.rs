@@ -77,10 +77,10 @@ pub struct SweepReport {
     pub scenario_toml: String,
 }
 
-/// The page's pictures, drawn wide.
-pub fn sweep_pictures(report: &SweepReport) -> Vec<Picture> {
-    let wide = |plot| indicator_plot(plot, Layout::Wide);
-    report.plots.iter().map(wide).collect()
+/// The page's pictures, for saving as files.
+pub fn sweep_pictures(report: &SweepReport, layout: Layout) -> Vec<Picture> {
+    let drawn = report.plots.iter().map(|p| indicator_plot(p, layout));
+    layout.finished(drawn.collect())
 }
 
 /// The self-contained page.

@@ -27,7 +27,7 @@ fn paint(line: usize) -> Paint {
 
 /// The plot.
 pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
-    let height = if layout == Layout::Wide { 340.0 } else { 300.0 };
+    let height = if layout.roomy() { 340.0 } else { 300.0 };
     let mut size = layout.size(height);
     let named = !plot.x_names.is_empty();
     let axis_room = 3.4 * size.font - 8.0;
@@ -168,6 +168,16 @@ fn draw(chart: &mut Chart, line: &IndicatorLine, paint: Paint, beside: f64, join
             bars.push(vec![(x, low), (x, high)]);
             bars.push(vec![(x - 3.5, low), (x + 3.5, low)]);
             bars.push(vec![(x - 3.5, high), (x + 3.5, high)]);
+        }
+    }
+    chart.of(&line.label);
+    let places = || line.points.iter().map(|p| p.x).collect();
+    chart.keep("", places(), line.points.iter().map(|p| p.value).collect());
+    if line.points.iter().any(|p| p.interval.is_some()) {
+        for (end, pick) in [("low", 0), ("high", 1)] {
+            let of = |p: &IndicatorPoint| p.interval.map_or(f64::NAN, |i| [i.0, i.1][pick]);
+            let kind = format!("{end} end of the interval");
+            chart.keep(&kind, places(), line.points.iter().map(of).collect());
         }
     }
     // Between names there is nothing.

@@ -1,6 +1,6 @@
 //! What holds for every page and picture.
 
-use brinell_report::{Report, pictures};
+use brinell_report::{Layout, Report, pictures};
 
 /// What a page must hold whatever its data, and what it must not.
 pub(crate) fn check(page: &str) {
@@ -64,7 +64,7 @@ pub(crate) fn check(page: &str) {
 }
 
 pub(crate) fn check_pictures(report: &Report) {
-    for picture in pictures(report) {
+    for picture in pictures(report, Layout::Wide) {
         let svg = picture.svg();
         let tree = roxmltree::Document::parse(&svg);
         assert!(tree.is_ok(), "{}: {tree:?}", picture.name);

@@ -151,7 +151,10 @@ fn regress_the_page_shows_what_a_roller_meets_and_the_rings_section() {
     }
     // Symbols have lowered indices, not underscores.
     assert!(!page.contains(">damaged, L_s<") && page.contains(">damaged, L<tspan"));
-    let names: Vec<String> = pictures(&report).into_iter().map(|p| p.name).collect();
+    let names: Vec<String> = pictures(&report, Layout::Wide)
+        .into_iter()
+        .map(|p| p.name)
+        .collect();
     for name in ["damage-1", "damage-1-passage", "damage-1-section"] {
         assert!(names.iter().any(|n| n == name), "{names:?}");
     }

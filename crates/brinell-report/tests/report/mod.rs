@@ -5,5 +5,6 @@ mod checks;
 mod damage;
 mod page;
 mod pictures;
+mod print;
 mod sample;
 mod sweep;

@@ -1,8 +1,8 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, IndicatorLine, IndicatorPlot, IndicatorPoint, OverlaidCurve, Overlay, Part, Piece,
-    SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html,
+    Along, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part,
+    Piece, SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html,
     sweep_pictures,
 };
 
@@ -33,7 +33,7 @@ fn page(plot: IndicatorPlot) -> (String, String) {
         plots: vec![plot],
         ..SweepReport::default()
     };
-    let pictures = sweep_pictures(&report);
+    let pictures = sweep_pictures(&report, Layout::Wide);
     assert_eq!(pictures.len(), 1);
     (sweep_html(&report), pictures[0].svg())
 }
@@ -119,7 +119,7 @@ fn overlaid(vertical: Vertical, values: Vec<f64>) -> SideBySide {
 #[test]
 fn regress_an_overlay_names_the_runs_that_it_shows() {
     let report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
-    let pictures = side_by_side_pictures(&report);
+    let pictures = side_by_side_pictures(&report, Layout::Wide);
     let svg = pictures[0].svg();
     assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
     let page = side_by_side_html(&report);
