@@ -5,7 +5,7 @@ mod plot;
 use std::fmt::Write as _;
 
 use crate::data::Fact;
-use crate::frame::{close, figure, none, open, scenario, section};
+use crate::frame::{close, figure, lead, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, fact_table, facts, failures, table};
@@ -97,6 +97,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
         (!report.met).then_some(("The targets are not met within the bounds.", "")),
     );
     page.push_str("<main>\n");
+    lead(&mut page, report.verdict.first().map_or("", String::as_str));
     facts(&mut page, &report.facts);
     section(&mut page, "outcome", "Outcome", |page| {
         sentences(page, &report.verdict);

@@ -6,7 +6,7 @@ mod lanes;
 mod shades;
 
 use crate::font;
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, ink};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, escape, ink};
 pub(crate) use axis::{Domain, Scale, range};
 use axis::{axis_label, halves, ticks};
 pub(crate) use lanes::{LANE_HEIGHT, Lane, Mark};
@@ -207,6 +207,7 @@ impl Chart {
         }
         let label = axis_label(&self.spec.y_label, &self.spec.y_unit, y_power);
         let middle = 0.5 * (frame.top + frame.bottom);
+        self.picture.shapes.push(Shape::Open("label-y"));
         let mut line = |x: f64, text: &str| {
             self.picture
                 .text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
@@ -218,6 +219,7 @@ impl Chart {
         } else {
             line(1.05 * font, &label);
         }
+        self.picture.shapes.push(Shape::Close);
     }
 
     /// Frame and lanes, over the curves.
@@ -244,7 +246,8 @@ impl Chart {
         } = self.frame;
         let [l, t, r, b] = [left, upper + top, right, bottom + top].map(coordinate);
         self.picture.attributes = format!(
-            " data-plot=\"{plot}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
+            " data-plot=\"{}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
+            escape(plot),
             self.spec.x.lo,
             self.spec.x.hi,
             self.spec.size.font,
