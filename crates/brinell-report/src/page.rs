@@ -211,8 +211,8 @@ fn envelope(page: &mut String, report: &Report) {
         return;
     }
     page.push_str(
-        "<div class=\"scroll\"><table><thead><tr><th>Name</th><th class=\"number\">Frequency</th><th></th><th>Struck when</th>\
-         <th>Damage here</th></tr></thead><tbody>\n",
+        "<div class=\"scroll\"><table><thead><tr><th>Name</th><th class=\"number\">Frequency</th><th>Unit</th><th>Excitation</th>\
+         <th>Defect present</th></tr></thead><tbody>\n",
     );
     for marker in &report.markers {
         let _ = writeln!(

@@ -65,14 +65,14 @@ const SLOWEST_HZ = 10;
 // A value in the unit chosen; of an acceleration at x Hz the velocity, where that is asked for.
 function inUnit(chart, v, x) {
   const [, factor, velocity] = chart.units[chart.unit];
-  return velocity ? (x >= SLOWEST_HZ ? v * factor / (2 * Math.PI * x) : NaN) : v * factor;
+  return velocity ? (x >= SLOWEST_HZ ? v * factor / (2 * Math.PI * x) : undefined) : v * factor;
 }
 const unitOf = (chart) => chart.units[chart.unit][0];
 const scaleOf = (chart) => (chart.scale === "dB" ? `dB re 1 ${unitOf(chart)}` : unitOf(chart));
 // The same as it is drawn and read.
 function level(chart, v, x) {
   const value = inUnit(chart, v, x);
-  return chart.scale === "dB" ? (value > 0 ? 20 * Math.log10(value) : NaN) : value;
+  return chart.scale === "dB" ? (value > 0 ? 20 * Math.log10(value) : undefined) : value;
 }
 const asMade = (chart) => chart.scale === chart.made && chart.unit === 0;
 

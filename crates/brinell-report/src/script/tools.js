@@ -154,10 +154,10 @@ document.querySelectorAll("figure").forEach((figure) => {
       ...choices(chart, title),
       button("+", `Zoom in: ${title}`, () => { const [a, b] = view(), w = b - a; zoom(id, [a + w / 4, b - w / 4]); }),
       button("−", `Zoom out: ${title}`, () => { const [a, b] = view(), w = b - a; zoom(id, [a - w / 2, b + w / 2]); }),
-      button("All", `Show everything that is kept: ${title}`, () => zoom(id, [-1e300, 1e300])),
+      button("All", `All that is kept: ${title}`, () => zoom(id, [-1e300, 1e300])),
     );
     bar.append(
-      button("Reset", `Back to the first view: ${title}`, () => home(id)),
+      button("Reset", `Reset to the first view: ${title}`, () => home(id)),
       button("CSV", `Save the values in view as CSV: ${title}`, () => save(current().dataset.name + ".csv", new Blob([columns(plot(), ",")], { type: "text/csv" }))),
       button("Copy", `Copy the values in view: ${title}`, async () => { await copy(columns(plot(), "\t")); chart.readout.textContent = "Copied: the values in view"; }),
     );
