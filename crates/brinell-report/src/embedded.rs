@@ -63,6 +63,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) still: bool,
     /// Whether it is one of many on its page, with few controls.
     pub(crate) small: bool,
+    /// Whether places are exponents of ten.
+    pub(crate) x_log: bool,
     /// Names of the places 0, 1, 2 on the x axis, where they have some.
     pub(crate) x_names: &'a [String],
 }
@@ -85,6 +87,7 @@ impl Default for Chart<'_> {
             most: KEPT,
             still: false,
             small: false,
+            x_log: false,
             x_names: &[],
         }
     }
@@ -114,7 +117,7 @@ impl Chart<'_> {
             page,
             "<script type=\"application/json\" data-chart=\"{}\">{{\"peak\":{},\"log\":{},\"y\":[{},{}],\"yScale\":{},\"xLabel\":{},\
              \"xUnit\":{},\"yLabel\":{},\"units\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"drawn\":{drawn:?},\"band\":{band},\
-             \"still\":{},\"small\":{},\"xNames\":[{}],\"lanes\":",
+             \"still\":{},\"small\":{},\"xLog\":{},\"xNames\":[{}],\"lanes\":",
             escape(self.name),
             self.peak,
             self.domain.log,
@@ -128,6 +131,7 @@ impl Chart<'_> {
             self.overview_scale,
             self.still,
             self.small,
+            self.x_log,
             x_names.join(","),
         );
         self.marks(page);

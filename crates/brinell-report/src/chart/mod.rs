@@ -231,7 +231,7 @@ impl Chart {
         self.picture
     }
 
-    /// Tells the page's script where the plot is.
+    /// Tells the page's script where the plot is; of an axis in decades, in their exponents.
     pub(crate) fn interactive(&mut self, plot: &str) {
         self.interactive_at(plot, 0.0);
     }
@@ -245,11 +245,13 @@ impl Chart {
             bottom,
         } = self.frame;
         let [l, t, r, b] = [left, upper + top, right, bottom + top].map(coordinate);
+        let Domain { lo, hi, log } = self.spec.x;
+        let [lo, hi] = [lo, hi].map(|x| if log { x.log10() } else { x });
         self.picture.attributes = format!(
             " data-plot=\"{}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
             escape(plot),
-            self.spec.x.lo,
-            self.spec.x.hi,
+            lo,
+            hi,
             self.spec.size.font,
             coordinate(top)
         );

@@ -21,6 +21,8 @@ function nearest(plot, curve, x) {
   }
   return index;
 }
+// Where the cursor stands for a place: at a value, where there is one curve or single points.
+const snap = (plot, x) => { const { chart } = plot, first = chart.curves[0]; return chart.curves.length === 1 || chart.still ? placeOf(first, nearest(plot, first, x)) : x; };
 const readAt = (plot, curve, x) => { const i = nearest(plot, curve, x), at = placeOf(curve, i); return level(plot.chart, curve.values[i], at); };
 
 // A unit behind a number.
@@ -49,9 +51,8 @@ function near(plot, place) {
   return all.length ? ` · near ${all.join(", ")}` : "";
 }
 
-const place = (chart, v) => chart.xNames[Math.round(v)] ?? `${short(v, 6)}${spaced(chart.xUnit)}`;
-// Of one curve the place of the value that is read.
-const single = (plot, x) => { const { chart } = plot, first = chart.curves[0], at = chart.curves.length === 1 ? placeOf(first, nearest(plot, first, x)) : x; return `${place(chart, at)} · ${values(plot, x)}${near(plot, at)}`; };
+const place = (chart, v) => chart.xNames[Math.round(v)] ?? `${short(chart.xLog ? 10 ** v : v, 6)}${spaced(chart.xUnit)}`;
+const single = (plot, x) => `${place(plot.chart, snap(plot, x))} · ${values(plot, x)}${near(plot, snap(plot, x))}`;
 
 // What the cursor at `x` says.
 function words(plot, x) {
@@ -92,9 +93,8 @@ function mark(plot) {
   const lines = (all) => all.filter((v) => v >= view[0] && v <= view[1]).map((v) => `M${across(v).toFixed(1)} ${t}V${b}`).join("");
   if (chart.reference !== null) over(plot, lines([chart.reference]), { stroke: "#D55E00", "stroke-width": "1.4" });
   if (x === null || x === undefined) return;
-  const first = chart.curves[0];
   let places = [x];
-  if (chart.mode === "single" || chart.mode === "delta" || (chart.mode === "sidebands" && chart.reference === null)) places = chart.curves.length === 1 ? [placeOf(first, nearest(plot, first, x))] : [x];
+  if (chart.mode === "single" || chart.mode === "delta" || (chart.mode === "sidebands" && chart.reference === null)) places = [snap(plot, x)];
   const many = (count, place) => (count * 3 < r - l ? Array.from({ length: Math.max(0, Math.floor(count)) }, (_, k) => place(k)) : []);
   if (chart.mode === "harmonics" && x > 0) places = many(view[1] / x, (k) => (k + 1) * x);
   if (chart.mode === "sidebands" && chart.reference !== null) {
@@ -113,9 +113,8 @@ function tell(plot) {
 }
 
 function set(plot, x) {
-  const { chart } = plot, first = chart.curves[0], place = chart.curves.length === 1 ? placeOf(first, nearest(plot, first, x)) : x;
-  const pairs = chart.mode === "delta" || chart.mode === "sidebands";
-  if (pairs && (chart.reference === null || chart.pin !== null)) { chart.reference = place; chart.pin = null; } else chart.pin = place;
+  const { chart } = plot, at = snap(plot, x), pairs = chart.mode === "delta" || chart.mode === "sidebands";
+  if (pairs && (chart.reference === null || chart.pin !== null)) { chart.reference = at; chart.pin = null; } else chart.pin = at;
   tell(plot);
 }
 

@@ -63,7 +63,7 @@ function columns(plot, comma) {
     const rows = [[head(chart.xLabel, chart.xUnit), ...curves.map((c) => head(chart.curves.length > 1 ? c.name : chart.yLabel, scaleOf(chart)))]], one = curves[0];
     for (let i = 0; i < one.values.length; i++) {
       const x = placeOf(one, i);
-      if (x >= view[0] && x <= view[1]) rows.push([number(x, 9), ...curves.map((c) => number(level(chart, c.values[i], x), 6))]);
+      if (x >= view[0] && x <= view[1]) rows.push([number(chart.xLog ? 10 ** x : x, 9), ...curves.map((c) => number(level(chart, c.values[i], x), 6))]);
     }
     return rows;
   });

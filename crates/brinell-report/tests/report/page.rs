@@ -3,7 +3,8 @@
 use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
 use brinell_report::{
-    Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
+    Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution,
+    overview,
 };
 use proptest::prelude::*;
 
