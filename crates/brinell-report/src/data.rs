@@ -127,7 +127,9 @@ impl Fact {
         let note = self.note.split(';').next().unwrap_or_default();
         let parts = [value.as_str(), &self.unit, note];
         let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        format!("{}: {}.", self.label, parts.join(" "))
+        // A value that begins with a run's name: "rectangle: 4.1 ×".
+        let joint = if value.contains(": ") { ", " } else { ": " };
+        format!("{}{joint}{}.", self.label, parts.join(" "))
     }
 
     /// A fact without limit.

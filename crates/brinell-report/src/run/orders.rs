@@ -1,13 +1,12 @@
 //! Of the report's data, the envelope over orders: where the speed varies, what a defect frequency is to a steady shaft.
 
 use super::axis;
+use super::signals::{HARMONICS, markers_at};
 use crate::{Marker, Spectrum};
 use brinell::scenario::Speed;
 use brinell::signal::{Rotation, Segments, envelope, psd, resample};
 use brinell::summary::Parts;
 use std::f64::consts::TAU;
-
-use super::signals::{HARMONICS, markers_at};
 
 /// Instants a second at which the shaft's angle is given to the resampling.
 const ANGLES_PER_S: f64 = 1000.0;
@@ -52,7 +51,7 @@ fn spectrum(parts: &Parts) -> Option<(Spectrum, Vec<Marker>)> {
         unit: "m/s^2".into(),
         note: format!(
             "Envelope of the sensor acceleration along {} at equal angles of the shaft, the last {:.2} s of the run. An order is an event a turn: \
-             defect frequencies stay lines while the speed varies.",
+             defect frequencies stay lines while the speed varies. Marks are those of pure rolling: a cage that slips moves the lines down by as much.",
             axis(parts),
             span
         ),
