@@ -1,7 +1,7 @@
 //! One indicator against a key: a line for each value of the other keys, with intervals.
 
 use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
-use crate::chart::{Chart, Domain, Spec, range};
+use crate::chart::{Chart, Domain, Size, Spec, range};
 use crate::embedded::{self, Curve, Places};
 use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
@@ -35,37 +35,14 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     if named {
         size.height -= axis_room;
     }
-    let points = || plot.lines.iter().flat_map(|line| &line.points);
-    let heights = points().flat_map(|p| {
-        let (low, high) = p.interval.unwrap_or((p.value, p.value));
-        [p.value, low, high]
-    });
-    let x = if named {
-        Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
-    } else {
-        Domain::around(points().map(|p| p.x))
-    };
-    let spec = Spec {
-        name: plot.name.clone(),
-        title: format!("{} over {}", plot.label, plot.x_label),
-        size,
-        x,
-        y: y_domain(heights),
-        x_label: plot.x_label.clone(),
-        x_unit: plot.x_unit.clone(),
-        y_label: plot.label.clone(),
-        y_unit: plot.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: !named,
-    };
+    let spec = spec(plot, size);
     let (name, title) = (spec.name.clone(), spec.title.clone());
     let mut chart = Chart::new(spec);
     if named {
         name_x(&mut chart, plot, size.font);
     }
-    if range(points().map(|p| p.value)).is_none() {
+    let mut points = plot.lines.iter().flat_map(|line| &line.points);
+    if points.all(|p| !p.value.is_finite()) {
         chart.say("No point has a value");
     }
     let count = plot.lines.len();
@@ -139,6 +116,36 @@ pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
         ..embedded::Chart::default()
     }
     .write(page);
+}
+
+/// Its axes.
+fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
+    let named = !plot.x_names.is_empty();
+    let points = || plot.lines.iter().flat_map(|line| &line.points);
+    let heights = points().flat_map(|p| {
+        let (low, high) = p.interval.unwrap_or((p.value, p.value));
+        [p.value, low, high]
+    });
+    let x = if named {
+        Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
+    } else {
+        Domain::around(points().map(|p| p.x))
+    };
+    Spec {
+        name: plot.name.clone(),
+        title: format!("{} over {}", plot.label, plot.x_label),
+        size,
+        x,
+        y: y_domain(heights),
+        x_label: plot.x_label.clone(),
+        x_unit: plot.x_unit.clone(),
+        y_label: plot.label.clone(),
+        y_unit: plot.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: !named,
+    }
 }
 
 /// From zero where the values come near it, and otherwise around them: a sweep is about differences.
