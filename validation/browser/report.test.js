@@ -144,12 +144,12 @@ describe("a plot", () => {
     await press(/^Zoom out/);
     assert.ok(await span() > 1.5 * half);
     await press(/^Zoom in/);
-    await press(/^Back/);
+    await press(/^Reset/);
     assert.equal(await span(), whole);
     await press(/^Zoom in/);
-    await press(/^Show everything/);
+    await press(/^All that/);
     assert.ok(await span() >= 0.9 * whole);
-    await press(/^Back/);
+    await press(/^Reset/);
     await plot(page, "spectrum").focus();
     await page.keyboard.press("+");
     assert.ok(await span() < 0.7 * whole);
@@ -175,6 +175,78 @@ describe("a plot", () => {
     await page.keyboard.press("Shift+ArrowRight");
     const second = await readout(page, "waveform").textContent();
     assert.ok(parseFloat(second) > parseFloat(first), `${first}; ${second}`);
+  }));
+
+  // A click sets the cursor, and it stays when the pointer goes.
+  const click = async (page, name, across) => { const [x, y] = await place(page, name, across); await page.mouse.click(x, y); };
+  const choose = (page, name, what, value) => figure(page, name).getByLabel(new RegExp(`^${what}: `)).selectOption(value);
+  const number = (text) => Number(text.replaceAll("−", "-"));
+
+  it("reads the distance of two places and its inverse", async () => on({}, async (page) => {
+    await choose(page, "waveform", "Cursor", "delta");
+    await click(page, "waveform", 0.2);
+    await click(page, "waveform", 0.7);
+    await page.mouse.move(0, 0);
+    const words = await readout(page, "waveform").textContent();
+    const [, distance, rate, from, to] = words.match(/^Δ ([\d.]+) ms = 1 \/ ([\d.]+) Hz · .* · ([\d.]+) ms to ([\d.]+) ms$/) || assert.fail(words);
+    assert.ok(Math.abs(to - from - distance) < 2e-3 * distance, words);
+    assert.ok(Math.abs(1e3 / distance - rate) < 1e-3 * rate, words);
+  }));
+
+  it("draws and reads harmonics of the cursor, and sidebands of a carrier", async () => on({}, async (page) => {
+    const lines = async () => {
+      const d = await plot(page, "envelope-spectrum").locator(".cursor").evaluateAll((all) => all.map((p) => p.getAttribute("d")));
+      return d.flatMap((one) => [...one.matchAll(/M([\d.]+)/g)].map((m) => Number(m[1]))).sort((a, b) => a - b);
+    };
+    const [l, , r] = (await plot(page, "envelope-spectrum").getAttribute("data-frame")).split(" ").map(Number);
+    await choose(page, "envelope-spectrum", "Cursor", "harmonics");
+    await click(page, "envelope-spectrum", 0.2);
+    await page.mouse.move(0, 0);
+    assert.match(await readout(page, "envelope-spectrum").textContent(), /^Harmonics of [\d.]+ Hz · 1×: .* · 2×: .* m\/s²$/);
+    const comb = await lines(), first = comb[0] - l;
+    assert.ok(comb.length >= 4, `${comb}`);
+    comb.forEach((x, k) => assert.ok(Math.abs(x - l - (k + 1) * first) < 0.2 * (k + 1), `${comb}`));
+    await choose(page, "envelope-spectrum", "Cursor", "sidebands");
+    await click(page, "envelope-spectrum", 0.5);
+    await click(page, "envelope-spectrum", 0.6);
+    await page.mouse.move(0, 0);
+    assert.match(await readout(page, "envelope-spectrum").textContent(), /spacing [\d.]+ Hz · ±1: .* · ±2: .* · ±3: .* m\/s²$/);
+    const sides = await lines(), middle = 0.5 * (sides[0] + sides.at(-1));
+    assert.ok(sides.length >= 5 && Math.abs(middle - 0.5 * (l + r)) < 0.11 * (r - l), `${sides}`);
+    await plot(page, "envelope-spectrum").focus();
+    await page.keyboard.press("Escape");
+    assert.deepEqual(await lines(), []);
+  }));
+
+  it("reads the same line in m/s², g, mm/s and dB", async () => on({}, async (page) => {
+    await click(page, "spectrum", 0.3);
+    await page.mouse.move(0, 0);
+    const value = async () => { const [, x, v] = (await readout(page, "spectrum").textContent()).match(/^([\d.]+) Hz · (\S+)/); return [Number(x), number(v)]; };
+    const [hz, metres] = await value();
+    const near = (a, b) => assert.ok(Math.abs(a / b - 1) < 2e-3, `${a} is not ${b}`);
+    await choose(page, "spectrum", "Unit", { label: "g" });
+    near((await value())[1], metres / 9.80665);
+    await choose(page, "spectrum", "Unit", { label: "mm/s" });
+    near((await value())[1], 1e3 * metres / (2 * Math.PI * hz));
+    assert.match(await plot(page, "spectrum").locator(".label-y").textContent(), /mm\/s/);
+    await choose(page, "spectrum", "Unit", { label: "m/s²" });
+    await choose(page, "spectrum", "Scale", "dB");
+    assert.ok(Math.abs((await value())[1] - 20 * Math.log10(metres)) < 0.02);
+    assert.match(await plot(page, "spectrum").locator(".label-y").textContent(), /dB re 1 m\/s²/);
+  }));
+
+  it("saves and copies the values in view", async () => on({ permissions: ["clipboard-read", "clipboard-write"] }, async (page) => {
+    await figure(page, "envelope-spectrum").getByRole("button", { name: /^Zoom in/ }).click();
+    const [download] = await Promise.all([page.waitForEvent("download"), figure(page, "envelope-spectrum").getByRole("button", { name: /as CSV/ }).click()]);
+    assert.equal(download.suggestedFilename(), "envelope-spectrum.csv");
+    const rows = (await readFile(await download.path(), "utf8")).trim().split("\n");
+    assert.equal(rows[0], '"Frequency (Hz)","Envelope amplitude (m/s^2)"');
+    const [from, to] = await ends(page, "envelope-spectrum"), places = rows.slice(1).map((row) => row.split(",").map(Number));
+    assert.ok(places.length > 4 && places.every(([x, v]) => Number.isFinite(x) && v >= 0));
+    assert.ok(places[0][0] <= from && places.at(-1)[0] >= to, `${places[0][0]} to ${places.at(-1)[0]} of ${from} to ${to}`);
+    await figure(page, "envelope-spectrum").getByRole("button", { name: /^Copy/ }).click();
+    await page.waitForFunction(() => [...document.querySelectorAll(".readout")].some((node) => node.textContent.startsWith("Copied")));
+    assert.equal((await page.evaluate(() => navigator.clipboard.readText())).trim().split("\n").length, rows.length);
   }));
 
   it("shows the instant of the run that is clicked in the overview", async () => on({}, async (page) => {

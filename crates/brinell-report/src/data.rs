@@ -6,6 +6,7 @@
 
 use crate::damage::{AlongRoller, DamageView};
 use crate::motion::Motion;
+use crate::number::significant;
 use crate::orbit::CageOrbits;
 use crate::sensor::SensorView;
 use crate::slip::SlipRow;
@@ -18,6 +19,8 @@ pub struct Report {
     pub title: String,
     /// One line under it: bearing, defect, speed, load.
     pub subtitle: String,
+    /// The result in a sentence; may be empty.
+    pub lead: String,
     /// The version of the program that made the run.
     pub version: String,
     /// Why the run ended early, where it did.
@@ -32,6 +35,10 @@ pub struct Report {
     pub spectrum: Spectrum,
     /// The amplitude spectrum of its envelope; the band belongs in the label.
     pub envelope_spectrum: Spectrum,
+    /// The same over orders of the shaft, where its speed varies: `df_hz` is then in orders.
+    pub envelope_orders: Spectrum,
+    /// The bearing's defect frequencies as orders, in `frequency_hz`.
+    pub order_markers: Vec<Marker>,
     /// Its spectrogram.
     pub spectrogram: Spectrogram,
     /// The bearing's defect frequencies.
@@ -111,6 +118,20 @@ pub struct Fact {
 }
 
 impl Fact {
+    /// It in a sentence, with the first part of its note.
+    pub(crate) fn words(&self) -> String {
+        let value = match &self.value {
+            Value::Number(number) => significant(*number, 4),
+            Value::Text(text) => text.clone(),
+        };
+        let note = self.note.split(';').next().unwrap_or_default();
+        let parts = [value.as_str(), &self.unit, note];
+        let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        // A value that begins with a run's name: "rectangle: 4.1 ×".
+        let joint = if value.contains(": ") { ", " } else { ": " };
+        format!("{}{joint}{}.", self.label, parts.join(" "))
+    }
+
     /// A fact without limit.
     pub fn new(
         label: impl Into<String>,

@@ -4,65 +4,175 @@ use std::fmt::Write as _;
 
 use crate::chart::{Domain, LANE_HEIGHT, Lane};
 use crate::number::{linear_ticks, runs, tick_labels};
+use crate::picture::escape;
 
 /// Values kept for zooming; longer signals and spectra are thinned to this, extremes kept.
 pub(crate) const KEPT: usize = 65_536;
 
+/// What the script draws every plot with, in this order.
+pub(crate) const SCRIPT: [&str; 3] = [
+    include_str!("script/plot.js"),
+    include_str!("script/read.js"),
+    include_str!("script/tools.js"),
+];
+
+/// Standard acceleration of free fall, m/s^2: the unit g.
+const G: f64 = 9.80665;
+
+/// Where the values of a curve are.
+#[derive(Clone, Copy)]
+pub(crate) enum Places<'a> {
+    /// Evenly, from a first place in steps.
+    Even(f64, f64),
+    /// Each in its own, from left to right.
+    Each(&'a [f64]),
+}
+
+/// A curve as the script redraws it.
+#[derive(Clone, Copy)]
+pub(crate) struct Curve<'a> {
+    /// Read out where there are several.
+    pub(crate) name: &'a str,
+    pub(crate) places: Places<'a>,
+    pub(crate) values: &'a [f64],
+}
+
 /// What the script needs to redraw a plot.
 pub(crate) struct Chart<'a> {
     pub(crate) name: &'a str,
-    pub(crate) x0: f64,
-    pub(crate) dx: f64,
-    pub(crate) values: &'a [f64],
+    pub(crate) curves: &'a [Curve<'a>],
     pub(crate) domain: Domain,
     pub(crate) peak: bool,
-    pub(crate) x_unit: &'a str,
-    pub(crate) y_unit: &'a str,
+    /// Label and unit of each axis.
+    pub(crate) x: (&'a str, &'a str),
+    pub(crate) y: (&'a str, &'a str),
+    /// Whether an acceleration may be read as the velocity of the same line.
+    pub(crate) velocity: bool,
     pub(crate) lanes: &'a [Lane],
     /// Frequencies whose harmonics the reader may mark: those of lanes' first marks.
     pub(crate) toggles: &'a [Lane],
     /// Units of this plot to the overview's.
     pub(crate) overview_scale: f64,
-    /// Curves over it, as x0, dx and values.
-    pub(crate) beside: &'a [(f64, f64, &'a [f64])],
-    /// Which of the drawn curves is which: place of this one's, then of those beside it.
+    /// Which of the drawn curves is which; in their order where empty.
     pub(crate) drawn: &'a [usize],
     /// A shaded stretch of the x axis.
     pub(crate) band: Option<(f64, f64)>,
+    /// Values of a curve, at most.
+    pub(crate) most: usize,
+    /// Whether it is read out and not redrawn: plots of single points.
+    pub(crate) still: bool,
+    /// Whether it is one of many on its page, with few controls.
+    pub(crate) small: bool,
+    /// Whether places are exponents of ten.
+    pub(crate) x_log: bool,
+    /// Names of the places 0, 1, 2 on the x axis, where they have some.
+    pub(crate) x_names: &'a [String],
+}
+
+impl Default for Chart<'_> {
+    fn default() -> Self {
+        Self {
+            name: "",
+            curves: &[],
+            domain: Domain::from_zero([]),
+            peak: false,
+            x: ("", ""),
+            y: ("", ""),
+            velocity: false,
+            lanes: &[],
+            toggles: &[],
+            overview_scale: 1.0,
+            drawn: &[],
+            band: None,
+            most: KEPT,
+            still: false,
+            small: false,
+            x_log: false,
+            x_names: &[],
+        }
+    }
+}
+
+/// A unit without markup.
+fn plain(unit: &str) -> String {
+    runs(unit).into_iter().map(|run| run.text).collect()
 }
 
 impl Chart<'_> {
     pub(crate) fn write(&self, page: &mut String) {
-        let odd = |(x0, dx): (f64, f64)| !(dx.is_finite() && dx > 0.0 && x0.is_finite());
-        let beside = self.beside.iter().map(|c| (c.0, c.1));
-        if odd((self.x0, self.dx)) || beside.into_iter().any(odd) {
+        let curves: Vec<String> = self.curves.iter().filter_map(|c| self.curve(c)).collect();
+        if curves.is_empty() || curves.len() != self.curves.len() {
             return;
         }
-        let (values, dx) = kept(self.values, self.dx, self.peak);
         let power = tick_labels(&linear_ticks(self.domain.lo, self.domain.hi, 5)).1;
-        let plain = |unit: &str| {
-            runs(unit)
-                .into_iter()
-                .map(|run| run.text)
-                .collect::<String>()
+        let drawn: Vec<usize> = match self.drawn {
+            [] => (0..curves.len()).collect(),
+            drawn => drawn.to_vec(),
         };
+        let band = self
+            .band
+            .map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
+        let x_names: Vec<String> = self.x_names.iter().map(|name| json(name)).collect();
         let _ = write!(
             page,
-            "<script type=\"application/json\" data-chart=\"{}\">{{\"x0\":{},\"dx\":{},\"peak\":{},\"log\":{},\"count\":{},\"y\":[{},{}],\
-             \"yScale\":{},\"xUnit\":{},\"yUnit\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"lanes\":[",
-            self.name,
-            self.x0,
-            dx,
+            "<script type=\"application/json\" data-chart=\"{}\">{{\"peak\":{},\"log\":{},\"y\":[{},{}],\"yScale\":{},\"xLabel\":{},\
+             \"xUnit\":{},\"yLabel\":{},\"units\":{},\"laneHeight\":{LANE_HEIGHT},\"overviewScale\":{},\"drawn\":{drawn:?},\"band\":{band},\
+             \"still\":{},\"small\":{},\"xLog\":{},\"xNames\":[{}],\"lanes\":",
+            escape(self.name),
             self.peak,
             self.domain.log,
-            values.len(),
             self.domain.lo,
             self.domain.hi,
             10f64.powi(power),
-            json(self.x_unit),
-            json(&plain(self.y_unit)),
+            json(self.x.0),
+            json(&plain(self.x.1)),
+            json(self.y.0),
+            self.units(),
             self.overview_scale,
+            self.still,
+            self.small,
+            self.x_log,
+            x_names.join(","),
         );
+        self.marks(page);
+        let _ = writeln!(page, ",\"curves\":[{}]}}</script>", curves.join(","));
+    }
+
+    /// Units to choose from: name, factor, and whether it is the velocity's.
+    fn units(&self) -> String {
+        let mut units = format!("[[{},1,false]", json(&plain(self.y.1)));
+        if self.y.1 == "m/s^2" {
+            let _ = write!(units, ",[\"g\",{},false]", 1.0 / G);
+            if self.velocity {
+                units.push_str(",[\"mm/s\",1000,true]");
+            }
+        }
+        units + "]"
+    }
+
+    /// One curve; `None` where its places are no axis.
+    fn curve(&self, curve: &Curve) -> Option<String> {
+        let start = format!("{{\"name\":{},", json(curve.name));
+        let (values, places) = match curve.places {
+            Places::Even(x0, dx) if dx.is_finite() && dx > 0.0 && x0.is_finite() => {
+                let (values, dx) = kept(curve.values, dx, self.peak, self.most);
+                (values, format!("\"x0\":{x0},\"dx\":{dx}"))
+            }
+            Places::Each(places) if ascending(places) && places.len() == curve.values.len() => {
+                let packed = base64(&packed(places, false));
+                (curve.values.to_vec(), format!("\"places\":\"{packed}\""))
+            }
+            _ => return None,
+        };
+        let packed = base64(&packed(&values, self.peak));
+        let count = values.len();
+        Some(format!(
+            "{start}{places},\"count\":{count},\"values\":\"{packed}\"}}"
+        ))
+    }
+
+    fn marks(&self, page: &mut String) {
+        page.push('[');
         for (index, lane) in self.lanes.iter().enumerate() {
             page.push_str(if index == 0 { "[" } else { ",[" });
             for (index, mark) in lane.marks.iter().take(5000).enumerate() {
@@ -90,27 +200,15 @@ impl Chart<'_> {
                 lane.through
             );
         }
-        page.push_str("],\"beside\":[");
-        for (index, (x0, dx, values)) in self.beside.iter().enumerate() {
-            let (values, dx) = kept(values, *dx, self.peak);
-            let _ = write!(
-                page,
-                "{}{{\"x0\":{x0},\"dx\":{dx},\"count\":{},\"values\":\"{}\"}}",
-                if index == 0 { "" } else { "," },
-                values.len(),
-                base64(&packed(&values, self.peak))
-            );
-        }
-        let band = self
-            .band
-            .map_or("null".into(), |b| format!("[{},{}]", b.0, b.1));
-        let _ = writeln!(
-            page,
-            "],\"drawn\":{:?},\"band\":{band},\"values\":\"{}\"}}</script>",
-            self.drawn,
-            base64(&packed(&values, self.peak))
-        );
+        page.push(']');
     }
+}
+
+/// Whether places go from left to right, all of them numbers.
+fn ascending(places: &[f64]) -> bool {
+    !places.is_empty()
+        && places.iter().all(|x| x.is_finite())
+        && places.windows(2).all(|pair| pair[0] <= pair[1])
 }
 
 /// Values that share a scale.
@@ -160,13 +258,13 @@ fn packed(values: &[f64], log: bool) -> Vec<u8> {
     bytes
 }
 
-/// At most [`KEPT`] values: of each group the largest, or the smallest and the largest in the order they come.
-fn kept(values: &[f64], dx: f64, peak: bool) -> (Vec<f64>, f64) {
-    if values.len() <= KEPT {
+/// At most `most` values: of each group the largest, or the smallest and the largest in the order they come.
+fn kept(values: &[f64], dx: f64, peak: bool, most: usize) -> (Vec<f64>, f64) {
+    if values.len() <= most {
         return (values.to_vec(), dx);
     }
     let per = if peak { 1 } else { 2 };
-    let group = (values.len() * per).div_ceil(KEPT);
+    let group = (values.len() * per).div_ceil(most.max(1));
     let thin = values
         .chunks(group)
         .flat_map(|chunk| {
@@ -307,10 +405,10 @@ mod tests {
         let mut values = vec![0.0; 300_000];
         values[123_456] = 9.0;
         values[200_001] = -7.0;
-        let (thin, dx) = kept(&values, 1.0, false);
+        let (thin, dx) = kept(&values, 1.0, false, KEPT);
         assert!(thin.len() <= KEPT + 1 && thin.contains(&9.0) && thin.contains(&-7.0));
         assert!((thin.len() as f64 * dx / values.len() as f64 - 1.0).abs() < 1e-3);
-        let (thin, _) = kept(&values, 1.0, true);
+        let (thin, _) = kept(&values, 1.0, true, KEPT);
         assert!(thin.len() <= KEPT && thin.contains(&9.0) && !thin.contains(&-7.0));
     }
 }

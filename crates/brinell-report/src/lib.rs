@@ -104,7 +104,7 @@ pub use study::{
 };
 #[doc(hidden)]
 pub use sweep::{
-    IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures,
+    HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, sweep_html, sweep_pictures,
 };
 pub use tables::Table;
 #[doc(hidden)]

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use crate::chart::Domain;
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
-use crate::data::Report;
-use crate::embedded::Chart;
-use crate::frame::{THINNED, alert, close, code, figure, none, open, plain, section};
+use crate::data::{Report, Spectrum};
+use crate::embedded::{Chart, Curve, Places};
+use crate::frame::{THINNED, alert, close, code, figure, lead, none, open, plain, section};
 use crate::load::load_distribution;
 use crate::number::significant;
 use crate::picture::{Picture, escape};
@@ -38,6 +38,7 @@ pub fn html(report: &Report) -> String {
         ("waveform", "Waveform", waveform),
         ("spectrum", "Spectrum", spectrum),
         ("envelope", "Envelope spectrum", envelope),
+        ("orders", "Envelope orders", orders),
         ("spectrogram", "Spectrogram", crate::spectrogram::section),
         ("sensor", "Sensor", crate::sensor::section),
         ("damage", "Damage", damage),
@@ -47,11 +48,14 @@ pub fn html(report: &Report) -> String {
         ("orbit", "Cage orbit", crate::orbit::section),
         ("indicators", "Indicators", indicators),
         ("slip", "Slip", crate::slip::section),
-        ("audits", "Audits", audits),
-        ("work", "Solver work", work),
         ("assumptions", "Assumptions", assumptions),
-        ("scenario", "Scenario", scenario),
+        ("audits", "Appendix: audits", audits),
+        ("work", "Appendix: solver work", work),
+        ("scenario", "Appendix: scenario", scenario),
     ];
+    if report.envelope_orders.amplitude.is_empty() {
+        sections.retain(|(id, ..)| *id != "orders");
+    }
     if !report.sensor.is_there() {
         sections.retain(|(id, ..)| *id != "sensor");
     }
@@ -64,20 +68,20 @@ pub fn html(report: &Report) -> String {
             "motion" => "Motion",
             "orbit" => "Orbit",
             "work" => "Solver",
+            "orders" => "Orders",
+            "audits" => "Audits",
+            "scenario" => "Scenario",
             _ => name,
         };
         let _ = write!(page, "<li><a href=\"#{id}\">{short}</a></li>");
     }
     page.push_str("</ul></nav>\n<main>\n");
+    lead(&mut page, &report.lead);
     facts(&mut page, &report.facts);
     for (id, name, write) in sections {
         section(&mut page, id, name, |page| write(page, report));
     }
-    close(
-        page,
-        THINNED,
-        &[include_str!("page.js"), include_str!("motion.js")],
-    )
+    close(page, THINNED, &[include_str!("script/motion.js")])
 }
 
 /// Anchor, heading, and what is under it.
@@ -120,21 +124,28 @@ fn waveform(page: &mut String, report: &Report) {
     let overview_scale = plots::time_unit(overview_hi - overview_lo).1;
     Chart {
         name: "waveform",
-        x0: series.t0_s * scale,
-        dx: series.dt_s * scale,
-        values: &series.values,
+        curves: &[Curve {
+            name: "",
+            places: Places::Even(series.t0_s * scale, series.dt_s * scale),
+            values: &series.values,
+        }],
         domain: plots::waveform_domain(report),
-        peak: false,
-        x_unit: unit,
-        y_unit: &series.unit,
+        x: ("Time", unit),
+        y: ("Acceleration", &series.unit),
         lanes: &plots::event_lanes(report, scale),
-        toggles: &[],
         overview_scale: scale / overview_scale,
-        beside: &[],
-        drawn: &[0],
-        band: None,
+        ..Chart::default()
     }
     .write(page);
+}
+
+/// A spectrum's lines, from 0 Hz on.
+fn lines_of(spectrum: &Spectrum) -> Curve<'_> {
+    Curve {
+        name: "",
+        places: Places::Even(0.0, spectrum.df_hz),
+        values: &spectrum.amplitude,
+    }
 }
 
 fn spectrum(page: &mut String, report: &Report) {
@@ -150,19 +161,14 @@ fn spectrum(page: &mut String, report: &Report) {
     );
     Chart {
         name: "spectrum",
-        x0: 0.0,
-        dx: spectrum.df_hz,
-        values: &spectrum.amplitude,
+        curves: &[lines_of(spectrum)],
         domain: Domain::decades(&spectrum.amplitude),
         peak: true,
-        x_unit: "Hz",
-        y_unit: &spectrum.unit,
-        lanes: &[],
+        x: ("Frequency", "Hz"),
+        y: (&spectrum.label, &spectrum.unit),
+        velocity: true,
         toggles: &plots::marker_lanes(&report.markers),
-        overview_scale: 1.0,
-        beside: &[],
-        drawn: &[0],
-        band: None,
+        ..Chart::default()
     }
     .write(page);
 }
@@ -188,29 +194,25 @@ fn envelope(page: &mut String, report: &Report) {
         |layout| plots::envelope_spectrum(report, layout),
         &caption,
     );
+    let lanes = plots::marker_lanes(&report.markers);
     Chart {
         name: "envelope",
-        x0: 0.0,
-        dx: spectrum.df_hz,
-        values: &spectrum.amplitude,
+        curves: &[lines_of(spectrum)],
         domain: plots::envelope_domain(report),
         peak: true,
-        x_unit: "Hz",
-        y_unit: &spectrum.unit,
-        lanes: &plots::marker_lanes(&report.markers),
-        toggles: &plots::marker_lanes(&report.markers),
-        overview_scale: 1.0,
-        beside: &[],
-        drawn: &[0],
-        band: None,
+        x: ("Frequency", "Hz"),
+        y: (&spectrum.label, &spectrum.unit),
+        lanes: &lanes,
+        toggles: &lanes,
+        ..Chart::default()
     }
     .write(page);
     if report.markers.is_empty() {
         return;
     }
     page.push_str(
-        "<div class=\"scroll\"><table><thead><tr><th>Name</th><th class=\"number\">Frequency</th><th></th><th>Struck when</th>\
-         <th>Damage here</th></tr></thead><tbody>\n",
+        "<div class=\"scroll\"><table><thead><tr><th>Name</th><th class=\"number\">Frequency</th><th>Unit</th><th>Excitation</th>\
+         <th>Defect present</th></tr></thead><tbody>\n",
     );
     for marker in &report.markers {
         let _ = writeln!(
@@ -227,6 +229,29 @@ fn envelope(page: &mut String, report: &Report) {
         );
     }
     page.push_str("</tbody></table></div>\n");
+}
+
+fn orders(page: &mut String, report: &Report) {
+    let spectrum = &report.envelope_orders;
+    figure(
+        page,
+        "orders",
+        |layout| plots::order_spectrum(report, layout),
+        &escape(&spectrum.note),
+    );
+    let lanes = plots::order_lanes(&report.order_markers);
+    Chart {
+        name: "orders",
+        curves: &[lines_of(spectrum)],
+        domain: plots::order_domain(report),
+        peak: true,
+        x: ("Order", ""),
+        y: (&spectrum.label, &spectrum.unit),
+        lanes: &lanes,
+        toggles: &lanes,
+        ..Chart::default()
+    }
+    .write(page);
 }
 
 fn damage(page: &mut String, report: &Report) {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{Series, Spectrum};
+use crate::embedded::{self, Curve, Places};
 use crate::frame::{close, none, open, section, unit_html};
 use crate::number::significant;
 use crate::picture::{Paint, Picture, escape, ink};
@@ -120,16 +121,70 @@ pub fn sheet_html(report: &SheetReport) -> String {
 }
 
 fn put(page: &mut String, report: &SheetReport, tile: &SheetTile) {
-    let pictures = [
-        waveform(report, tile).inline(&format!("run{}-w", tile.run), ""),
-        envelope(report, tile).inline(&format!("run{}-e", tile.run), ""),
-    ];
-    let _ = write!(
+    let _ = writeln!(page, "<div class=\"tile\">\n<p>{}</p>", words(report, tile));
+    let (waves, lines) = (waveform(report, tile), envelope(report, tile));
+    for (id, picture) in [("w", waves), ("e", lines)] {
+        let drawn = picture.inline(&format!("run{}-{id}", tile.run), "");
+        let _ = writeln!(page, "<figure>{drawn}</figure>");
+    }
+    page.push_str("</div>\n");
+    let series = &tile.stretch;
+    let (unit, scale) = time_unit(series.dt_s * series.values.len().saturating_sub(1) as f64);
+    let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
+    embed(
         page,
-        "<figure class=\"tile\">\n<figcaption>{}</figcaption>\n{}</figure>\n",
-        words(report, tile),
-        pictures.concat()
+        tile,
+        "waveform",
+        (places, &series.values),
+        embedded::Chart {
+            x: ("Time", unit),
+            y: (&report.signal, &report.unit),
+            domain: Domain::around(series.values.iter().copied()),
+            ..embedded::Chart::default()
+        },
     );
+    let spectrum = &tile.envelope;
+    let lanes = lanes(tile, top(tile).unwrap_or(1.0));
+    let places = Places::Even(0.0, spectrum.df_hz);
+    embed(
+        page,
+        tile,
+        "envelope",
+        (places, &spectrum.amplitude),
+        embedded::Chart {
+            x: ("Frequency", "Hz"),
+            y: ("Envelope", &report.unit),
+            domain: envelope_domain(tile),
+            peak: true,
+            lanes: &lanes,
+            ..embedded::Chart::default()
+        },
+    );
+}
+
+/// Values that a tile keeps for zooming.
+const KEPT: usize = 4096;
+
+/// Writes what the page's script needs of one picture of a tile.
+fn embed(
+    page: &mut String,
+    tile: &SheetTile,
+    what: &str,
+    (places, values): (Places, &[f64]),
+    chart: embedded::Chart,
+) {
+    embedded::Chart {
+        name: &format!("run{}-{what}", tile.run),
+        curves: &[Curve {
+            name: "",
+            places,
+            values,
+        }],
+        most: KEPT,
+        small: true,
+        ..chart
+    }
+    .write(page);
 }
 
 /// The labels of a run.
@@ -189,32 +244,44 @@ fn waveform(report: &SheetReport, tile: &SheetTile) -> Picture {
     } else {
         chart.say("No samples");
     }
+    chart.interactive(&format!("run{}-waveform", tile.run));
     chart.finish()
+}
+
+/// The frequency up to which the envelope's spectrum is shown; `None` without a spectrum.
+fn top(tile: &SheetTile) -> Option<f64> {
+    let lines = tile.envelope.amplitude.len().saturating_sub(1);
+    let end = tile.envelope.df_hz * lines as f64;
+    let asked = match tile.top_hz > 0.0 {
+        true => tile.top_hz.min(end),
+        false => end,
+    };
+    (end.is_finite() && end > 0.0).then_some(asked)
+}
+
+fn envelope_domain(tile: &SheetTile) -> Domain {
+    let (spectrum, top) = (&tile.envelope, top(tile).unwrap_or(1.0));
+    let shown = spectrum.amplitude.iter().copied().enumerate().skip(1);
+    let shown = shown.take_while(|(k, _)| *k as f64 * spectrum.df_hz <= top);
+    Domain::from_zero(shown.map(|(_, level)| level))
 }
 
 fn envelope(report: &SheetReport, tile: &SheetTile) -> Picture {
     let spectrum = &tile.envelope;
-    let lines = &spectrum.amplitude;
-    let end = spectrum.df_hz * lines.len().saturating_sub(1) as f64;
-    let is_known = end.is_finite() && end > 0.0;
-    let top = match tile.top_hz > 0.0 {
-        true => tile.top_hz.min(end),
-        false => end,
-    };
-    let top = if is_known { top } else { 1.0 };
-    let shown = lines.iter().copied().enumerate().skip(1);
-    let shown = shown.take_while(|(k, _)| *k as f64 * spectrum.df_hz <= top);
+    let known = top(tile);
+    let top = known.unwrap_or(1.0);
     let mut chart = Chart::new(Spec {
-        y: Domain::from_zero(shown.map(|(_, level)| level)),
+        y: envelope_domain(tile),
         y_unit: report.unit.clone(),
         lanes: lanes(tile, top),
         ..spec("envelope", tile, Domain::exact(0.0, top), "Frequency", "Hz")
     });
-    if is_known {
-        chart.curve(0.0, spectrum.df_hz, lines, true, CURVE);
+    if known.is_some() {
+        chart.curve(0.0, spectrum.df_hz, &spectrum.amplitude, true, CURVE);
     } else {
         chart.say("No spectrum");
     }
+    chart.interactive(&format!("run{}-envelope", tile.run));
     chart.finish()
 }
 
@@ -323,7 +390,7 @@ mod tests {
         }
         assert_eq!(page.matches("<svg").count(), 4);
         // Without anything from elsewhere.
-        assert!(!page.contains("src=\"http") && !page.contains("<script"));
+        assert!(!page.contains("src=\"http"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::data::{Estimate, Fact, Report, Value};
+use crate::data::{Assumption, Estimate, Fact, Report, Value};
 use crate::frame::{none, section, unit_html};
 use crate::number::{significant, with_interval};
 use crate::picture::escape;
@@ -159,25 +159,45 @@ pub(crate) fn assumptions(page: &mut String, report: &Report) {
         "<p>{estimated} of {} values were assumed or estimated; the others were stated by the source named.</p>",
         report.assumptions.len()
     );
+    let part = |estimated: bool| {
+        report
+            .assumptions
+            .iter()
+            .filter(move |a| a.estimated == estimated)
+    };
+    if estimated > 0 {
+        values(page, part(true));
+    }
+    if estimated < report.assumptions.len() {
+        let _ = writeln!(
+            page,
+            "<details><summary>{} stated values</summary>",
+            report.assumptions.len() - estimated
+        );
+        values(page, part(false));
+        page.push_str("</details>\n");
+    }
+}
+
+fn values<'a>(page: &mut String, all: impl Iterator<Item = &'a Assumption>) {
     page.push_str(
-        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Key</th><th class=\"number\">Value</th><th>Unit</th><th></th>\
+        "<div class=\"scroll\"><table class=\"stack\"><thead><tr><th>Key</th><th class=\"number\">Value</th><th>Unit</th>\
          <th>Source or reason</th></tr></thead><tbody>\n",
     );
-    for assumption in &report.assumptions {
+    for assumption in all {
         let _ = write!(
             page,
             "<tr><th scope=\"row\"><code>{}</code></th>",
             escape(&assumption.key)
         );
         value_cells(page, &assumption.value, &assumption.unit);
-        let tag = if assumption.estimated {
-            "<span class=\"tag assumed\">assumed</span>"
-        } else {
-            "<span class=\"tag\">stated</span>"
+        let tag = match assumption.estimated {
+            true => "<span class=\"tag assumed\">assumed</span> ",
+            false => "",
         };
         let _ = writeln!(
             page,
-            "<td>{tag}</td><td class=\"note\">{}</td></tr>",
+            "<td class=\"note\">{tag}{}</td></tr>",
             escape(&assumption.source)
         );
     }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::frame::{close, figure, none, open, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::sweep::{IndicatorPlot, indicator_plot};
+use crate::sweep::{IndicatorPlot, embed, indicator_plot};
 use crate::tables::{Table, failures, table};
 
 /// Everything that the page of several signals shows.
@@ -56,6 +56,7 @@ pub fn trend_html(report: &TrendReport) -> String {
             let _ = writeln!(page, "<h3>{}</h3>", escape(&plot.label));
             let draw = |layout| indicator_plot(plot, layout);
             figure(page, &format!("trend{index}"), draw, "");
+            embed(page, plot);
         }
     });
     close(page, "", &[])

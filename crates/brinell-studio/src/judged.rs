@@ -94,9 +94,9 @@ pub(crate) fn judge(request: &Value, given: &Arrays, arrays: &mut Arrays) -> Ans
     let rate =
         rate.ok_or_else(|| Trouble::of("the sample rate is missing: the file does not state it"))?;
     let run = made_by(&file);
-    let options = options(request, run.as_ref())?;
-    let x = file.read(&name).map_err(|e| Trouble::of(e.to_string()))?;
     let unit = Unit::of(&unit);
+    let options = options(request, run.as_ref(), &unit)?;
+    let x = file.read(&name).map_err(|e| Trouble::of(e.to_string()))?;
     let x = unit.in_si(&x);
     let from_s = match (request["from_s"].as_f64(), &run) {
         (Some(from_s), _) => from_s,
@@ -133,7 +133,7 @@ fn positive(request: &Value, key: &str) -> Option<f64> {
 }
 
 /// What is known of a signal beside its samples: as requested, else of the run that made it.
-fn options(request: &Value, run: Option<&Scenario>) -> Answer<Options> {
+fn options(request: &Value, run: Option<&Scenario>, unit: &Unit) -> Answer<Options> {
     let asked = positive(request, "rpm");
     let turned = asked.or(run.and_then(rpm));
     let turned = turned.ok_or_else(|| Trouble::of("the speed of the shaft is missing, r/min"))?;
@@ -150,7 +150,9 @@ fn options(request: &Value, run: Option<&Scenario>) -> Answer<Options> {
     };
     let mut options = Options::new(turned / 60.0, orders);
     if let Some(run) = run {
-        options.silent = run.sensor.noise_rms().is_none();
+        // Of samples in SI.
+        let noise = unit.machine_noise() * unit.to_si;
+        options.silent = run.sensor.noise_rms().is_none().then_some(noise);
         options.exact = own.is_some() && rpm(run) == Some(turned);
     }
     Ok(options)

@@ -6,15 +6,17 @@ use crate::say::{bracketed, short};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
 use brinell_report::{
-    Fact, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
+    Fact, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, SweepReport, Table, Value,
 };
-use brinell_study::campaign::Row;
+use brinell_study::campaign::{Axis, Row};
 use std::collections::HashMap;
 
 /// Points and failures that the page lists; beyond that, the table is the place.
 const LISTED: usize = 1000;
 /// Lines of one picture; more go to further pictures.
 const LINES: usize = 12;
+/// Settings of each key from which on two keys make a map.
+const GRID: usize = 3;
 /// Pictures of one indicator; lines beyond them are in the tables alone.
 const PICTURES: usize = 4;
 
@@ -84,6 +86,10 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         plots: plots
             .iter()
             .flat_map(|name| pictures(points, standings, name))
+            .collect(),
+        maps: plots
+            .iter()
+            .filter_map(|name| map(points, standings, name))
             .collect(),
         failures: failures.take(LISTED).collect(),
         table: table(points, standings, plots),
@@ -176,6 +182,54 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
             lines: lines.to_vec(),
         })
         .collect()
+}
+
+/// An indicator over both keys of a grid; `None` where the sweep has not two axes of three settings or more.
+fn map(points: &Points, standings: &[Standing], name: &str) -> Option<HeatMap> {
+    let [first, second] = points.plan.axes() else {
+        return None;
+    };
+    if first.settings().len().min(second.settings().len()) < GRID {
+        return None;
+    }
+    let (x, _) = x_axis(points);
+    let (along, across) = match x {
+        0 => (first, second),
+        _ => (second, first),
+    };
+    let mut values = vec![f64::NAN; standings.len()];
+    let mut unit = "";
+    for (k, row) in standings.iter().enumerate() {
+        let Some(quantity) = complete(row).and_then(|row| row.quantity(name)) else {
+            continue;
+        };
+        let place = points.plan.place(k);
+        values[place[1 - x] * along.settings().len() + place[x]] =
+            quantity.value.unwrap_or(f64::NAN);
+        unit = if quantity.unit == "1" {
+            ""
+        } else {
+            &quantity.unit
+        };
+    }
+    let key = |axis: &Axis| {
+        let keys = axis.keys().iter().map(|key| match points.units.get(key) {
+            Some(unit) if !unit.is_empty() => format!("{key} ({unit})"),
+            _ => key.clone(),
+        });
+        keys.collect::<Vec<String>>().join(" with ")
+    };
+    let names = |axis: &Axis| axis.settings().iter().map(|s| s.join(" with ")).collect();
+    Some(HeatMap {
+        name: format!("{name}-map"),
+        label: words(name),
+        unit: unit.to_owned(),
+        x_label: key(along),
+        x_names: names(along),
+        y_label: key(across),
+        y_names: names(across),
+        values,
+    })
 }
 
 /// What a line's points have in common.

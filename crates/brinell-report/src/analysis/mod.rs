@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use crate::chart::{Chart, Domain, Lane, Spec, range};
 use crate::data::{Fact, Marker, Series, Spectrum};
-use crate::embedded;
+use crate::embedded::{self, Curve, Places};
 use crate::frame::{THINNED, close as finish, figure, open, plain, section};
 use crate::kurtogram::{Kurtogram, kurtogram};
 use crate::picture::{Paint, Picture, escape, ink};
@@ -138,38 +138,32 @@ fn draw(
     picture
 }
 
-/// What the page's script needs of a plot drawn by [`draw`]: its name there, the units of its axes, and so on.
+/// Writes what the page's script needs of a plot drawn by [`draw`]: `chart` without its curves.
 fn embed(
     page: &mut String,
-    (plot, x_unit, y_unit): (&str, &str, &str),
-    domain: Domain,
+    names: &[String],
     curves: &[(f64, f64, &[f64])],
-    lanes: (&[Lane], &[Lane]),
-    peak: bool,
-    band: Option<(f64, f64)>,
+    chart: embedded::Chart,
 ) {
-    let Some(((x0, dx, values), beside)) = curves.split_first() else {
-        return;
-    };
-    let order = drawing_order(curves, peak);
+    let order = drawing_order(curves, chart.peak);
     let drawn: Vec<usize> = (0..curves.len())
         .filter_map(|i| order.iter().position(|o| *o == i))
         .collect();
+    let named = names
+        .iter()
+        .map(String::as_str)
+        .chain(std::iter::repeat(""));
+    let curves: Vec<Curve> = (curves.iter().zip(named))
+        .map(|((x0, dx, values), name)| Curve {
+            name,
+            places: Places::Even(*x0, *dx),
+            values,
+        })
+        .collect();
     embedded::Chart {
-        name: plot,
-        x0: *x0,
-        dx: *dx,
-        values,
-        domain,
-        peak,
-        x_unit,
-        y_unit,
-        lanes: lanes.0,
-        toggles: lanes.1,
-        overview_scale: 1.0,
-        beside,
+        curves: &curves,
         drawn: &drawn,
-        band,
+        ..chart
     }
     .write(page);
 }
@@ -292,26 +286,32 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
             "A stretch from the middle, about ten periods of the strongest defect frequency long.",
         );
         let unit = report.waveforms.first().map_or("", |s| &s.unit);
-        let axes = ("close-up", close_up_unit(report).0, unit);
-        let domain = close_up_domain(report);
-        embed(
-            page,
-            axes,
-            domain,
-            &about_middle(report),
-            (&[], &[]),
-            false,
-            None,
-        );
+        let chart = embedded::Chart {
+            name: "close-up",
+            domain: close_up_domain(report),
+            x: ("Time", close_up_unit(report).0),
+            y: ("Signal", unit),
+            ..embedded::Chart::default()
+        };
+        embed(page, &report.names, &about_middle(report), chart);
     });
     let lanes = marker_lanes(&report.markers);
     let note = |spectra: &[Spectrum]| spectra.first().map_or(String::new(), |s| escape(&s.note));
     section(&mut page, "spectrum", "Spectrum", |page| {
         let draw = |layout| spectrum(report, layout);
         figure(page, "spectrum", draw, &note(&report.spectra));
-        let axes = ("spectrum", "Hz", unit_of(&report.spectra));
-        let (y, all) = (spectrum_domain(report), curves(&report.spectra));
-        embed(page, axes, y, &all, (&[], &lanes), true, report.band_hz);
+        let chart = embedded::Chart {
+            name: "spectrum",
+            domain: spectrum_domain(report),
+            peak: true,
+            x: ("Frequency", "Hz"),
+            y: axis_of(&report.spectra),
+            velocity: true,
+            toggles: &lanes,
+            band: report.band_hz,
+            ..embedded::Chart::default()
+        };
+        embed(page, &report.names, &curves(&report.spectra), chart);
     });
     if let Some(map) = &report.kurtogram {
         section(&mut page, "kurtogram", "Kurtogram", |page| {
@@ -322,9 +322,17 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
     section(&mut page, "envelope", "Envelope spectrum", |page| {
         let draw = |layout| envelope(report, layout);
         figure(page, "envelope", draw, &note(&report.envelopes));
-        let axes = ("envelope", "Hz", unit_of(&report.envelopes));
-        let (y, all) = (envelope_domain(report), curves(&report.envelopes));
-        embed(page, axes, y, &all, (&lanes, &lanes), true, None);
+        let chart = embedded::Chart {
+            name: "envelope",
+            domain: envelope_domain(report),
+            peak: true,
+            x: ("Frequency", "Hz"),
+            y: axis_of(&report.envelopes),
+            lanes: &lanes,
+            toggles: &lanes,
+            ..embedded::Chart::default()
+        };
+        embed(page, &report.names, &curves(&report.envelopes), chart);
     });
     for one in &report.tables {
         table(&mut page, one);
@@ -336,11 +344,12 @@ pub fn analysis_html(report: &AnalysisReport) -> String {
         }
         page.push_str("</ul>\n");
     });
-    finish(page, THINNED, &[include_str!("../page.js")])
+    finish(page, THINNED, &[])
 }
 
-fn unit_of(spectra: &[Spectrum]) -> &str {
-    spectra.first().map_or("", |s| &s.unit)
+/// Label and unit of the spectra's y axis.
+fn axis_of(spectra: &[Spectrum]) -> (&str, &str) {
+    spectra.first().map_or(("", ""), |s| (&s.label, &s.unit))
 }
 
 fn verdict(page: &mut String, report: &AnalysisReport) {

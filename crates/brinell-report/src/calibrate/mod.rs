@@ -5,11 +5,11 @@ mod plot;
 use std::fmt::Write as _;
 
 use crate::data::Fact;
-use crate::frame::{close, figure, none, open, scenario, section};
+use crate::frame::{close, figure, lead, none, open, scenario, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, fact_table, facts, failures, table};
-pub(crate) use plot::{course_plot, key_plot};
+use plot::{course_plot, embed_course, embed_key, key_plot};
 
 /// A run as the pictures show it.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +97,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
         (!report.met).then_some(("The targets are not met within the bounds.", "")),
     );
     page.push_str("<main>\n");
+    lead(&mut page, report.verdict.first().map_or("", String::as_str));
     facts(&mut page, &report.facts);
     section(&mut page, "outcome", "Outcome", |page| {
         sentences(page, &report.verdict);
@@ -117,6 +118,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
             let _ = writeln!(page, "<h3><code>{}</code></h3>", escape(&key.name));
             let draw = |layout| key_plot(report, index, layout);
             figure(page, &format!("key{index}"), draw, "");
+            embed_key(page, report, index);
         }
     });
     section(&mut page, "course", "Course of the search", |page| {
@@ -127,6 +129,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
             |layout| course_plot(report, layout),
             caption,
         );
+        embed_course(page, report);
     });
     table(&mut page, &report.directions);
     if report.keys.len() > 1 {

@@ -2,6 +2,7 @@
 
 use super::CalibrationReport;
 use crate::chart::{Chart, Domain, Spec};
+use crate::embedded::{self, Curve, Places};
 use crate::picture::{Paint, Picture, Shape, ink};
 use crate::plots::Layout;
 
@@ -86,7 +87,7 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
         Domain::exact(low - room, high + room)
     };
     let (y, floor) = misfits(report);
-    let name = format!("misfit-{}", about.name.replace('.', "-"));
+    let name = key_name(report, key);
     let title = format!("Chi-square over {}", about.name);
     let mut chart = Chart::new(spec(name, title, layout, x, y, (&about.name, &about.unit)));
     if let Some((from, to)) = about.interval {
@@ -117,7 +118,47 @@ pub(crate) fn key_plot(report: &CalibrationReport, key: usize, layout: Layout) -
     for (x, y) in alone {
         dot(&mut chart, x, y, true);
     }
+    chart.interactive(&key_name(report, key));
     chart.finish()
+}
+
+fn key_name(report: &CalibrationReport, key: usize) -> String {
+    format!("misfit-{}", report.keys[key].name.replace('.', "-"))
+}
+
+/// What the page's script needs to read the runs over a key.
+pub(crate) fn embed_key(page: &mut String, report: &CalibrationReport, key: usize) {
+    let about = &report.keys[key];
+    let place = |x: f64| if about.log { x.log10() } else { x };
+    let runs = (report.tried.iter()).map(|run| (place(run.values[key]), run.chi_square));
+    let x = (about.name.as_str(), about.unit.as_str());
+    embed(page, &key_name(report, key), x, about.log, runs.collect());
+}
+
+/// The same of the runs in their order.
+pub(crate) fn embed_course(page: &mut String, report: &CalibrationReport) {
+    let runs = report.tried.iter().enumerate();
+    let runs = runs.map(|(k, run)| ((k + 1) as f64, run.chi_square));
+    embed(page, "course", ("Run", ""), false, runs.collect());
+}
+
+fn embed(page: &mut String, name: &str, x: (&str, &str), x_log: bool, mut runs: Vec<(f64, f64)>) {
+    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (places, values): (Vec<f64>, Vec<f64>) = runs.into_iter().unzip();
+    embedded::Chart {
+        name,
+        curves: &[Curve {
+            name: "",
+            places: Places::Each(&places),
+            values: &values,
+        }],
+        x,
+        y: ("Chi-square", ""),
+        still: true,
+        x_log,
+        ..embedded::Chart::default()
+    }
+    .write(page);
 }
 
 /// Sum of squares of each run in its order, and the best so far.
@@ -143,5 +184,6 @@ pub(crate) fn course_plot(report: &CalibrationReport, layout: Layout) -> Picture
     if xs.len() > 1 {
         chart.points(&xs, &ys, Paint::line(ink::VERMILLION, 1.6));
     }
+    chart.interactive("course");
     chart.finish()
 }

@@ -6,7 +6,7 @@ mod lanes;
 mod shades;
 
 use crate::font;
-use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, ink};
+use crate::picture::{Anchor, Paint, Picture, Rect, Shape, Text, coordinate, escape, ink};
 pub(crate) use axis::{Domain, Scale, range};
 use axis::{axis_label, halves, ticks};
 pub(crate) use lanes::{LANE_HEIGHT, Lane, Mark};
@@ -210,6 +210,7 @@ impl Chart {
         }
         let label = axis_label(&self.spec.y_label, &self.spec.y_unit, y_power);
         let middle = 0.5 * (frame.top + frame.bottom);
+        self.picture.shapes.push(Shape::Open("label-y"));
         let mut line = |x: f64, text: &str| {
             self.picture
                 .text(Text::with_unit(x, middle, font, Anchor::Middle, text).upright());
@@ -221,6 +222,7 @@ impl Chart {
         } else {
             line(1.05 * font, &label);
         }
+        self.picture.shapes.push(Shape::Close);
     }
 
     /// Frame and lanes, over the curves.
@@ -232,7 +234,7 @@ impl Chart {
         self.picture
     }
 
-    /// Tells the page's script where the plot is.
+    /// Tells the page's script where the plot is; of an axis in decades, in their exponents.
     pub(crate) fn interactive(&mut self, plot: &str) {
         self.interactive_at(plot, 0.0);
     }
@@ -246,10 +248,13 @@ impl Chart {
             bottom,
         } = self.frame;
         let [l, t, r, b] = [left, upper + top, right, bottom + top].map(coordinate);
+        let Domain { lo, hi, log } = self.spec.x;
+        let [lo, hi] = [lo, hi].map(|x| if log { x.log10() } else { x });
         self.picture.attributes = format!(
-            " data-plot=\"{plot}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
-            self.spec.x.lo,
-            self.spec.x.hi,
+            " data-plot=\"{}\" data-frame=\"{l} {t} {r} {b}\" data-view=\"{} {}\" data-font=\"{}\" data-top=\"{}\"",
+            escape(plot),
+            lo,
+            hi,
             self.spec.size.font,
             coordinate(top)
         );

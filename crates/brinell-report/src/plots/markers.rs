@@ -57,3 +57,12 @@ pub(crate) fn marker_lanes(markers: &[Marker]) -> Vec<Lane> {
         })
         .collect()
 }
+
+/// The same of orders, which have no unit.
+pub(crate) fn order_lanes(markers: &[Marker]) -> Vec<Lane> {
+    let mut lanes = marker_lanes(markers);
+    for (lane, marker) in lanes.iter_mut().zip(usable(markers)) {
+        lane.value = significant(marker.frequency_hz, 4);
+    }
+    lanes
+}

@@ -20,10 +20,11 @@ use crate::spectrogram::spectrogram;
 pub use headline::{headline, headline_png};
 pub use layout::Layout;
 pub(crate) use layout::{legend, time_unit};
-pub(crate) use markers::marker_lanes;
+pub(crate) use markers::{marker_lanes, order_lanes};
 pub(crate) use pass::pass;
-pub(crate) use spectrum::envelope_domain;
-pub(crate) use spectrum::{envelope_spectrum, spectrum};
+pub(crate) use spectrum::{
+    envelope_domain, envelope_spectrum, order_domain, order_spectrum, spectrum,
+};
 pub(crate) use waveform::waveform;
 pub use waveform::{detail_window, overview};
 pub(crate) use waveform::{event_lanes, waveform_domain, waveform_unit};
@@ -36,6 +37,9 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
         spectrum(report, layout),
         envelope_spectrum(report, layout),
     ];
+    if !report.envelope_orders.amplitude.is_empty() {
+        pictures.push(order_spectrum(report, Layout::Wide));
+    }
     for (index, view) in report.damage.iter().enumerate() {
         pictures.extend(damage_photo(view, index, layout));
         pictures.push(damage_plan(view, index, layout));

@@ -1,16 +1,19 @@
 //! Amplitude spectrum and envelope spectrum.
 
 use super::layout::{CURVE, Layout, known, spacing};
-use super::markers::{marker_lanes, telling};
+use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
-use crate::data::{Report, Spectrum};
+use crate::data::{Marker, Report, Spectrum};
 use crate::picture::Picture;
 
 /// The frequency up to which the envelope spectrum is shown: all harmonics of the damage in the bearing.
 fn envelope_top(report: &Report) -> f64 {
-    let spectrum = &report.envelope_spectrum;
+    top(&report.envelope_spectrum, &report.markers)
+}
+
+fn top(spectrum: &Spectrum, markers: &[Marker]) -> f64 {
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
-    let top = telling(&report.markers)
+    let top = telling(markers)
         .iter()
         .map(|m| m.frequency_hz * (m.harmonics.clamp(1, 20) as f64 + 0.5))
         .fold(0.0, f64::max);
@@ -45,8 +48,38 @@ pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
 }
 
 pub(crate) fn envelope_domain(report: &Report) -> Domain {
-    let spectrum = &report.envelope_spectrum;
-    let top = envelope_top(report);
+    lines_domain(&report.envelope_spectrum, envelope_top(report))
+}
+
+pub(crate) fn order_domain(report: &Report) -> Domain {
+    let spectrum = &report.envelope_orders;
+    lines_domain(spectrum, top(spectrum, &report.order_markers))
+}
+
+/// The envelope over orders of the shaft, with the bearing's orders marked.
+pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
+    let spectrum = &report.envelope_orders;
+    let size = layout.size(if layout == Layout::Wide { 370.0 } else { 330.0 });
+    let spec = Spec {
+        x_label: "Order of the shaft".into(),
+        x_unit: String::new(),
+        ..spectrum_spec(
+            "envelope-orders",
+            format!("Envelope orders: {}", spectrum.label),
+            spectrum,
+            size,
+            top(spectrum, &report.order_markers),
+            order_domain(report),
+            order_lanes(&report.order_markers),
+        )
+    };
+    let mut chart = Chart::new(spec);
+    draw_spectrum(&mut chart, spectrum);
+    chart.interactive("orders");
+    chart.finish()
+}
+
+fn lines_domain(spectrum: &Spectrum, top: f64) -> Domain {
     // The line at 0 Hz is the envelope's mean and says nothing about damage.
     let shown =
         ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));

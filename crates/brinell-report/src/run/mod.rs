@@ -1,7 +1,9 @@
 //! From a run's results to the report's data: names, units and notes for people.
 
 mod contacts;
+mod lead;
 mod motion;
+mod orders;
 mod sensor;
 mod signals;
 mod tables;
@@ -27,12 +29,14 @@ impl Report {
 fn report(parts: &Parts) -> Report {
     let scenario = &parts.loaded.scenario;
     let (damage, undrawn_damage) = match crate::defects::damage_of(scenario, None) {
-        Ok(all) => (all.into_iter().map(|d| d.view).collect(), None),
+        Ok(all) => (all, None),
         Err(error) => (Vec::new(), Some(error.to_string())),
     };
+    let (envelope_orders, order_markers) = orders::orders(parts);
     Report {
         title: scenario.name.clone(),
         subtitle: subtitle(scenario),
+        lead: lead::lead(parts, &damage),
         version: brinell::VERSION.to_owned(),
         partial: match &parts.outcome.end {
             End::Complete => None,
@@ -45,8 +49,10 @@ fn report(parts: &Parts) -> Report {
         spectrum: spectrum(parts),
         spectrogram: spectrogram(parts, sensor_label(parts)),
         envelope_spectrum: envelope_spectrum(parts),
+        envelope_orders,
+        order_markers,
         markers: defect_markers(scenario, parts.simulation.model()),
-        damage,
+        damage: damage.into_iter().map(|d| d.view).collect(),
         undrawn_damage,
         passes: parts
             .findings

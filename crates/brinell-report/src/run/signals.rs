@@ -15,7 +15,7 @@ use brinell::summary::Parts;
 use std::f64::consts::TAU;
 
 /// Harmonics of a defect frequency that are marked.
-const HARMONICS: usize = 5;
+pub(super) const HARMONICS: usize = 5;
 /// Indicators that the table shows.
 const COLUMNS: [(Indicator, &str); 5] = [
     (Indicator::Rms, "RMS"),
@@ -101,7 +101,8 @@ pub(super) fn envelope_spectrum(parts: &Parts) -> Spectrum {
             1e-3 * band.high,
             match parts.loaded.scenario.operation.speed_rpm {
                 Speed::Constant(_) => "",
-                Speed::Profile(_) => " The speed varies, so no defect frequency is a line here.",
+                Speed::Profile(_) =>
+                    " The speed varies, so no defect frequency is a line here; below, over orders, it is.",
             }
         ),
     }
@@ -112,14 +113,19 @@ pub fn defect_markers(scenario: &Scenario, model: &Model) -> Vec<Marker> {
     let Speed::Constant(_) = scenario.operation.speed_rpm else {
         return Vec::new();
     };
-    let k: Kinematics = model.kinematics(model.rotation.at(0.0).0);
+    markers_at(scenario, model, model.rotation.at(0.0).0)
+}
+
+/// Defect frequencies at a speed of the shaft, rad/s.
+pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<Marker> {
+    let k: Kinematics = model.kinematics(speed);
     let damaged: Vec<&str> = scenario
         .defects
         .iter()
         .map(|d| k.struck_by(d.on).0)
         .collect();
     // Strikes first, then what modulates them.
-    let shaft = model.rotation.at(0.0).0.abs() / TAU;
+    let shaft = speed.abs() / TAU;
     ["BPFO", "BPFI", "2 BSF", "FTF", "shaft"]
         .into_iter()
         .filter_map(|name| k.table(shaft).into_iter().find(|row| row.0 == name))

@@ -66,7 +66,8 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             ),
             None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
         };
-        facts.push(Fact::new(line.name, crate::Value::Text(value), "Hz", note));
+        let unit = line.found.map_or("", |_| "Hz");
+        facts.push(Fact::new(line.name, crate::Value::Text(value), unit, note));
     }
     if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(

@@ -5,12 +5,12 @@ mod overlay;
 use std::fmt::Write as _;
 
 use crate::data::{Fact, Marker};
-use crate::frame::{THINNED, close, figure, none, open, plain};
+use crate::frame::{THINNED, close, figure, lead, none, open, plain};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
 use crate::tables::{Table, facts, table};
 pub use overlay::overlay;
-pub(crate) use overlay::stacked;
+pub(crate) use overlay::{embed, stacked};
 
 /// Where the values of a curve are.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,6 +134,10 @@ pub fn side_by_side_html(report: &SideBySide) -> String {
         plain(&report.warnings),
     );
     page.push_str("<main>\n");
+    lead(
+        &mut page,
+        &report.facts.first().map_or(String::new(), Fact::words),
+    );
     facts(&mut page, &report.facts);
     let mut count = 0;
     for part in &report.parts {
@@ -158,6 +162,7 @@ pub fn side_by_side_html(report: &SideBySide) -> String {
                         draw,
                         &escape(&one.note),
                     );
+                    embed(&mut page, one, &report.names);
                 }
                 Piece::Table(one) => table(&mut page, one),
                 Piece::Words(words) => none(&mut page, &escape(words)),

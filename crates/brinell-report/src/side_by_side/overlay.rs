@@ -2,6 +2,7 @@
 
 use super::{Along, OverlaidCurve, Overlay, Vertical};
 use crate::chart::{Chart, Domain, Spec, range};
+use crate::embedded::{self, Curve, Places};
 use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Text, ink};
 use crate::plots::{Layout, legend, marker_lanes};
@@ -51,6 +52,57 @@ pub fn overlay(overlay: &Overlay, names: &[String], layout: Layout) -> Picture {
     plot(overlay, names, layout, height, None)
 }
 
+/// Values of a curve that the page keeps for zooming.
+const KEPT: usize = 8192;
+
+/// What the page's script needs of it.
+pub(crate) fn embed(page: &mut String, overlay: &Overlay, names: &[String]) {
+    let curves: Vec<Curve> = (overlay.curves.iter())
+        .map(|curve| Curve {
+            name: names.get(curve.of).map_or("", String::as_str),
+            places: match &curve.along {
+                Along::Even { first, step } => Places::Even(*first, *step),
+                Along::At(places) => Places::Each(places),
+            },
+            values: &curve.values,
+        })
+        .collect();
+    let lanes = marker_lanes(&overlay.markers);
+    embedded::Chart {
+        name: &overlay.name,
+        curves: &curves,
+        domain: domains(overlay, None).1,
+        peak: overlay.vertical != Vertical::Around,
+        x: (&overlay.x_label, &overlay.x_unit),
+        y: (&overlay.y_label, &overlay.y_unit),
+        velocity: overlay.vertical == Vertical::Decades && overlay.x_unit == "Hz",
+        lanes: &lanes,
+        toggles: &lanes,
+        most: KEPT,
+        ..embedded::Chart::default()
+    }
+    .write(page);
+}
+
+/// Both axes; the upright one holds `common` too.
+fn domains(overlay: &Overlay, common: Option<&[f64]>) -> (Domain, Domain) {
+    let (lo, hi) = overlay
+        .x_range
+        .unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
+    let values: Vec<f64> = overlay
+        .curves
+        .iter()
+        .flat_map(|curve| shown(curve, (lo, hi)))
+        .chain(common.unwrap_or(&[]).iter().copied())
+        .collect();
+    let y = match overlay.vertical {
+        Vertical::Around => Domain::around(values),
+        Vertical::FromZero => Domain::from_zero(values),
+        Vertical::Decades => Domain::decades(&values),
+    };
+    (Domain::exact(lo, hi), y)
+}
+
 /// Plots one below the other, each under its title, with the same axes for all where `alike`. A panel of one curve needs no legend.
 pub(crate) fn stacked(
     name: &str,
@@ -98,26 +150,14 @@ fn plot(
     height: f64,
     common: Option<&[f64]>,
 ) -> Picture {
-    let (lo, hi) = overlay
-        .x_range
-        .unwrap_or_else(|| range(overlay.curves.iter().flat_map(ends)).unwrap_or((0.0, 1.0)));
-    let values: Vec<f64> = overlay
-        .curves
-        .iter()
-        .flat_map(|curve| shown(curve, (lo, hi)))
-        .chain(common.unwrap_or(&[]).iter().copied())
-        .collect();
+    let (x, y) = domains(overlay, common);
     let lanes = marker_lanes(&overlay.markers);
     let spec = Spec {
         name: overlay.name.clone(),
         title: format!("{} over {}", overlay.y_label, overlay.x_label),
         size: layout.size(height + 16.0 * lanes.len() as f64),
-        x: Domain::exact(lo, hi),
-        y: match overlay.vertical {
-            Vertical::Around => Domain::around(values.iter().copied()),
-            Vertical::FromZero => Domain::from_zero(values.iter().copied()),
-            Vertical::Decades => Domain::decades(&values),
-        },
+        x,
+        y,
         x_label: overlay.x_label.clone(),
         x_unit: overlay.x_unit.clone(),
         y_label: overlay.y_label.clone(),
@@ -129,6 +169,7 @@ fn plot(
     };
     let (name, title, size) = (spec.name.clone(), spec.title.clone(), spec.size);
     let mut chart = Chart::new(spec);
+    let values = overlay.curves.iter().flat_map(|c| shown(c, (x.lo, x.hi)));
     if range(values).is_none() {
         chart.say("Nothing to show");
     }
@@ -143,7 +184,6 @@ fn plot(
             Along::At(places) => chart.points(places, &curve.values, paint),
         }
     }
-    let drawn = chart.finish();
     let entries: Vec<(&str, Paint)> = names
         .iter()
         .enumerate()
@@ -157,6 +197,9 @@ fn plot(
         _ => legend(&mut picture, &entries, 12.0, width - 12.0, 2.0, size.font),
     };
     picture.height = top + size.height;
+    chart.interactive_at(&name, top);
+    let drawn = chart.finish();
+    picture.attributes.clone_from(&drawn.attributes);
     picture.place(drawn, 0.0, top);
     picture
 }

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use crate::damage::{DamageView, damage_plan};
 use crate::data::Fact;
-use crate::frame::{close, figure, none, open, plain, section};
+use crate::frame::{close, figure, lead, none, open, plain, section};
 use crate::picture::{Picture, escape};
 use crate::plots::Layout;
-use crate::side_by_side::{Overlay, overlay, stacked};
-use crate::sweep::{IndicatorPlot, indicator_plot};
+use crate::side_by_side::{Overlay, embed, overlay, stacked};
+use crate::sweep::{self, IndicatorPlot, indicator_plot};
 use crate::tables::{Table, facts, table};
 
 /// How a verdict is coloured.
@@ -181,6 +181,10 @@ pub fn study_html(study: &Study) -> String {
         );
     }
     page.push_str("</ul></nav>\n<main>\n");
+    lead(
+        &mut page,
+        &study.facts.first().map_or(String::new(), Fact::words),
+    );
     facts(&mut page, &study.facts);
     let mut count = 0;
     for chapter in &study.chapters {
@@ -216,6 +220,11 @@ fn write_piece(page: &mut String, piece: &StudyPiece, count: usize) {
     }
     let draw = |layout| draw(piece, layout).unwrap_or_else(|| Picture::new("", "", 0.0, 0.0));
     figure(page, &format!("study{count}"), draw, &caption);
+    match piece {
+        StudyPiece::Curves(one, names) => embed(page, one, names),
+        StudyPiece::Trend(plot) => sweep::embed(page, plot),
+        _ => {}
+    }
 }
 
 fn tag(tagged: &Tagged) -> String {

@@ -1,7 +1,8 @@
 //! One indicator against a key: a line for each value of the other keys, with intervals.
 
 use super::{IndicatorLine, IndicatorPlot, IndicatorPoint};
-use crate::chart::{Chart, Domain, Spec, range};
+use crate::chart::{Chart, Domain, Size, Spec, range};
+use crate::embedded::{self, Curve, Places};
 use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
@@ -34,37 +35,14 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
     if named {
         size.height -= axis_room;
     }
-    let points = || plot.lines.iter().flat_map(|line| &line.points);
-    let heights = points().flat_map(|p| {
-        let (low, high) = p.interval.unwrap_or((p.value, p.value));
-        [p.value, low, high]
-    });
-    let x = if named {
-        Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
-    } else {
-        Domain::around(points().map(|p| p.x))
-    };
-    let spec = Spec {
-        name: plot.name.clone(),
-        title: format!("{} over {}", plot.label, plot.x_label),
-        size,
-        x,
-        y: y_domain(heights),
-        x_label: plot.x_label.clone(),
-        x_unit: plot.x_unit.clone(),
-        y_label: plot.label.clone(),
-        y_unit: plot.unit.clone(),
-        lanes: vec![],
-        left: 0.0,
-        right: 0.0,
-        x_axis: !named,
-    };
+    let spec = spec(plot, size);
     let (name, title) = (spec.name.clone(), spec.title.clone());
     let mut chart = Chart::new(spec);
     if named {
         name_x(&mut chart, plot, size.font);
     }
-    if range(points().map(|p| p.value)).is_none() {
+    let mut points = plot.lines.iter().flat_map(|line| &line.points);
+    if points.all(|p| !p.value.is_finite()) {
         chart.say("No point has a value");
     }
     let count = plot.lines.len();
@@ -73,12 +51,16 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         let beside = (k as f64 - 0.5 * (count as f64 - 1.0)) * step;
         draw(&mut chart, line, paint(k), beside, !named || plot.ordered);
     }
-    let mut drawn = chart.finish();
-    if named {
-        drawn.height += axis_room;
-    }
+    let finish = |mut chart: Chart, top: f64| {
+        chart.interactive_at(&plot.name, top);
+        let mut drawn = chart.finish();
+        if named {
+            drawn.height += axis_room;
+        }
+        drawn
+    };
     if count < 2 {
-        return drawn;
+        return finish(chart, 0.0);
     }
     let entries: Vec<(&str, Paint)> = plot
         .lines
@@ -101,9 +83,69 @@ pub(crate) fn indicator_plot(plot: &IndicatorPlot, layout: Layout) -> Picture {
         top += 1.6 * size.font;
     }
     top += legend(&mut picture, &entries, 12.0, width - 12.0, top, size.font);
+    let drawn = finish(chart, top);
     picture.height = top + drawn.height;
+    picture.attributes.clone_from(&drawn.attributes);
     picture.place(drawn, 0.0, top);
     picture
+}
+
+/// What the page's script needs to read it out.
+pub(crate) fn embed(page: &mut String, plot: &IndicatorPlot) {
+    let columns = |line: &IndicatorLine| {
+        let points = line.points.iter();
+        points
+            .map(|p| (p.x, p.value))
+            .unzip::<f64, f64, Vec<f64>, Vec<f64>>()
+    };
+    let lines: Vec<(Vec<f64>, Vec<f64>)> = plot.lines.iter().map(columns).collect();
+    let curves: Vec<Curve> = (plot.lines.iter().zip(&lines))
+        .map(|(line, (places, values))| Curve {
+            name: &line.label,
+            places: Places::Each(places),
+            values,
+        })
+        .collect();
+    embedded::Chart {
+        name: &plot.name,
+        curves: &curves,
+        x: (&plot.x_label, &plot.x_unit),
+        y: (&plot.label, &plot.unit),
+        still: true,
+        x_names: &plot.x_names,
+        ..embedded::Chart::default()
+    }
+    .write(page);
+}
+
+/// Its axes.
+fn spec(plot: &IndicatorPlot, size: Size) -> Spec {
+    let named = !plot.x_names.is_empty();
+    let points = || plot.lines.iter().flat_map(|line| &line.points);
+    let heights = points().flat_map(|p| {
+        let (low, high) = p.interval.unwrap_or((p.value, p.value));
+        [p.value, low, high]
+    });
+    let x = if named {
+        Domain::exact(-0.5, plot.x_names.len() as f64 - 0.5)
+    } else {
+        Domain::around(points().map(|p| p.x))
+    };
+    Spec {
+        name: plot.name.clone(),
+        title: format!("{} over {}", plot.label, plot.x_label),
+        size,
+        x,
+        y: y_domain(heights),
+        x_label: plot.x_label.clone(),
+        x_unit: plot.x_unit.clone(),
+        y_label: plot.label.clone(),
+        y_unit: plot.unit.clone(),
+        lanes: vec![],
+        left: 0.0,
+        right: 0.0,
+        x_axis: !named,
+    }
 }
 
 /// From zero where the values come near it, and otherwise around them: a sweep is about differences.

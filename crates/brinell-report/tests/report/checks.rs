@@ -17,10 +17,10 @@ pub(crate) fn check(page: &str) {
         ">Cage orbit</h2>",
         ">Indicators</h2>",
         ">Slip</h2>",
-        ">Audits</h2>",
-        ">Solver work</h2>",
         ">Assumptions</h2>",
-        ">Scenario</h2>",
+        ">Appendix: audits</h2>",
+        ">Appendix: solver work</h2>",
+        ">Appendix: scenario</h2>",
     ] {
         let at = page[from..].find(heading);
         from += at.unwrap_or_else(|| panic!("{heading} is missing or out of order"));

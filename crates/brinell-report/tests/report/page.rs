@@ -3,7 +3,8 @@
 use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
 use brinell_report::{
-    Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution, overview,
+    Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution,
+    overview,
 };
 use proptest::prelude::*;
 
@@ -25,6 +26,32 @@ fn regress_an_ordinary_page_is_whole_and_small() {
         page.matches("class=\"narrow\"").count()
     );
     assert_eq!(page.matches("data-chart=").count(), 3);
+}
+
+/// The result stands before everything; what was assumed before what was stated, which is folded; over orders only where the speed varies.
+#[test]
+fn regress_the_result_comes_first_and_assumptions_before_statements() {
+    let mut report = ordinary();
+    assert!(!html(&report).contains("<p class=\"lead\">"));
+    assert!(!html(&report).contains("id=\"orders\""));
+    report.lead = "3 × 4 mm defect <b>".into();
+    let one = |key: &str, estimated| Assumption {
+        key: key.into(),
+        value: "1".into(),
+        unit: String::new(),
+        source: String::new(),
+        estimated,
+    };
+    report.assumptions = vec![one("stated.key", false), one("assumed.key", true)];
+    report.envelope_orders = report.envelope_spectrum.clone();
+    report.order_markers = report.markers.clone();
+    let page = html(&report);
+    check(&page);
+    let at = |words: &str| page.find(words).unwrap_or_else(|| panic!("{words}"));
+    assert!(at("<p class=\"lead\">3 × 4 mm defect &lt;b&gt;") < at("id=\"waveform\""));
+    assert!(at("<code>assumed.key") < at("<summary>1 stated values"));
+    assert!(at("<summary>1 stated values") < at("<code>stated.key"));
+    assert!(at("data-chart=\"orders\"") < at("id=\"spectrogram\""));
 }
 
 #[test]

@@ -153,6 +153,15 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
         note: text.into(),
     };
     Report {
+        lead: text.into(),
+        envelope_orders: spectrum(),
+        order_markers: vec![Marker {
+            label: text.into(),
+            meaning: text.into(),
+            frequency_hz: frequency,
+            harmonics: 5,
+            present: true,
+        }],
         title: text.into(),
         subtitle: text.into(),
         version: text.into(),

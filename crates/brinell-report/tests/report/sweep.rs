@@ -1,7 +1,7 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part,
+    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part,
     Piece, SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html,
     sweep_pictures,
 };
@@ -124,6 +124,54 @@ fn regress_an_overlay_names_the_runs_that_it_shows() {
     assert!(svg.contains(">actual<") && svg.contains(">simple<") && !svg.contains(">unseen<"));
     let page = side_by_side_html(&report);
     assert!(page.contains("That is all.") && page.contains("<h2>Spectrum</h2>"));
+}
+
+#[test]
+fn regress_an_overlay_is_read_out_with_the_names_of_its_runs() {
+    let mut report = overlaid(Vertical::FromZero, vec![1.0, 2.0, f64::NAN, 4.0]);
+    let page = side_by_side_html(&report);
+    for part in [
+        "data-plot=\"spectrum\"",
+        "data-chart=\"spectrum\"",
+        "\"name\":\"actual\"",
+        "\"name\":\"simple\",\"places\":",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    // Places that go back and forth are no axis: such a plot is drawn, and not read out.
+    let Piece::Overlay(overlay) = &mut report.parts[0].pieces[0] else {
+        unreachable!("the sample begins with an overlay");
+    };
+    overlay.curves[1].along = Along::At(vec![0.0, 2.0, 1.0, 3.0]);
+    assert!(!side_by_side_html(&report).contains("data-chart="));
+}
+
+#[test]
+fn regress_two_keys_make_a_map_and_the_page_begins_with_the_ends() {
+    let report = SweepReport {
+        plots: vec![plot(
+            vec![point(1000.0, 3.0, None), point(2000.0, 5.0, None)],
+            &[],
+        )],
+        maps: vec![HeatMap {
+            name: "map".into(),
+            label: "RMS <of>".into(),
+            x_names: vec!["1000".into(), "2000".into()],
+            y_names: vec!["5".into()],
+            values: vec![3.0, 5.0],
+            ..HeatMap::default()
+        }],
+        ..SweepReport::default()
+    };
+    let page = sweep_html(&report);
+    for part in [
+        "RMS of sensor_ax: from 3 m/s² (operation.speed_rpm = 1000) to 5 m/s² (operation.speed_rpm = 2000).",
+        "Over both keys",
+        "RMS &lt;of&gt;",
+        "data-name=\"map\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
 }
 
 #[test]

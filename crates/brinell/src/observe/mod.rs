@@ -221,6 +221,8 @@ impl Watch {
         let load = model.load.full;
         let duration = scenario.simulation.duration_s;
         let band = envelope_band(model, sample_rate);
+        let rolling = model.kinematics(model.rotation.max_speed());
+        let periods = [rolling.bpfo, rolling.bpfi].map(|hz| sample_rate / hz.abs());
         // One segment where the run is short, for resolution; the longest allowed otherwise.
         let expected = (0.75 * simulation.samples() as f64).min(LONGEST_SEGMENT as f64) as usize;
         let segment = (expected / 2 * 2).max(8);
@@ -248,7 +250,7 @@ impl Watch {
             passes: Passes::new(model),
             rates: PassRates::new(model),
             waveform: Waveform::new(),
-            spectrogram: TimeFrequency::new(sample_rate, simulation.samples()),
+            spectrogram: TimeFrequency::new(sample_rate, simulation.samples(), periods),
             spectra: StreamSpectra::new(sample_rate, segment, band, &searches),
             band,
             lines,

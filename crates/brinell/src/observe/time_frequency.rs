@@ -8,8 +8,13 @@ use std::sync::Arc;
 /// Frames kept, at most.
 #[doc(hidden)]
 pub const FRAMES: usize = 400;
-/// Samples of a segment, least and most.
+/// Samples of a segment, least and most; the most that ball-pass periods may ask for.
 const SEGMENT: [usize; 2] = [64, 1024];
+const LONGEST: usize = 4096;
+/// Ball-pass periods in a segment from which on a Hann window's energy no longer follows their phase.
+const PERIODS: f64 = 3.0;
+/// Segments that begin within a ball-pass period where each pass is resolved.
+const WITHIN: f64 = 4.0;
 
 /// A spectrogram on its way: Hann windows that overlap by half, as in [`crate::signal::spectrogram()`].
 pub(crate) struct TimeFrequency {
@@ -30,12 +35,9 @@ pub(crate) struct TimeFrequency {
 }
 
 impl TimeFrequency {
-    /// For about `samples` samples: bins and frames in equal number.
-    pub(crate) fn new(sample_rate: f64, samples: u64) -> Self {
-        let length = ((samples.max(1) as f64).sqrt() as usize)
-            .next_power_of_two()
-            .clamp(SEGMENT[0], SEGMENT[1]);
-        Self::with_length(sample_rate, length)
+    /// For about `samples` samples, with ball-pass periods of so many samples, the longest first.
+    pub(crate) fn new(sample_rate: f64, samples: u64, periods: [f64; 2]) -> Self {
+        Self::with_length(sample_rate, segment(samples, periods))
     }
 
     fn with_length(sample_rate: f64, length: usize) -> Self {
@@ -135,6 +137,25 @@ impl TimeFrequency {
     }
 }
 
+/// Samples of a segment: about as many bins as frames, moved to where frames do not beat with the ball-pass period. Either a segment holds
+/// several periods, or frames follow each other quickly enough to show each pass. Without such a length, bins as many as frames.
+fn segment(samples: u64, [longest, shortest]: [f64; 2]) -> usize {
+    let even = ((samples.max(1) as f64).sqrt() as usize)
+        .next_power_of_two()
+        .clamp(SEGMENT[0], SEGMENT[1]);
+    let clear = |length: &usize| {
+        let hop = (length / 2) as f64;
+        let resolved = WITHIN * hop <= shortest && samples as f64 / hop <= FRAMES as f64;
+        resolved || *length as f64 >= PERIODS * longest
+    };
+    let lengths = (0..).map(|k| SEGMENT[0] << k);
+    lengths
+        .take_while(|length| *length <= LONGEST && *length as u64 <= samples.max(1))
+        .filter(clear)
+        .min_by_key(|length| length.ilog2().abs_diff(even.ilog2()))
+        .unwrap_or(even)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,5 +194,30 @@ mod tests {
         assert_eq!(stream.sums.capacity(), room);
         assert!(stream.finish().is_some_and(|s| s.frames() <= FRAMES));
         assert!(TimeFrequency::new(1000.0, 10).finish().is_none());
+    }
+
+    /// Impacts once a ball-pass period are steady: so are the frames, whatever the period.
+    #[test]
+    fn prop_frames_do_not_beat_with_the_ball_pass_period() {
+        for (samples, period) in [(40_000_u64, 205.3), (100_000, 97.1), (20_000, 331.7)] {
+            let length = segment(samples, [period, 0.7 * period]);
+            let mut view = TimeFrequency::with_length(1.0, length);
+            for k in 0..samples {
+                let since = k as f64 % period;
+                view.push((-0.1 * since).exp() * (0.9 * since).sin());
+            }
+            let view = view.finish().unwrap();
+            let frames = view.density.chunks(view.bins);
+            let powers: Vec<f64> = frames.map(|frame| frame.iter().sum()).collect();
+            let mean = powers.iter().sum::<f64>() / powers.len() as f64;
+            // The window's side lobes, and impacts that fall between samples.
+            let most = powers
+                .iter()
+                .fold(0.0, |m: f64, p| m.max((p / mean - 1.0).abs()));
+            assert!(most < 0.02, "{samples} {period} {length}: {most}");
+        }
+        // Slow passes in a short run are resolved one by one.
+        assert!(segment(10_000, [2000.0, 1500.0]) <= 512);
+        assert_eq!(segment(1_000_000, [1e9, 1e9]), SEGMENT[1]);
     }
 }

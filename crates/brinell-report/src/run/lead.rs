@@ -1,0 +1,54 @@
+//! The run's result in a sentence.
+
+use super::axis;
+use crate::defects::Damage;
+use crate::number::short;
+use brinell::model::Model;
+use brinell::observe::Kind;
+use brinell::scenario::Surface;
+use brinell::signal::Indicator;
+use brinell::summary::Parts;
+
+/// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS; BPFO found at 248.9 Hz".
+pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {
+    let model = parts.simulation.model();
+    let name = format!("sensor_a{}", axis(parts));
+    let channels = &parts.findings.channels;
+    let rms = (channels.iter())
+        .find(|c| c.name == name && c.kind == Kind::AntiAliased)
+        .and_then(|c| c.blocks.estimate(Indicator::Rms));
+    let mut said = Vec::new();
+    if let Some(rms) = rms {
+        said.push(format!("{} m/s² RMS", short(rms.value, 3)));
+    }
+    for line in &parts.findings.lines {
+        let words = match line.found {
+            Some(found) => format!("{} found at {:.1} Hz", line.name, found.frequency),
+            None => format!("{} not found ({:.1} Hz expected)", line.name, line.nominal),
+        };
+        if !said.contains(&words) {
+            said.push(words);
+        }
+    }
+    match said.len() {
+        0 => String::new(),
+        _ => format!("{}: {}.", what(model, damage), said.join("; ")),
+    }
+}
+
+fn what(model: &Model, damage: &[Damage]) -> String {
+    match (&model.defects[..], damage) {
+        ([], _) => "Healthy bearing".into(),
+        ([defect], [one]) => {
+            let place = match defect.surface {
+                Surface::OuterRaceway => "outer race".to_owned(),
+                Surface::InnerRaceway => "inner race".to_owned(),
+                Surface::Roller(k) => format!("{} {}", defect.element.word(), k),
+            };
+            let [length, width] =
+                [one.measures.length_mm, one.measures.widest_mm].map(|mm| short(mm, 2));
+            format!("{length} × {width} mm defect, {place}")
+        }
+        (all, _) => format!("{} defects", all.len()),
+    }
+}
