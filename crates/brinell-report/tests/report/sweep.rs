@@ -1,9 +1,9 @@
 //! The pages of a sweep and of runs side by side: what is in them, whatever the data.
 
 use brinell_report::{
-    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay, Part,
-    Piece, SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures, sweep_html,
-    sweep_pictures,
+    Along, HeatMap, IndicatorLine, IndicatorPlot, IndicatorPoint, Layout, OverlaidCurve, Overlay,
+    Part, Piece, SideBySide, SweepReport, Vertical, side_by_side_html, side_by_side_pictures,
+    sweep_html, sweep_pictures,
 };
 
 fn point(x: f64, value: f64, interval: Option<(f64, f64)>) -> IndicatorPoint {

@@ -193,7 +193,11 @@ mod tests {
         (0..1_000_000_u32).for_each(|k| stream.push(f64::from(k % 7)));
         assert_eq!(stream.sums.capacity(), room);
         assert!(stream.finish().is_some_and(|s| s.frames() <= FRAMES));
-        assert!(TimeFrequency::new(1000.0, 10).finish().is_none());
+        assert!(
+            TimeFrequency::new(1000.0, 10, [100.0, 60.0])
+                .finish()
+                .is_none()
+        );
     }
 
     /// Impacts once a ball-pass period are steady: so are the frames, whatever the period.

@@ -9,7 +9,6 @@ mod unit;
 use crate::failure::Failure;
 use brinell::analysis::Unit;
 use brinell::document::{Loaded, read};
-use brinell::scenario::Speed;
 use brinell_io::{Channel, FileKind, IoError, SignalFile, open};
 use channel::{Chosen, channel};
 use rate::rate;
