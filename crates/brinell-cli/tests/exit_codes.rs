@@ -448,6 +448,7 @@ mod interrupted {
                 "scenario.toml",
                 "signals.csv",
                 "signals.parquet",
+                "spectra.parquet",
                 "summary.json"
             ]
         );

@@ -139,8 +139,13 @@ fn prop_no_name_of_a_file_leads_out_of_the_folder() {
         let mut there = files(folder.path());
         there.retain(|file| !own.contains(file));
         let one = |stem: &str| {
-            ["scenario.toml", "signals.parquet", "summary.json"]
-                .map(|file| format!("m/deep/{stem}/{file}"))
+            [
+                "scenario.toml",
+                "signals.parquet",
+                "spectra.parquet",
+                "summary.json",
+            ]
+            .map(|file| format!("m/deep/{stem}/{file}"))
         };
         assert_eq!(there, [one("a"), one("run")].concat());
     }

@@ -62,6 +62,7 @@ fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
         "plots/own.svg",
         "scenario.toml",
         "signals.parquet",
+        "spectra.parquet",
         "summary.json",
     ];
     assert_eq!(files(&output), expected);
@@ -107,7 +108,12 @@ fn regress_results_of_another_scenario_are_refused_or_replaced_as_a_whole() {
         .keeps_quiet();
     assert_eq!(
         files(&here.join("o")),
-        ["scenario.toml", "signals.parquet", "summary.json"]
+        [
+            "scenario.toml",
+            "signals.parquet",
+            "spectra.parquet",
+            "summary.json"
+        ]
     );
     assert!(text(here, "o/scenario.toml").contains("depth_um = 5.0"));
 }
@@ -132,6 +138,7 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
     summary["files"] = serde_json::json!([
         "scenario.toml",
         "signals.parquet",
+        "spectra.parquet",
         "summary.json",
         "thesis.txt",
         "../a.toml",
@@ -146,12 +153,14 @@ fn regress_files_that_no_summary_lists_are_neither_removed_nor_taken_for_results
         [
             "scenario.toml",
             "signals.parquet",
+            "spectra.parquet",
             "summary.json",
             "thesis.txt"
         ]
     );
     assert!(here.join("a.toml").exists() && here.join("b.toml").exists());
-    // As written before summaries listed files.
+    // As written before summaries listed files, and before there were spectra.
+    fs::remove_file(here.join("o/spectra.parquet")).unwrap();
     summary.as_object_mut().unwrap().remove("files");
     fs::write(here.join("o/summary.json"), summary.to_string()).unwrap();
     brinell(here, &run("a.toml", &["--signals", "none"])).exits(0);
