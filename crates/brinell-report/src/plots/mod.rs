@@ -38,7 +38,7 @@ pub fn pictures(report: &Report, layout: Layout) -> Vec<Picture> {
         envelope_spectrum(report, layout),
     ];
     if !report.envelope_orders.amplitude.is_empty() {
-        pictures.push(order_spectrum(report, Layout::Wide));
+        pictures.push(order_spectrum(report, layout));
     }
     for (index, view) in report.damage.iter().enumerate() {
         pictures.extend(damage_photo(view, index, layout));

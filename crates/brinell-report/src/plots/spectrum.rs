@@ -59,7 +59,7 @@ pub(crate) fn order_domain(report: &Report) -> Domain {
 /// The envelope over orders of the shaft, with the bearing's orders marked.
 pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
     let spectrum = &report.envelope_orders;
-    let size = layout.size(if layout == Layout::Wide { 370.0 } else { 330.0 });
+    let size = layout.size(if layout.roomy() { 370.0 } else { 330.0 });
     let spec = Spec {
         x_label: "Order of the shaft".into(),
         x_unit: String::new(),
