@@ -14,7 +14,6 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import pandas
 from sklearn.metrics import balanced_accuracy_score
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -70,11 +69,6 @@ def variants(sets, seed):
         rows = sim_to_real.simulated(sets[source], seed=seed, **options)
         rows = rows[rows["class"] != "ball"].reset_index(drop=True)
         yield name, rows, {}
-        if "no noise" in name or "no machinery" in name:
-            # A healthy simulated bearing has a line at BPFO, by balls that enter the load. What if it had none?
-            healthy = rows["class"] == "healthy"
-            drawn = rows.loc[healthy, "bpfi"].sample(frac=1, random_state=seed).to_numpy()
-            yield f"{name}; healthy scores at BPFO drawn from those at BPFI", rows.assign(bpfo=rows["bpfo"].mask(healthy)).fillna({"bpfo": pandas.Series(drawn, rows.index[healthy])}), {}
 
 
 def left_out(rows, complete, options):
