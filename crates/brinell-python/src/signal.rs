@@ -386,10 +386,11 @@ pub(crate) fn analyze<'py>(
     let mut options = Options::new(shaft, orders);
     options.supply = supply_hz.map(supply).transpose()?;
     options.tolerance = tolerance;
-    let noisy = |s: &crate::scenario::Scenario| s.loaded.scenario.sensor.noise_rms().is_some();
     options.exact = simulated;
-    let silent = simulated && !scenario.is_some_and(noisy);
-    options.silent = silent.then(|| unit.machine_noise());
+    if simulated {
+        let own = scenario.and_then(|s| s.loaded.scenario.sensor.noise_rms());
+        options.silent = unit.missing_noise(own.unwrap_or(0.0));
+    }
     options.band = band_hz.map(|(low, high)| Band::between(low, high));
     let (analysis, bands) = py.detach(|| {
         let analysis = brinell::analysis::analyze(x, rate_hz, &options).map(|analysis| {

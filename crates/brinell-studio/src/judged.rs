@@ -151,8 +151,8 @@ fn options(request: &Value, run: Option<&Scenario>, unit: &Unit) -> Answer<Optio
     let mut options = Options::new(turned / 60.0, orders);
     if let Some(run) = run {
         // Of samples in SI.
-        let noise = unit.machine_noise() * unit.to_si;
-        options.silent = run.sensor.noise_rms().is_none().then_some(noise);
+        let missing = unit.missing_noise(run.sensor.noise_rms().unwrap_or(0.0));
+        options.silent = missing.map(|noise| noise * unit.to_si);
         options.exact = own.is_some() && rpm(run) == Some(turned);
     }
     Ok(options)

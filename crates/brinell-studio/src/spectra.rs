@@ -4,7 +4,7 @@ use crate::bench::Bench;
 use crate::judged;
 use crate::message::Arrays;
 use crate::report::{Answer, Trouble};
-use brinell::analysis::{MACHINE_NOISE, Options, analyze};
+use brinell::analysis::{Options, Unit, analyze};
 use brinell::bearing::kinematics::Geometry;
 use brinell::bearing::orders_of;
 use brinell::observe::envelope_band;
@@ -117,7 +117,7 @@ pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     let mut options = Options::new(shaft, orders_of(&Geometry::of(&scenario.bearing)));
     options.exact = true;
     let sensor = &scenario.sensor;
-    options.silent = sensor.noise_rms().is_none().then_some(MACHINE_NOISE);
+    options.silent = Unit::of("m/s^2").missing_noise(sensor.noise_rms().unwrap_or(0.0));
     let analysis = analyze(&x, bench.simulation().sample_rate(), &options)
         .map_err(|e| Trouble::of(e.to_string()))?;
     Ok(judged::verdict(&analysis))

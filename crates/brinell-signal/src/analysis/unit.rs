@@ -49,12 +49,14 @@ impl Unit {
     /// Units that a user may name; the last line is of raw signals, whose scale to vibration nobody states.
     pub const KNOWN: &str = "m/s^2, mm/s^2, g, mg, in/s^2; m/s, mm/s, in/s; m, mm, um; or, of a raw signal, V, mV, uV, A, mA, N, Pa, counts";
 
-    /// RMS of a machine's white noise in this unit ([`MACHINE_NOISE`](super::MACHINE_NOISE)); 0 for what is no acceleration, of which nothing is known.
-    pub fn machine_noise(&self) -> f64 {
-        match self.quantity {
-            Quantity::Acceleration => super::MACHINE_NOISE / self.to_si,
+    /// What a simulation's sensor lacks of a machine's white noise ([`MACHINE_NOISE`](super::MACHINE_NOISE)), RMS in this unit, where its own has the
+    /// RMS `own`, m/s^2: both together are as strong. `None` where it lacks nothing; 0 for what is no acceleration, of which nothing is known.
+    pub fn missing_noise(&self, own: f64) -> Option<f64> {
+        let missing = (super::MACHINE_NOISE.powi(2) - own * own).max(0.0).sqrt();
+        (missing > 0.0).then_some(match self.quantity {
+            Quantity::Acceleration => missing / self.to_si,
             _ => 0.0,
-        }
+        })
     }
 
     /// Of a file's spelling; one that is not known stays as it is and measures [`Quantity::Other`].
@@ -150,5 +152,15 @@ mod tests {
         }
         let refused = Unit::given(" furlong ").unwrap_err().to_string();
         assert!(refused.starts_with("no unit is called `furlong`; known are m/s^2"));
+    }
+
+    #[test]
+    fn analytic_missing_noise_and_a_sensors_own_make_a_machines() {
+        let unit = |name: &str| Unit::of(name);
+        let missing = unit("m/s^2").missing_noise(0.3).unwrap();
+        assert!((missing.hypot(0.3) - 0.5).abs() < 1e-15);
+        assert_eq!(unit("g").missing_noise(0.0), Some(0.5 / 9.80665));
+        assert_eq!(unit("m/s^2").missing_noise(0.5), None);
+        assert_eq!(unit("um").missing_noise(0.0), Some(0.0));
     }
 }

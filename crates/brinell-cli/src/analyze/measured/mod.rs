@@ -71,7 +71,7 @@ impl Measured {
         let noise = self.silent().filter(|noise| *noise > 0.0);
         let added = |noise| {
             format!(
-                "its sensor has no noise: for the verdict {} {}, a quiet machine's, are added",
+                "its sensor has less noise than a quiet machine: for the verdict {} {} are added",
                 crate::say::short(noise, 3),
                 self.unit.name
             )
@@ -81,11 +81,11 @@ impl Measured {
             .collect()
     }
 
-    /// Where a run made it whose sensor had no noise: that of a machine, in the signal's unit.
+    /// Where a run made it: what its sensor lacks of a machine's noise, in the signal's unit.
     pub(super) fn silent(&self) -> Option<f64> {
         let run = self.scenario.as_ref()?;
-        let silent = run.scenario.sensor.noise_rms().is_none();
-        silent.then(|| self.unit.machine_noise())
+        let own = run.scenario.sensor.noise_rms().unwrap_or(0.0);
+        self.unit.missing_noise(own)
     }
 }
 
