@@ -218,10 +218,11 @@ class Result:
             dataset[name].attrs["long_name"] = text
         return dataset
 
-    def to_html(self) -> str:
+    def to_html(self, healthy: Result | None = None) -> str:
         """The page that ``brinell run`` writes as ``report.html``: one file that needs no network.
 
-        A result that came from another process has none.
+        ``healthy``, a run of the same scenario without its damage, is drawn behind in grey, as the command does by itself. A result
+        that came from another process has no page.
 
         Examples
         --------
@@ -231,7 +232,7 @@ class Result:
         >>> page.write_text(brinell.simulate(scenario).to_html(), encoding="utf-8") > 100_000
         True
         """
-        return self._native().to_html()
+        return self._native().to_html(None if healthy is None else healthy._native())
 
     def plot_signal(
         self, channel: str | None = None, *, from_s: float | None = None, to_s: float | None = None, ax: Any = None

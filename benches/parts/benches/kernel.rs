@@ -333,6 +333,42 @@ fn rollers() {
     }
 }
 
+/// What an element costs: of the paper's rollers, and of balls in bearings that fill their slots and in one that does not. Bodies that are there
+/// once (rings, cage) count with the elements.
+fn balls() {
+    let healthy = |preset: &str| {
+        let mut s = rectangle();
+        if preset != "NN3007" {
+            let text = format!(
+                "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1800\nload_n = [300, 0]\n"
+            );
+            s = brinell::document::read(&text, &[]).expect("sound").scenario;
+        }
+        s.defects.clear();
+        Model::new(&s).expect("a model")
+    };
+    for kernel in kernels() {
+        let mut roller = f64::NAN;
+        for preset in ["NN3007", "NU206", "6204", "6205", "6207"] {
+            let model = healthy(preset);
+            let moments = moments(&model);
+            let nanoseconds = 1e9 * time(&model, kernel, &moments);
+            let layout = &model.layout;
+            let each = nanoseconds / layout.rollers() as f64;
+            if roller.is_nan() {
+                roller = each;
+            }
+            println!(
+                "{kernel:?}, {preset}: {nanoseconds:.0} ns, {} elements in {} slots: {each:.2} ns an element, {:.2} times the NN3007's; {:.2} ns a slot",
+                layout.rollers(),
+                layout.slots,
+                each / roller,
+                nanoseconds / layout.slots as f64
+            );
+        }
+    }
+}
+
 fn main() {
     let mut criterion: Criterion = common::criterion();
     let model = Model::new(&rectangle()).expect("a model");
@@ -341,6 +377,7 @@ fn main() {
     if !std::env::args().any(|a| a == "--test") {
         bound(&model, &places);
         rollers();
+        balls();
     }
     let mut group = criterion.benchmark_group("right-hand side");
     for kernel in kernels() {

@@ -138,6 +138,9 @@ pub(crate) struct RunArgs {
     /// Skip report.html
     #[arg(long)]
     pub(crate) no_report: bool,
+    /// Do not run the scenario without its damage as well, which the page shows in grey
+    #[arg(long)]
+    pub(crate) no_healthy: bool,
     /// Open report.html in the browser when the run is over; of one scenario
     #[arg(long, conflicts_with = "no_report")]
     pub(crate) open: bool,

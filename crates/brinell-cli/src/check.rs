@@ -10,6 +10,7 @@ use brinell::bearing::clearance::{bore_diameter_mm, classes_of};
 use brinell::bearing::rating::static_rating;
 use brinell::channel;
 use brinell::derived::Derived;
+use brinell::document::Loaded;
 use brinell::model::Model;
 use brinell::observe::passes::place;
 use brinell::plausibility;
@@ -29,11 +30,35 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         document(&text.unwrap_or_default());
         return Ok(ExitCode::SUCCESS);
     }
-    let b = &s.bearing;
     let warnings = plausibility::before(s, &model, &d.statics);
     print_problems("", "", &warnings);
     say!("{}: the scenario is valid", one_line(&s.name));
     say!("");
+    bearing(s);
+    say!("");
+    frequencies(s, &d);
+    say!("");
+    match &d.statics {
+        Ok(zone) => static_balance(s, &model, zone),
+        Err(error) => say!("Static balance: {error}"),
+    }
+    say!("");
+    if d.statics.is_ok() {
+        lamina::print(s, d.top_speed)?;
+    }
+    stiffnesses(s, &d);
+    say!("");
+    time_scales(s, &model, &d);
+    say!("");
+    recording(s, &model);
+    say!("");
+    assumptions(&loaded, args.assumptions);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Elements, clearance, rating.
+fn bearing(s: &Scenario) {
+    let b = &s.bearing;
     let element = b.element.word();
     let size = match b.element {
         Element::Roller => format!(
@@ -55,6 +80,9 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
     );
     say!("Clearance {}", clearance(b));
     say!("Rating    {}", rating(s));
+}
+
+fn frequencies(s: &Scenario, d: &Derived) {
     let at = match s.operation.speed_rpm {
         Speed::Constant(rpm) if rpm < 0.0 => format!("at {} r/min, clockwise", plain_number(-rpm)),
         Speed::Constant(rpm) => format!("at {} r/min, counter-clockwise", plain_number(rpm)),
@@ -63,20 +91,13 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             short(60.0 * d.top_speed / TAU, 5)
         ),
     };
-    say!("");
     say!("Frequencies in pure rolling, {at}");
     for (name, value, meaning) in d.kinematics.table(d.top_speed / TAU) {
         say!("  {name:<7} {value:>10.3} Hz   {meaning}");
     }
-    say!("");
-    match &d.statics {
-        Ok(zone) => static_balance(s, &model, zone),
-        Err(error) => say!("Static balance: {error}"),
-    }
-    say!("");
-    if d.statics.is_ok() {
-        lamina::print(s, d.top_speed)?;
-    }
+}
+
+fn stiffnesses(s: &Scenario, d: &Derived) {
     say!("Stiffnesses");
     say!(
         "  healthy contacts        inner {}, outer {} N/m^n with n = {}",
@@ -101,7 +122,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             " and ring weight"
         }
     );
-    say!("");
+}
+
+fn time_scales(s: &Scenario, model: &Model, d: &Derived) {
+    let element = s.bearing.element.word();
     say!("Time scales");
     say!(
         "  {:<23} {} Hz, damping ratio {}",
@@ -136,8 +160,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         "  centrifugal force       {} N a {element}",
         short(d.centrifugal_force, 3)
     );
-    let (channels, idle) = channel::select(&model, &s.sensor, &s.simulation.record);
-    say!("");
+}
+
+fn recording(s: &Scenario, model: &Model) {
+    let (channels, idle) = channel::select(model, &s.sensor, &s.simulation.record);
     say!(
         "Recording {} channels, {} samples each at {} Hz",
         channels.len(),
@@ -145,9 +171,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
         s.simulation.sample_rate_hz
     );
     files::warn_idle(&idle);
+}
+
+/// How many values nobody gave, or all of them.
+fn assumptions(loaded: &Loaded, listed: bool) {
     let assumed: Vec<_> = loaded.provenance.iter().filter(|p| p.assumed).collect();
-    say!("");
-    if args.assumptions {
+    if listed {
         say!("Assumed, because it was not given:");
         for p in &assumed {
             say!(
@@ -164,7 +193,6 @@ pub(crate) fn check(args: &CheckArgs) -> Result<ExitCode, Failure> {
             assumed.len()
         );
     }
-    Ok(ExitCode::SUCCESS)
 }
 
 /// On one side, on the diameter, and the classes that this is.

@@ -17,7 +17,7 @@ const CURVES: &str = "curves";
 pub(crate) struct Print {
     /// Draw the pictures for print, this wide (mm, cm or in): 90mm for a column, 190mm for two. Text is 7 to 9 pt there, SVG and PDF hold
     /// their typeface, PNG has 600 dots an inch
-    #[arg(long, value_name = "WIDTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "WIDTH", allow_hyphen_values = true)]
     pub(crate) width: Option<Width>,
 }
 

@@ -1,5 +1,6 @@
 //! `brinell run`.
 
+mod healthy;
 mod line_loads;
 mod many;
 mod spectra;
@@ -185,8 +186,7 @@ fn execute(
     // These lock their files: another run into the same folder ends here, before anything is removed.
     let writers = writers(args, loaded, &simulation, folder)?;
     // What a reader needs to make sense of a partial run comes first.
-    let scenario = atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?;
-    let mut ready = vec![scenario];
+    let mut ready = vec![atomic_prepare(folder.join(SCENARIO), loaded.to_toml())?];
 
     let mut shown = Shown::new(progress, stop);
     let mut recorder = Recorder::new(&simulation, writers, &mut shown);
@@ -194,7 +194,9 @@ fn execute(
         inner: &mut recorder,
         loads,
     };
-    let finished = finish(loaded.scenario.clone(), simulation, &mut reading);
+    let (finished, healthy) = healthy::beside(args, &loaded.scenario, stop, || {
+        finish(loaded.scenario.clone(), simulation, &mut reading)
+    });
     let loads = reading.loads;
     let recording = recorder.close(&finished.outcome.end, true);
     let elapsed = shown.elapsed();
@@ -220,14 +222,9 @@ fn execute(
         outcome: &outcome,
         findings: &findings,
         beforehand,
+        healthy: healthy.as_ref(),
     };
-    let report = (!args.no_report || !args.plots.is_empty()).then(|| {
-        let mut report = Report::of_run(&parts);
-        for (view, photo) in report.damage.iter_mut().zip(photos) {
-            view.photo = photo.clone();
-        }
-        report
-    });
+    let report = (!args.no_report || !args.plots.is_empty()).then(|| report(&parts, photos));
     let pictures = match &report {
         Some(report) if !args.plots.is_empty() => brinell_report::pictures(report, layout),
         _ => Vec::new(),
@@ -254,6 +251,14 @@ fn execute(
         interrupted,
         summary: text,
     })
+}
+
+fn report(parts: &Parts, photos: &[Option<Photo>]) -> Report {
+    let mut report = Report::of_run(parts);
+    for (view, photo) in report.damage.iter_mut().zip(photos) {
+        view.photo = photo.clone();
+    }
+    report
 }
 
 /// A name is free text; a folder's is not.
@@ -374,6 +379,7 @@ fn tell(parts: &Parts, elapsed: f64, written: &[PathBuf]) -> Vec<String> {
         (fields::RIGHT_HAND_SIDES.of)(outcome),
     ));
     told.extend(sensor_lines(findings));
+    told.extend(healthy_line(parts));
     let heed = summary::clipped(parts)
         .into_iter()
         .chain(summary::unsettled(findings));
@@ -422,6 +428,21 @@ fn sensor_lines(findings: &Findings) -> Vec<String> {
         ));
     }
     told
+}
+
+/// The level beside the healthy bearing's.
+fn healthy_line(parts: &Parts) -> Option<String> {
+    let healthy = parts.healthy?;
+    let (rms, ratio) = (healthy.rms()?, parts.findings.over_healthy(healthy)?);
+    let interval = ratio.interval.map_or(String::new(), |(low, high)| {
+        format!(" (95 %: {} to {})", short(low, 3), short(high, 3))
+    });
+    Some(format!(
+        "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
+        ["sensor_ax", "sensor_ay"][healthy.axis],
+        short(rms.value, 3),
+        short(ratio.value, 3),
+    ))
 }
 
 /// What the envelope has of a defect.

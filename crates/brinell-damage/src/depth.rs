@@ -81,37 +81,7 @@ pub fn read_depth_map(
         Some(format) => Some(format.confirm(found)?),
         None => found,
     };
-    let mut raw = match kind {
-        Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
-        Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
-        Some(FileKind::Sur) => surface::read_sur(bytes)?,
-        #[cfg(feature = "x3p")]
-        Some(FileKind::X3p) => surface::read_x3p(bytes)?,
-        #[cfg(not(feature = "x3p"))]
-        Some(FileKind::X3p) => {
-            return Err(DamageError::LeftOut {
-                kind: FileKind::X3p,
-                feature: "x3p",
-            });
-        }
-        Some(FileKind::Npy) => depth_npy::read(bytes)?,
-        #[cfg(feature = "image")]
-        Some(FileKind::Png) => crate::pixels::heights(bytes)?,
-        #[cfg(not(feature = "image"))]
-        Some(FileKind::Png) => {
-            return Err(DamageError::LeftOut {
-                kind: FileKind::Png,
-                feature: "image",
-            });
-        }
-        _ => {
-            return Err(DamageError::WrongKind {
-                what: describe(bytes),
-                wanted: "a depth map",
-                way_out: "save it as CSV, NPY, 16-bit grey PNG, SDF, X3P or SUR",
-            });
-        }
-    };
+    let mut raw = raw(bytes, kind, options)?;
     if raw.width < 2 || raw.height < 2 {
         return Err(DamageError::Unsupported {
             at: "the map".to_owned(),
@@ -163,6 +133,45 @@ pub fn read_depth_map(
         grid.z0_mm = -0.5 * (low[1] + high[1]) as f64 * grid.dz_mm;
     }
     Ok(grid)
+}
+
+/// The map as its file has it.
+fn raw(
+    bytes: &[u8],
+    kind: Option<FileKind>,
+    options: &DepthMapOptions,
+) -> Result<Raw, DamageError> {
+    Ok(match kind {
+        Some(FileKind::Csv) => depth_csv::read(bytes, stated(options))?,
+        Some(FileKind::Sdf) => surface::read_sdf(bytes)?,
+        Some(FileKind::Sur) => surface::read_sur(bytes)?,
+        #[cfg(feature = "x3p")]
+        Some(FileKind::X3p) => surface::read_x3p(bytes)?,
+        #[cfg(not(feature = "x3p"))]
+        Some(FileKind::X3p) => {
+            return Err(DamageError::LeftOut {
+                kind: FileKind::X3p,
+                feature: "x3p",
+            });
+        }
+        Some(FileKind::Npy) => depth_npy::read(bytes)?,
+        #[cfg(feature = "image")]
+        Some(FileKind::Png) => crate::pixels::heights(bytes)?,
+        #[cfg(not(feature = "image"))]
+        Some(FileKind::Png) => {
+            return Err(DamageError::LeftOut {
+                kind: FileKind::Png,
+                feature: "image",
+            });
+        }
+        _ => {
+            return Err(DamageError::WrongKind {
+                what: describe(bytes),
+                wanted: "a depth map",
+                way_out: "save it as CSV, NPY, 16-bit grey PNG, SDF, X3P or SUR",
+            });
+        }
+    })
 }
 
 /// What is stated of the distances of columns and of rows.

@@ -234,8 +234,14 @@ impl Run {
     }
 
     /// Everything that summary and page are made of.
-    fn with_parts<T: Send>(&self, py: Python<'_>, of: impl FnOnce(&Parts) -> T + Send) -> T {
+    fn with_parts<T: Send>(
+        &self,
+        py: Python<'_>,
+        healthy: Option<&Self>,
+        of: impl FnOnce(&Parts) -> T + Send,
+    ) -> T {
         let loaded = &self.scenario.get().loaded;
+        let healthy = healthy.map(|run| &run.finished.findings);
         py.detach(|| {
             let simulation = &self.finished.simulation;
             of(&Parts {
@@ -244,6 +250,7 @@ impl Run {
                 outcome: &self.finished.outcome,
                 findings: &self.finished.findings,
                 beforehand: &Beforehand::of(&loaded.scenario, simulation.model()),
+                healthy,
             })
         })
     }
@@ -291,12 +298,13 @@ impl Run {
 
     /// What `summary.json` holds.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        json_to_python(py, &self.with_parts(py, summary::to_json))
+        json_to_python(py, &self.with_parts(py, None, summary::to_json))
     }
 
-    /// What `report.html` holds.
-    fn to_html(&self, py: Python<'_>) -> String {
-        self.with_parts(py, |parts| html(&Report::of_run(parts)))
+    /// What `report.html` holds; a run without the damage is drawn behind.
+    #[pyo3(signature = (healthy=None))]
+    fn to_html(&self, py: Python<'_>, healthy: Option<&Self>) -> String {
+        self.with_parts(py, healthy, |parts| html(&Report::of_run(parts)))
     }
 
     /// Every number of the run: name, unit, value, low and high end.

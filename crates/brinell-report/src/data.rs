@@ -29,6 +29,8 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Headline numbers.
     pub facts: Vec<Fact>,
+    /// The healthy bearing beside it; empty where it was not run.
+    pub healthy: Healthy,
     /// The sensor acceleration.
     pub waveform: Waveform,
     /// Its amplitude spectrum.
@@ -73,6 +75,19 @@ pub struct Report {
     pub assumptions: Vec<Assumption>,
     /// The scenario, complete.
     pub scenario_toml: String,
+}
+
+/// The same bearing without its damage, drawn behind it in grey: values at the places of the report's own curves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Healthy {
+    /// As `waveform.series`; this and the others empty where there is none.
+    pub waveform: Vec<f64>,
+    /// As `spectrum`.
+    pub spectrum: Vec<f64>,
+    /// As `envelope_spectrum`.
+    pub envelope_spectrum: Vec<f64>,
+    /// As `envelope_orders`.
+    pub envelope_orders: Vec<f64>,
 }
 
 /// A number, or words where no number will do.

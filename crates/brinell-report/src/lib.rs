@@ -60,8 +60,8 @@ pub use damage::{AlongRoller, DamageCurve, DamagePanel, DamageView, DepthPatch};
 #[doc(hidden)]
 pub use damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 pub use data::{
-    Assumption, Estimate, Event, EventKind, Fact, IndicatorRow, IndicatorTable, Marker, MinMax,
-    Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
+    Assumption, Estimate, Event, EventKind, Fact, Healthy, IndicatorRow, IndicatorTable, Marker,
+    MinMax, Pass, Report, RowLoad, Series, Spectrum, Value, Waveform,
 };
 #[doc(hidden)]
 pub use defects::{Damage, Measures, damage_of};

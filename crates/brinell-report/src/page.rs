@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::Domain;
 use crate::damage::{damage_passage, damage_photo, damage_plan, damage_section, load_along};
 use crate::data::{Report, Spectrum};
 use crate::embedded::{Chart, Curve, Places};
@@ -30,9 +29,7 @@ pub fn html(report: &Report) -> String {
         report
             .partial
             .as_deref()
-            .map(|why| ("This run is partial.", why))
-            .into_iter()
-            .chain(plain(&report.warnings)),
+            .map(|why| ("This run is partial.", why)),
     );
     let mut sections: Vec<Section> = vec![
         ("waveform", "Waveform", waveform),
@@ -77,6 +74,9 @@ pub fn html(report: &Report) -> String {
     }
     page.push_str("</ul></nav>\n<main>\n");
     lead(&mut page, &report.lead);
+    for (strong, words) in plain(&report.warnings) {
+        alert(&mut page, strong, words);
+    }
     facts(&mut page, &report.facts);
     for (id, name, write) in sections {
         section(&mut page, id, name, |page| write(page, report));
@@ -122,13 +122,12 @@ fn waveform(page: &mut String, report: &Report) {
         ),
     };
     let overview_scale = plots::time_unit(overview_hi - overview_lo).1;
+    let places = Places::Even(series.t0_s * scale, series.dt_s * scale);
+    let curves = beside(places, &series.values, &report.healthy.waveform);
     Chart {
         name: "waveform",
-        curves: &[Curve {
-            name: "",
-            places: Places::Even(series.t0_s * scale, series.dt_s * scale),
-            values: &series.values,
-        }],
+        curves: &curves,
+        drawn: drawn(&curves),
         domain: plots::waveform_domain(report),
         x: ("Time", unit),
         y: ("Acceleration", &series.unit),
@@ -139,13 +138,31 @@ fn waveform(page: &mut String, report: &Report) {
     .write(page);
 }
 
-/// A spectrum's lines, from 0 Hz on.
-fn lines_of(spectrum: &Spectrum) -> Curve<'_> {
-    Curve {
-        name: "",
-        places: Places::Even(0.0, spectrum.df_hz),
-        values: &spectrum.amplitude,
+/// The run's curve and, where it was run, the healthy bearing's.
+fn beside<'a>(places: Places<'a>, values: &'a [f64], healthy: &'a [f64]) -> Vec<Curve<'a>> {
+    let curve = |name, values| Curve {
+        name,
+        places,
+        values,
+    };
+    match healthy {
+        [] => vec![curve("", values)],
+        healthy => vec![curve("damaged", values), curve("healthy", healthy)],
     }
+}
+
+/// Of these the healthy bearing's is drawn first, behind the other.
+fn drawn(curves: &[Curve]) -> &'static [usize] {
+    match curves.len() {
+        2 => &[1, 0],
+        _ => &[],
+    }
+}
+
+/// A spectrum's lines, from 0 Hz on.
+fn lines_of<'a>(spectrum: &'a Spectrum, healthy: &'a [f64]) -> Vec<Curve<'a>> {
+    let places = Places::Even(0.0, spectrum.df_hz);
+    beside(places, &spectrum.amplitude, healthy)
 }
 
 fn spectrum(page: &mut String, report: &Report) {
@@ -159,10 +176,12 @@ fn spectrum(page: &mut String, report: &Report) {
         |layout| plots::spectrum(report, layout),
         &escape(&spectrum.note),
     );
+    let curves = lines_of(spectrum, &report.healthy.spectrum);
     Chart {
         name: "spectrum",
-        curves: &[lines_of(spectrum)],
-        domain: Domain::decades(&spectrum.amplitude),
+        curves: &curves,
+        drawn: drawn(&curves),
+        domain: plots::spectrum_domain(report),
         peak: true,
         x: ("Frequency", "Hz"),
         y: (&spectrum.label, &spectrum.unit),
@@ -195,9 +214,11 @@ fn envelope(page: &mut String, report: &Report) {
         &caption,
     );
     let lanes = plots::marker_lanes(&report.markers);
+    let curves = lines_of(spectrum, &report.healthy.envelope_spectrum);
     Chart {
         name: "envelope",
-        curves: &[lines_of(spectrum)],
+        curves: &curves,
+        drawn: drawn(&curves),
         domain: plots::envelope_domain(report),
         peak: true,
         x: ("Frequency", "Hz"),
@@ -240,9 +261,11 @@ fn orders(page: &mut String, report: &Report) {
         &escape(&spectrum.note),
     );
     let lanes = plots::order_lanes(&report.order_markers);
+    let curves = lines_of(spectrum, &report.healthy.envelope_orders);
     Chart {
         name: "orders",
-        curves: &[lines_of(spectrum)],
+        curves: &curves,
+        drawn: drawn(&curves),
         domain: plots::order_domain(report),
         peak: true,
         x: ("Order", ""),

@@ -27,6 +27,8 @@ pub struct Parts<'a> {
     pub findings: &'a Findings,
     /// What was known before: the static load distribution, and warnings.
     pub beforehand: &'a Beforehand,
+    /// What was gathered of the same bearing without its damage, where that was run too.
+    pub healthy: Option<&'a Findings>,
 }
 
 /// The summary as JSON; the same run gives the same bytes.
@@ -67,7 +69,25 @@ pub fn to_json(parts: &Parts) -> Value {
     if let Some(sensor) = sensor(parts) {
         summary["sensor"] = sensor;
     }
+    if let Some(healthy) = parts.healthy {
+        summary["healthy"] = beside(findings, healthy);
+    }
     summary
+}
+
+/// The level beside that of the healthy bearing.
+fn beside(findings: &Findings, healthy: &Findings) -> Value {
+    let ratio = findings.over_healthy(healthy);
+    json!({
+        "meaning": "the same scenario without its damage: RMS of the sensor acceleration along the axis that the spectra show, and the damaged bearing's over it",
+        "channel": (["sensor_ax", "sensor_ay"][healthy.axis]),
+        "unit": "m/s^2",
+        "rms": healthy.rms().as_ref().map(estimate),
+        "ratio": ratio.map(|r| match r.interval {
+            Some((low, high)) => json!({ "value": r.value, "low": low, "high": high }),
+            None => json!({ "value": r.value }),
+        }),
+    })
 }
 
 /// What the sensor did; nothing without one.

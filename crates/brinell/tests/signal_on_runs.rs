@@ -203,6 +203,7 @@ fn regress_verdicts_on_the_examples() {
         ("roller", Some(Component::Element)),
         ("ball-6205", Some(Component::OuterRace)),
         ("ball-6205", None),
+        ("single-row", None),
     ] {
         let path = format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();

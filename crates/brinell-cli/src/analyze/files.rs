@@ -2,6 +2,7 @@
 
 use super::measured::run_in;
 use crate::failure::Failure;
+use crate::say::one_line;
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,13 @@ pub(super) enum Files {
 
 /// Files as they were named; a folder that is no run's represents its files, in the order of their names.
 pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
+    let is_toml = |path: &&PathBuf| path.extension().is_some_and(|e| e == "toml");
+    if let Some(scenario) = named.iter().find(is_toml) {
+        return Err(Failure::Usage(format!(
+            "{0} is no file of signals; of a scenario they are simulated first: `brinell run {0} -o FOLDER`, then `brinell analyze FOLDER`",
+            one_line(&scenario.display().to_string())
+        )));
+    }
     if let [only] = named
         && (!only.is_dir() || run_in(only).is_some())
     {

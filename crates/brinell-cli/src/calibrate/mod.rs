@@ -123,18 +123,22 @@ pub(crate) fn calibrate(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
         document(&serde_json::to_string_pretty(&outcome.json()).unwrap_or_default());
     }
     if !args.quiet {
-        say!(
-            "{} in {:.2} s, {} from the journal",
-            plural(runs.done, "run"),
-            begin.elapsed().as_secs_f64(),
-            runs.before
-        );
-        outcome.tell();
-        for path in &written {
-            say!("  wrote {}", path.display());
-        }
+        tell(&runs, &outcome, &written, begin);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn tell(runs: &Runs, outcome: &Outcome, written: &[PathBuf], begin: Instant) {
+    say!(
+        "{} in {:.2} s, {} from the journal",
+        plural(runs.done, "run"),
+        begin.elapsed().as_secs_f64(),
+        runs.before
+    );
+    outcome.tell();
+    for path in written {
+        say!("  wrote {}", path.display());
+    }
 }
 
 fn usage(error: &CalibrateError, option: &str) -> Failure {

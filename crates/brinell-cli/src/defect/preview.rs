@@ -142,17 +142,17 @@ fn tell(damage: &Damage) {
         let brinell_report::Value::Text(value) = &fact.value else {
             continue;
         };
-        let unit = fact.unit.replace('μ', "u").replace('°', "deg");
+        let unit = fact.unit.replace('µ', "u").replace('°', "deg");
         say!(
             "  {:<24} {value:>9} {unit:<5} {}",
             fact.label,
-            fact.note.replace('μ', "u")
+            fact.note.replace('µ', "u")
         );
     }
     for note in view.photo.iter().flat_map(|photo| &photo.notes) {
         say!("  Photo: {note}");
     }
-    let plain = view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n");
+    let plain = view.passage_note.replace('µ', "u").replace("δⁿ", "delta^n");
     say!("  Passage: {plain}");
     if let Some(along) = &view.along {
         say!("  {}, {}", along.title, along.note);
@@ -164,7 +164,7 @@ fn tell(damage: &Damage) {
 /// "stiffness_k_ecl_point".
 fn slug(words: &[&str]) -> String {
     let mut slug = String::new();
-    for c in words.join(" ").replace('μ', "u").chars() {
+    for c in words.join(" ").replace('µ', "u").chars() {
         if c.is_ascii_alphanumeric() {
             slug.push(c.to_ascii_lowercase());
         } else if !slug.is_empty() && !slug.ends_with('_') {
@@ -229,7 +229,7 @@ fn entry(index: usize, damage: &Damage) -> serde_json::Value {
         "approach_um": m.approach_um,
         "heaviest_contact_n": m.force_n,
         "polygons_mm": view.polygons_mm,
-        "passage_note": view.passage_note.replace('μ', "u").replace("δⁿ", "delta^n"),
+        "passage_note": view.passage_note.replace('µ', "u").replace("δⁿ", "delta^n"),
         "passage": curves("angle_deg", &view.angle_deg, &view.passage),
         "along_note": view.along.as_ref().map(|along| &along.note),
         "along": view.along.as_ref().map(|along| curves("z_mm", &along.z_mm, &along.panels)),

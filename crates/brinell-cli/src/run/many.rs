@@ -40,12 +40,11 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
         make_folder(&task.folder)?;
     }
     let stop = stop_flag()?;
-    let threads = brinell::many::threads(tasks.len());
-    let threads = args.jobs.unwrap_or(threads);
-    let total = tasks
+    let threads = args.jobs.unwrap_or(brinell::many::threads(tasks.len()));
+    let durations = tasks
         .iter()
-        .map(|t| t.loaded.scenario.simulation.duration_s)
-        .sum();
+        .map(|t| t.loaded.scenario.simulation.duration_s);
+    let total = durations.sum();
     let mut joint = Joint::new(tasks.len(), total, args.quiet);
     let bar = joint.bar();
     let (mut left_out, mut interrupted) = (Vec::new(), false);

@@ -18,31 +18,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
     if bytes.len() < HEADER {
         return Err(short());
     }
-    if i16(bytes, 12) != Some(0) {
-        return Err(unsupported(
-            KIND,
-            "the byte order of a Macintosh",
-            "save it as SDF or X3P",
-        ));
-    }
-    if !matches!(i16(bytes, 18), Some(SURFACE | SERIES)) {
-        return Err(unsupported(
-            KIND,
-            "a study that is no surface",
-            "save the surface alone",
-        ));
-    }
-    let number = match i16(bytes, 98) {
-        Some(16) => Number::I16,
-        Some(32) => Number::I32,
-        other => {
-            return Err(broken(
-                KIND,
-                "the bits of a point",
-                format!("{}", other.unwrap_or(0)),
-            ));
-        }
-    };
+    let number = number(bytes)?;
     let side = |place| {
         i32(bytes, place)
             .and_then(|n| usize::try_from(n).ok())
@@ -94,6 +70,33 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Raw, DamageError> {
         between,
         data.chunks_exact(number.size()).map(value).collect(),
     ))
+}
+
+/// What its points are written as, where it is a surface that can be read.
+fn number(bytes: &[u8]) -> Result<Number, DamageError> {
+    if i16(bytes, 12) != Some(0) {
+        return Err(unsupported(
+            KIND,
+            "the byte order of a Macintosh",
+            "save it as SDF or X3P",
+        ));
+    }
+    if !matches!(i16(bytes, 18), Some(SURFACE | SERIES)) {
+        return Err(unsupported(
+            KIND,
+            "a study that is no surface",
+            "save the surface alone",
+        ));
+    }
+    match i16(bytes, 98) {
+        Some(16) => Ok(Number::I16),
+        Some(32) => Ok(Number::I32),
+        other => Err(broken(
+            KIND,
+            "the bits of a point",
+            format!("{}", other.unwrap_or(0)),
+        )),
+    }
 }
 
 /// Metres of a unit, as written in 16 bytes of Latin-1.

@@ -115,11 +115,11 @@ pub(super) fn colour_bar(
         picture.rect(rect, Paint::fill(color, 1.0));
         x = right;
     }
-    let words = format!("{} μm", significant(deepest, 3));
+    let words = format!("{} µm", significant(deepest, 3));
     picture.text(text(x + 6.0, base, &words));
     x += font::width(&words, font, false) + 30.0;
     if let Some(height) = raised {
-        let words = format!("raised, up to {} μm", significant(height, 3));
+        let words = format!("raised, up to {} µm", significant(height, 3));
         if x + swatch + 6.0 + font::width(&words, font, false) > right_end {
             x = left;
             base += 1.6 * font;

@@ -37,7 +37,7 @@ pub(super) fn along_roller(at_rest: &AtRest, defect: Option<usize>) -> Option<Al
     let mut panels = Vec::new();
     if load.drop.iter().any(|p| *p != 0.0) {
         let drop = curve("", scaled(1e6, &load.drop));
-        panels.push(panel("Drop p", "μm", vec![drop]));
+        panels.push(panel("Drop p", "µm", vec![drop]));
     }
     panels.push(panel(
         "Line load q",

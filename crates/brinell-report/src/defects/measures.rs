@@ -68,12 +68,12 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
     let none = String::new;
     let floor = if m.deepest_um > m.approach_um {
         format!(
-            "deeper than the elastic deformation of {} μm: the line of contact does not reach the bottom",
+            "deeper than the elastic deformation of {} µm: the line of contact does not reach the bottom",
             short(m.approach_um, 3)
         )
     } else {
         format!(
-            "less than the elastic deformation of {} μm: the bottom carries load too",
+            "less than the elastic deformation of {} µm: the bottom carries load too",
             short(m.approach_um, 3)
         )
     };
@@ -104,10 +104,10 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
             "Mean depth",
             m.mean_depth_um,
             4,
-            "μm",
+            "µm",
             "volume over area".into(),
         ),
-        fact("Deepest", m.deepest_um, 4, "μm", floor),
+        fact("Deepest", m.deepest_um, 4, "µm", floor),
         fact(
             "Time to pass",
             m.pass_ms,
@@ -121,7 +121,7 @@ pub(super) fn facts(m: &Measures, bearing: &Bearing) -> Vec<Fact> {
             "Raised edge",
             m.raised_um,
             4,
-            "μm",
+            "µm",
             "felt by the law \"sliced\"".into(),
         ));
     }

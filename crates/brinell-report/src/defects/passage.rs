@@ -134,7 +134,7 @@ impl Passage<'_> {
             Shape::DepthMap(_) => "Mean depth h_s",
             _ => "Depth h_s",
         };
-        panel(label, "μm", curves)
+        panel(label, "µm", curves)
     }
 
     /// K = Q / delta^n, a panel a side.

@@ -76,6 +76,14 @@ pub(super) const CURVE: Paint = Paint {
     opacity: 1.0,
 };
 
+/// Of the healthy bearing behind it.
+pub(super) const HEALTHY: Paint = Paint {
+    stroke: ink::FRAME,
+    ..CURVE
+};
+/// What it is.
+pub(super) const HEALTHY_WORDS: &str = "Grey: the same bearing without the damage";
+
 /// Seconds or milliseconds, whichever reads better over `span`.
 pub(crate) fn time_unit(span: f64) -> (&'static str, f64) {
     if span.is_finite() && span >= 0.5 {

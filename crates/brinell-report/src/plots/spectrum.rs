@@ -1,6 +1,6 @@
 //! Amplitude spectrum and envelope spectrum.
 
-use super::layout::{CURVE, Layout, known, spacing};
+use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing};
 use super::markers::{marker_lanes, order_lanes, telling};
 use crate::chart::{Chart, Domain, Lane, Size, Spec, range};
 use crate::data::{Marker, Report, Spectrum};
@@ -26,7 +26,7 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
     let spectrum = &report.spectrum;
     let end = spacing(spectrum.df_hz) * spectrum.amplitude.len().saturating_sub(1) as f64;
     let title = format!("Spectrum: {}", spectrum.label);
-    let y = Domain::decades(&spectrum.amplitude);
+    let y = spectrum_domain(report);
     let mut chart = Chart::new(spectrum_spec(
         "spectrum",
         title,
@@ -36,9 +36,17 @@ pub(crate) fn spectrum(report: &Report, layout: Layout) -> Picture {
         y,
         vec![],
     ));
-    draw_spectrum(&mut chart, spectrum);
+    draw_spectrum(&mut chart, spectrum, &report.healthy.spectrum);
     chart.interactive("spectrum");
     chart.finish()
+}
+
+pub(crate) fn spectrum_domain(report: &Report) -> Domain {
+    let healthy = report.healthy.spectrum.iter().copied();
+    let all: Vec<f64> = (report.spectrum.amplitude.iter().copied())
+        .chain(healthy)
+        .collect();
+    Domain::decades(&all)
 }
 
 /// The envelope spectrum up to the last harmonic of the damage there is, every defect frequency marked.
@@ -48,12 +56,14 @@ pub(crate) fn envelope_spectrum(report: &Report, layout: Layout) -> Picture {
 }
 
 pub(crate) fn envelope_domain(report: &Report) -> Domain {
-    lines_domain(&report.envelope_spectrum, envelope_top(report))
+    let healthy = &report.healthy.envelope_spectrum;
+    lines_domain(&report.envelope_spectrum, healthy, envelope_top(report))
 }
 
 pub(crate) fn order_domain(report: &Report) -> Domain {
     let spectrum = &report.envelope_orders;
-    lines_domain(spectrum, top(spectrum, &report.order_markers))
+    let healthy = &report.healthy.envelope_orders;
+    lines_domain(spectrum, healthy, top(spectrum, &report.order_markers))
 }
 
 /// The envelope over orders of the shaft, with the bearing's orders marked.
@@ -74,16 +84,24 @@ pub(crate) fn order_spectrum(report: &Report, layout: Layout) -> Picture {
         )
     };
     let mut chart = Chart::new(spec);
-    draw_spectrum(&mut chart, spectrum);
+    draw_spectrum(&mut chart, spectrum, &report.healthy.envelope_orders);
     chart.interactive("orders");
     chart.finish()
 }
 
-fn lines_domain(spectrum: &Spectrum, top: f64) -> Domain {
+fn lines_domain(spectrum: &Spectrum, healthy: &[f64], top: f64) -> Domain {
     // The line at 0 Hz is the envelope's mean and says nothing about damage.
     let shown =
         ((top / spacing(spectrum.df_hz)) as usize).min(spectrum.amplitude.len().saturating_sub(1));
-    Domain::from_zero(spectrum.amplitude.iter().take(shown + 1).skip(1).copied())
+    let shown = |values: &[f64]| {
+        values
+            .iter()
+            .take(shown + 1)
+            .skip(1)
+            .copied()
+            .collect::<Vec<f64>>()
+    };
+    Domain::from_zero([shown(&spectrum.amplitude), shown(healthy)].concat())
 }
 
 pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
@@ -103,7 +121,8 @@ pub(super) fn envelope_spec(report: &Report, size: Size) -> Spec {
 
 pub(super) fn draw_envelope(report: &Report, spec: Spec) -> Picture {
     let mut chart = Chart::new(spec);
-    draw_spectrum(&mut chart, &report.envelope_spectrum);
+    let healthy = &report.healthy.envelope_spectrum;
+    draw_spectrum(&mut chart, &report.envelope_spectrum, healthy);
     chart.interactive("envelope");
     chart.finish()
 }
@@ -138,18 +157,21 @@ fn spectrum_spec(
     }
 }
 
-fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum) {
+fn draw_spectrum(chart: &mut Chart, spectrum: &Spectrum, healthy: &[f64]) {
     if range(spectrum.amplitude.iter().copied()).is_none() {
         chart.say("No spectrum");
     } else if !known(spectrum.df_hz) {
         chart.say("The line spacing is not known");
     } else {
-        chart.curve(
-            0.0,
-            spacing(spectrum.df_hz),
-            &spectrum.amplitude,
-            true,
-            CURVE,
-        );
+        let step = spacing(spectrum.df_hz);
+        if !healthy.is_empty() {
+            chart.of("healthy");
+            chart.curve(0.0, step, healthy, true, HEALTHY);
+            chart.of("damaged");
+        }
+        chart.curve(0.0, step, &spectrum.amplitude, true, CURVE);
+        if !healthy.is_empty() {
+            chart.remark(HEALTHY_WORDS);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The sensor signal: the whole run, and the stretch close up with what rollers do in it.
 
-use super::layout::{CURVE, Layout, known, spacing, start, time_unit};
+use super::layout::{CURVE, HEALTHY, HEALTHY_WORDS, Layout, known, spacing, start, time_unit};
 use super::markers::telling;
 use crate::chart::{Chart, Domain, Lane, Mark, Size, Spec, range};
 use crate::data::{EventKind, MinMax, Report, Series};
@@ -148,13 +148,17 @@ pub(super) fn draw_waveform(report: &Report, spec: Spec) -> Picture {
     } else if !known(series.dt_s) && series.values.len() > 1 {
         chart.say("The sample interval is not known");
     } else {
-        chart.curve(
-            start(series.t0_s) * scale,
-            spacing(series.dt_s) * scale,
-            &series.values,
-            false,
-            CURVE,
-        );
+        let healthy = &report.healthy.waveform;
+        let (first, step) = (start(series.t0_s) * scale, spacing(series.dt_s) * scale);
+        if !healthy.is_empty() {
+            chart.of("healthy");
+            chart.curve(first, step, healthy, false, HEALTHY);
+            chart.of("damaged");
+        }
+        chart.curve(first, step, &series.values, false, CURVE);
+        if !healthy.is_empty() {
+            chart.remark(HEALTHY_WORDS);
+        }
     }
     chart.interactive("waveform");
     chart.finish()
@@ -170,7 +174,8 @@ pub(crate) fn waveform_domain(report: &Report) -> Domain {
     let (t0, dt) = (start(series.t0_s), spacing(series.dt_s));
     let first =
         (((detail_window(report).0 - t0) / dt).floor().max(0.0) as usize).min(series.values.len());
-    Domain::around(series.values[first..].iter().copied())
+    let healthy = report.healthy.waveform.iter().skip(first);
+    Domain::around(series.values[first..].iter().chain(healthy).copied())
 }
 
 pub(super) fn waveform_spec(report: &Report, size: Size) -> Spec {

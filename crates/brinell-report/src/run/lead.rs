@@ -1,25 +1,19 @@
 //! The run's result in a sentence.
 
-use super::axis;
+use super::healthy;
 use crate::defects::Damage;
 use crate::number::short;
 use brinell::model::Model;
-use brinell::observe::Kind;
 use brinell::scenario::Surface;
-use brinell::signal::Indicator;
 use brinell::summary::Parts;
 
-/// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS; BPFO found at 248.9 Hz".
+/// "8.3 × 4 mm defect, outer race: 22.8 m/s² RMS, 4.1 times the healthy bearing’s; BPFO found at 248.9 Hz".
 pub(super) fn lead(parts: &Parts, damage: &[Damage]) -> String {
     let model = parts.simulation.model();
-    let name = format!("sensor_a{}", axis(parts));
-    let channels = &parts.findings.channels;
-    let rms = (channels.iter())
-        .find(|c| c.name == name && c.kind == Kind::AntiAliased)
-        .and_then(|c| c.blocks.estimate(Indicator::Rms));
     let mut said = Vec::new();
-    if let Some(rms) = rms {
-        said.push(format!("{} m/s² RMS", short(rms.value, 3)));
+    if let Some(rms) = parts.findings.rms() {
+        let times = healthy::times(parts).map_or(String::new(), |(words, _)| format!(", {words}"));
+        said.push(format!("{} m/s² RMS{times}", short(rms.value, 3)));
     }
     for line in &parts.findings.lines {
         let words = match line.found {

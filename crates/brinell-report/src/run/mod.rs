@@ -1,6 +1,7 @@
 //! From a run's results to the report's data: names, units and notes for people.
 
 mod contacts;
+mod healthy;
 mod lead;
 mod motion;
 mod orders;
@@ -32,7 +33,7 @@ fn report(parts: &Parts) -> Report {
         Ok(all) => (all, None),
         Err(error) => (Vec::new(), Some(error.to_string())),
     };
-    let (envelope_orders, order_markers) = orders::orders(parts);
+    let (envelope_orders, order_markers) = orders::orders(parts, parts.findings);
     Report {
         title: scenario.name.clone(),
         subtitle: subtitle(scenario),
@@ -45,6 +46,7 @@ fn report(parts: &Parts) -> Report {
         },
         warnings: brinell::summary::warnings(parts),
         facts: facts(parts),
+        healthy: healthy::healthy(parts),
         waveform: waveform(parts),
         spectrum: spectrum(parts),
         spectrogram: spectrogram(parts, sensor_label(parts)),

@@ -3,6 +3,7 @@
 use super::axis;
 use super::signals::{HARMONICS, markers_at};
 use crate::{Marker, Spectrum};
+use brinell::observe::Findings;
 use brinell::scenario::Speed;
 use brinell::signal::{Rotation, Segments, envelope, psd, resample};
 use brinell::summary::Parts;
@@ -11,20 +12,20 @@ use std::f64::consts::TAU;
 /// Instants a second at which the shaft's angle is given to the resampling.
 const ANGLES_PER_S: f64 = 1000.0;
 
-/// The envelope of what is kept of the signal at equal angles of the shaft, and the bearing's orders; both empty where the speed is constant.
-pub(super) fn orders(parts: &Parts) -> (Spectrum, Vec<Marker>) {
-    spectrum(parts).unwrap_or_default()
+/// The envelope of what findings of the run keep of the signal at equal angles of the shaft, and the bearing's orders; both empty where the speed is constant.
+pub(super) fn orders(parts: &Parts, findings: &Findings) -> (Spectrum, Vec<Marker>) {
+    spectrum(parts, findings).unwrap_or_default()
 }
 
-fn spectrum(parts: &Parts) -> Option<(Spectrum, Vec<Marker>)> {
+fn spectrum(parts: &Parts, findings: &Findings) -> Option<(Spectrum, Vec<Marker>)> {
     let scenario = &parts.loaded.scenario;
     if let Speed::Constant(_) = scenario.operation.speed_rpm {
         return None;
     }
     let model = parts.simulation.model();
-    let (_, band) = parts.findings.envelope.as_ref()?;
+    let (_, band) = findings.envelope.as_ref()?;
     let fs = parts.simulation.sample_rate();
-    let (first, values) = parts.findings.waveform.latest();
+    let (first, values) = findings.waveform.latest();
     let from = first as f64 / fs;
     let span = values.len() as f64 / fs;
     let turns = |t: f64| model.rotation.at(from + t).1.abs() / TAU;

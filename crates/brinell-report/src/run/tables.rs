@@ -1,11 +1,11 @@
 //! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
-use super::axis;
+use super::{axis, healthy};
 use crate::number::short;
 use crate::{Assumption, Fact};
 use brinell::accuracy::METHOD;
-use brinell::observe::Kind;
 use brinell::observe::passes::place;
+use brinell::observe::{DefectLine, Kind};
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
 use brinell::simulate::Outcome;
@@ -49,26 +49,14 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
             ));
         }
     }
-    for line in &parts.findings.lines {
-        let defect = &parts.simulation.model().defects[line.defect];
-        let value = line
-            .found
-            .map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
-        let note = match line.found {
-            Some(_) => format!(
-                "{} in the envelope; {}pure rolling {:.2} Hz",
-                place(defect),
-                line.interval.map_or(String::new(), |i| format!(
-                    "95 %: {:.2} to {:.2} Hz; ",
-                    i.low, i.high
-                )),
-                line.nominal
-            ),
-            None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
-        };
-        let unit = line.found.map_or("", |_| "Hz");
-        facts.push(Fact::new(line.name, crate::Value::Text(value), unit, note));
-    }
+    facts.extend(healthy_fact(parts));
+    facts.extend(
+        parts
+            .findings
+            .lines
+            .iter()
+            .map(|line| line_fact(parts, line)),
+    );
     if let Ok(zone) = &parts.beforehand.statics {
         facts.push(Fact::new(
             "Heaviest contact, static",
@@ -78,6 +66,46 @@ pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
         ));
     }
     facts
+}
+
+/// The level of the healthy bearing.
+fn healthy_fact(parts: &Parts) -> Option<Fact> {
+    let rms = parts.healthy?.rms()?;
+    let times = healthy::times(parts).map_or(String::new(), |(words, interval)| {
+        let interval = match interval.is_empty() {
+            true => interval,
+            false => format!(" ({interval})"),
+        };
+        format!("; damaged {words}{interval}")
+    });
+    Some(Fact::new(
+        "RMS of the healthy bearing",
+        crate::Value::Text(short(rms.value, 3)),
+        "m/s^2",
+        format!("the same scenario without its damage{times}"),
+    ))
+}
+
+/// A defect's frequency.
+fn line_fact(parts: &Parts, line: &DefectLine) -> Fact {
+    let defect = &parts.simulation.model().defects[line.defect];
+    let value = line
+        .found
+        .map_or("not found".to_owned(), |f| format!("{:.2}", f.frequency));
+    let note = match line.found {
+        Some(_) => format!(
+            "{} in the envelope; {}pure rolling {:.2} Hz",
+            place(defect),
+            line.interval.map_or(String::new(), |i| format!(
+                "95 %: {:.2} to {:.2} Hz; ",
+                i.low, i.high
+            )),
+            line.nominal
+        ),
+        None => format!("{}; pure rolling {:.2} Hz", place(defect), line.nominal),
+    };
+    let unit = line.found.map_or("", |_| "Hz");
+    Fact::new(line.name, crate::Value::Text(value), unit, note)
 }
 
 pub(super) fn slip(parts: &Parts) -> Vec<Fact> {

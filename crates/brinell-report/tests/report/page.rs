@@ -4,7 +4,7 @@ use super::checks::{check, check_pictures};
 use super::sample::{filled, ordinary};
 use brinell_report::{
     Assumption, Fact, Layout, MinMax, Report, detail_window, headline_png, html, load_distribution,
-    overview,
+    overview, pictures,
 };
 use proptest::prelude::*;
 
@@ -54,6 +54,42 @@ fn regress_the_result_comes_first_and_assumptions_before_statements() {
     assert!(at("<code>assumed.key") < at("<summary>1 stated values"));
     assert!(at("<summary>1 stated values") < at("<code>stated.key"));
     assert!(at("data-chart=\"orders\"") < at("id=\"spectrogram\""));
+}
+
+/// Without the damage: in grey behind, and a curve of its own for the page's script and for files.
+#[test]
+fn regress_the_healthy_bearing_lies_behind_the_damaged_one() {
+    const BEHIND: &str = "Grey: the same bearing without the damage";
+    let mut report = ordinary();
+    assert!(!html(&report).contains(BEHIND));
+    let tenth = |values: &[f64]| values.iter().map(|x| 0.1 * x).collect::<Vec<f64>>();
+    report.healthy.waveform = tenth(&report.waveform.series.values);
+    report.healthy.spectrum = tenth(&report.spectrum.amplitude);
+    report.healthy.envelope_spectrum = tenth(&report.envelope_spectrum.amplitude);
+    let page = html(&report);
+    check(&page);
+    check_pictures(&report);
+    assert_eq!(page.matches("\"drawn\":[1, 0]").count(), 3);
+    assert_eq!(page.matches("{\"name\":\"healthy\"").count(), 3);
+    let pictures = pictures(&report, Layout::Wide);
+    for name in ["waveform", "spectrum", "envelope-spectrum", "headline"] {
+        let picture = pictures.iter().find(|p| p.name == name).unwrap();
+        let svg = picture.svg();
+        assert!(svg.contains(BEHIND), "{name}");
+        // Drawn first, and so behind.
+        let at = |color: &str| svg.find(&format!("stroke=\"{color}\" stroke-width=\"1.2\""));
+        assert!(
+            at("#9aa4ae") < at("#0072B2") && at("#9aa4ae").is_some(),
+            "{name}"
+        );
+        let names: Vec<String> = (picture.tables().iter())
+            .flat_map(|t| t.columns.iter().map(|c| c.0.clone()))
+            .collect();
+        assert!(
+            names.iter().any(|n| n.contains("healthy")),
+            "{name}: {names:?}"
+        );
+    }
 }
 
 #[test]

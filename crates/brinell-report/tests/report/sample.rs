@@ -2,7 +2,7 @@
 
 use brinell_report::{
     AlongRoller, Assumption, AxialRow, AxialSection, CageOrbit, CageOrbits, DamageCurve,
-    DamagePanel, DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact,
+    DamagePanel, DamageView, DamagedSurface, DepthPatch, Estimate, Event, EventKind, Fact, Healthy,
     IndicatorRow, IndicatorTable, Marker, MinMax, Motion, MotionDamage, MotionRow, Pass, Report,
     RowLoad, SensorView, Series, SlipRow, Spectrogram, Spectrum, Waveform, bin_centres,
 };
@@ -154,6 +154,12 @@ pub(crate) fn filled(text: &str, values: &[f64], dt: f64, frequency: f64) -> Rep
     };
     Report {
         lead: text.into(),
+        healthy: Healthy {
+            waveform: values.to_vec(),
+            spectrum: values.to_vec(),
+            envelope_spectrum: values.to_vec(),
+            envelope_orders: values.to_vec(),
+        },
         envelope_orders: spectrum(),
         order_markers: vec![Marker {
             label: text.into(),
@@ -293,6 +299,7 @@ pub(crate) fn ordinary() -> Report {
         })
         .collect();
     let mut report = filled("plain", &values, 1.0 / 25_600.0, 250.102);
+    report.healthy = Healthy::default();
     report.spectrum.df_hz = 0.1;
     report.envelope_spectrum.df_hz = 0.1;
     report.waveform.series.t0_s = 0.0;

@@ -270,6 +270,7 @@ export class DamagePanel {
       const defect = scenario.defects[at];
       if (request.type === "resize") defect.shape = request.shape;
       if (request.type === "deeper") defect.depth_um = Number(((defect.depth_um ?? this.#depth) * DEEPER ** request.factor).toPrecision(3));
+      if (request.type === "shift") this.#lie(defect, (defect.center_deg + request.degrees) / 360 * this.#turn, (defect.axial_offset_mm ?? 0) + request.z);
       if (request.type === "move") this.#lie(defect, request.s, request.z);
     }, this.#gesture?.id ?? request.type);
     if (this.#gesture) this.#gesture.put = true;

@@ -414,7 +414,7 @@ export class Raceway extends HTMLElement {
   #step([ds, dz], times) {
     const degree = this.turn / 360, chosen = this.#damage.find((one) => one.defect === this.selected);
     if (chosen && this.defect && !this.#cursor) {
-      this.#send({ type: "move", s: this.defect.center_deg * degree + ds * degree * times, z: (this.defect.axial_offset_mm ?? 0) + dz * 0.1 * times });
+      this.#send({ type: "shift", degrees: ds * times, z: dz * 0.1 * times });
       return;
     }
     const at = this.#cursor ?? [this.#view.s, 0];

@@ -4,7 +4,7 @@
 /**
  * @typedef {{type: "shape", shape: Record<string, any>, s: number, z: number}
  *   | {type: "stroke", tool: "pen" | "brush", points: [number, number][], fresh: boolean}
- *   | {type: "move", s: number, z: number} | {type: "resize", shape: Record<string, any>}
+ *   | {type: "move", s: number, z: number} | {type: "shift", degrees: number, z: number} | {type: "resize", shape: Record<string, any>}
  *   | {type: "begin"} | {type: "end"} | {type: "cancel"} | {type: "select", defect: number}
  *   | {type: "delete"} | {type: "deeper", factor: number} | {type: "undo"} | {type: "redo"}} Request
  */

@@ -9,9 +9,14 @@ export const settled = (page) => until(page, () => {
   const { side } = globalThis.brinellStudio,
     sorted = (v) => (Array.isArray(v) || v === null || typeof v !== "object" ? v : Object.fromEntries(Object.entries(v).sort(([a], [b]) => (a < b ? -1 : 1))));
   const text = (scenario) => JSON.stringify(scenario?.defects?.map(({ depth_um, on, row, center_deg, shape }) => [depth_um, on, row, center_deg, Object.keys(shape),
-    shape.rectangle]) ?? [], (_, v) => sorted(v));
+    shape.rectangle, shape.circle]) ?? [], (_, v) => sorted(v));
   return text(side.opened?.scenario) === text(side.store.scenario);
 });
+// Statistics of more samples than these, all of them at one instant.
+export const moments = async (page, least) => (await page.waitForFunction((n) => {
+  const m = globalThis.brinellStudio.side.moments;
+  return m?.rms && m.kurtosis && m.samples > n && m;
+}, least)).jsonValue();
 export const start = async (page, example) => {
   await page.selectOption("#preset", `example:${example}`);
   await until(page, (name) => globalThis.brinellStudio.side.opened?.scenario.name === name, example);

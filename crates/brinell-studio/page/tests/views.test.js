@@ -334,6 +334,7 @@ describe("the passage", () => {
     await page.keyboard.press("Shift+ArrowRight");
     assert.match(await page.locator("brinell-passage .readout").textContent(), /^−2.75 mm/);
     await page.locator("brinell-passage summary").click();
+    await page.locator("brinell-passage tbody tr").first().waitFor();
     assert.equal(await page.locator("brinell-passage tbody tr").count(), 25);
     const { error, wrong, words, png } = await saved(page, "brinell-passage");
     assert.equal(error, null);

@@ -6,6 +6,7 @@ use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
 use crate::dataset::refusal::refused;
 use crate::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
+use brinell::document::reading::parse;
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
@@ -110,6 +111,18 @@ impl Document {
         self.problems(vec![problem.placed(locate(&self.text, key))])
     }
 
+    /// That the file is a scenario, where it is one.
+    fn scenario_in_place(&self) -> Option<DatasetError> {
+        let keys = parse(&self.text, &[]).ok()?;
+        let is_scenario = keys.contains_key("bearing") && !keys.contains_key("base");
+        is_scenario.then(|| {
+            DatasetError::Refused(format!(
+                "{} is a scenario and no plan of a data set: a plan names its scenario (`base`), how many `runs` and what is drawn for each;                  `brinell init plan.toml --template data-set` writes one",
+                self.path.display()
+            ))
+        })
+    }
+
     pub(crate) fn problems(&self, problems: Vec<Problem>) -> DatasetError {
         DatasetError::Document {
             name: self.path.display().to_string(),
@@ -126,7 +139,10 @@ impl Campaign {
     /// Where a file cannot be read, the plan is bad or impossible, or no first run can be made.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, DatasetError> {
         let plan = Document::open(path.as_ref())?;
-        let read = Plan::read(&plan.text).map_err(|problems| plan.problems(problems))?;
+        let read = Plan::read(&plan.text).map_err(|problems| {
+            plan.scenario_in_place()
+                .unwrap_or_else(|| plan.problems(problems))
+        })?;
         let folder = plan.path.parent().unwrap_or(Path::new(""));
         let base = Document::open(&folder.join(&read.base)).map_err(|error| match error {
             // The file is the plan's to name.

@@ -76,9 +76,9 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
     });
 }
 
-/// Force of an oiled ball pocket whose clearance is used up, N: from measurements, the linear law that models of ball bearings take from
-/// Meeks and Ng (1985), K_c = 11/C_p.
-const BALL_POCKET_N: f64 = 11.0;
+/// Force of an oiled pocket whose clearance is used up, N: the linear law that models of ball bearings take from Meeks and Ng (1985),
+/// K_c = 11/C_p. Taken for rollers too, of which no such number was found.
+const OILED_POCKET_N: f64 = 11.0;
 
 fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     let d = b.roller_diameter_mm;
@@ -121,7 +121,7 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     k.key(
         key("guidance", "what centres the cage"),
-        assumed(Guidance::OuterRing, PAPER),
+        assumed(Guidance::Rollers, "most cages from stock are centred so"),
         &mut c.guidance,
     );
     let film = match c.guidance {
@@ -140,11 +140,12 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
         &mut c.guidance_film,
     );
     let (gap, how) = match c.guidance {
+        Guidance::Rollers => (c.pocket_clearance_mm.max(0.01), "the pocket's"),
         Guidance::InnerRing => (
             0.5 * (c.inner_diameter_mm - b.inner_raceway_diameter_mm),
             "gap between cage and inner raceway",
         ),
-        Guidance::OuterRing | Guidance::Rollers => (
+        Guidance::OuterRing => (
             0.5 * (b.outer_raceway_diameter_mm - c.outer_diameter_mm),
             "gap between cage and outer raceway",
         ),
@@ -164,13 +165,10 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     k.key(
         key("contact_stiffness_n_per_m", "k_c, of pockets and land").above(0.0),
-        match b.element {
-            Element::Roller => assumed(1e7, "the paper does not state it"),
-            Element::Ball => assumed(
-                BALL_POCKET_N / (1e-3 * c.pocket_clearance_mm.max(0.01)),
-                "11 N over the pocket's clearance: oil cushions the ball (Meeks)",
-            ),
-        },
+        assumed(
+            OILED_POCKET_N / (1e-3 * c.pocket_clearance_mm.max(0.01)),
+            "11 N over the pocket's clearance: oil cushions it (Meeks)",
+        ),
         &mut c.contact_stiffness_n_per_m,
     );
     k.key(

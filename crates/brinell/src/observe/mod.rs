@@ -15,10 +15,11 @@ pub mod waveform;
 use crate::channel::Frame;
 use crate::model::Model;
 use crate::scenario::{Defect, Scenario, Speed};
+use crate::signal::ratio::{Ratio, ratio};
 use crate::signal::stream::LONGEST_SEGMENT;
 use crate::signal::{
-    Band, Blocks, EnvelopeSpectrum, Estimate, Interval, LineFrequency, LineSearch, Spectrogram,
-    Spectrum, StreamSpectra,
+    Band, Blocks, EnvelopeSpectrum, Estimate, Indicator, Interval, LineFrequency, LineSearch,
+    Spectrogram, Spectrum, StreamSpectra,
 };
 use crate::simulate::Simulation;
 use load_zone::{LoadZone, Places};
@@ -122,6 +123,21 @@ pub struct Findings {
     pub lines: Vec<DefectLine>,
     /// What had not settled when statistics began, at constant speed.
     pub drifts: Vec<Drift>,
+}
+
+impl Findings {
+    /// RMS of the anti-aliased sensor acceleration along `axis`, m/s^2.
+    pub fn rms(&self) -> Option<Estimate> {
+        let name = ["sensor_ax", "sensor_ay"][self.axis];
+        let mut channels = self.channels.iter();
+        let channel = channels.find(|c| c.name == name && c.kind == Kind::AntiAliased)?;
+        channel.blocks.estimate(Indicator::Rms)
+    }
+
+    /// That over the same bearing's without its damage.
+    pub fn over_healthy(&self, healthy: &Self) -> Option<Ratio> {
+        ratio(&self.rms()?, &healthy.rms()?)
+    }
 }
 
 /// A quantity that was still on its way to its later value when statistics began.

@@ -48,7 +48,9 @@ fn analytic_derived_defaults_of_a_bare_bearing() {
     near(s.cage.inner_diameter_mm, 45.0, 1e-12);
     near(s.cage.outer_diameter_mm, 53.0, 1e-12);
     near(s.cage.pocket_clearance_mm, 0.09, 1e-12);
-    near(s.cage.guide_clearance_mm, 1.0, 1e-12);
+    near(s.cage.guide_clearance_mm, 0.09, 1e-12);
+    let ringed = with(BARE, &[("cage.guidance", "outer-ring")]).unwrap();
+    near(ringed.scenario.cage.guide_clearance_mm, 1.0, 1e-12);
     let double = with(BARE, &[("bearing.rows", "2")]).unwrap().scenario;
     near(double.bearing.row_stagger_deg, 180.0 / 19.0, 1e-15);
     // Of the NN3007's ring masses the sum only: for the bearing's dimensions the paper's two look exchanged.
@@ -84,7 +86,7 @@ fn regress_every_value_has_an_origin_and_guesses_are_assumed() {
         "bearing.pitch_diameter_mm",
         "bearing.radial_clearance_um",
         "cage.mass_kg",
-        "cage.guidance_film",
+        "cage.guidance",
         "cage.contact_stiffness_n_per_m",
         "cage.contact_damping_ns_per_m",
         "contact.inner_stiffness",

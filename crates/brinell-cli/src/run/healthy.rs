@@ -1,0 +1,46 @@
+//! The same scenario without its damage, run beside it: what the page draws in grey.
+
+use crate::args::RunArgs;
+use brinell::observe::Findings;
+use brinell::result::{RunResult, simulate_with};
+use brinell::scenario::Scenario;
+use brinell::simulate::{End, Observer, SolverWork};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Runs `damaged`, and the healthy bearing on another thread, where there is damage and somewhere to show it. It is dropped where either
+/// did not come to its end.
+pub(super) fn beside(
+    args: &RunArgs,
+    scenario: &Scenario,
+    stop: &AtomicBool,
+    damaged: impl FnOnce() -> RunResult,
+) -> (RunResult, Option<Findings>) {
+    let shown = !args.no_report || !args.plots.is_empty() || args.json;
+    if scenario.defects.is_empty() || args.no_healthy || !shown {
+        return (damaged(), None);
+    }
+    let mut healthy = scenario.clone();
+    healthy.defects.clear();
+    // Nothing but what the sensor reads is kept of it.
+    healthy.simulation.record.clear();
+    std::thread::scope(|scope| {
+        let healthy = scope.spawn(|| simulate_with(&healthy, &mut Stop(stop)).ok());
+        let damaged = damaged();
+        let healthy = healthy.join().ok().flatten();
+        let whole = damaged.outcome.end == End::Complete;
+        (damaged, healthy.filter(|_| whole).map(|run| run.findings))
+    })
+}
+
+/// Ctrl-C.
+struct Stop<'a>(&'a AtomicBool);
+
+impl Observer for Stop<'_> {
+    fn progress(&mut self, _: f64, _: &SolverWork) -> ControlFlow<()> {
+        match self.0.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

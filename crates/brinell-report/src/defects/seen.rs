@@ -1,0 +1,238 @@
+//! One defect with what its numbers, words and pictures are made of.
+
+use super::along::along_roller;
+use super::curves::{depths, section};
+use super::measures::{deepest, facts, widest};
+use super::passage::Passage;
+use super::{Damage, FALLBACK_APPROACH, Measures, THICKNESS_SHARE, ends, in_place, ring_width};
+use crate::DamageView;
+use crate::number::short;
+use brinell::defect::simplify::Extent;
+use brinell::defect::{Defect, Side, wrap};
+use brinell::lamina::AtRest;
+use brinell::model::Model;
+use brinell::observe::passes::place;
+use brinell::scenario::{Scenario, Surface};
+use brinell::statics::StaticLoadZone;
+use std::f64::consts::TAU;
+
+pub(super) struct Seen<'a> {
+    scenario: &'a Scenario,
+    model: &'a Model,
+    index: usize,
+    defect: &'a Defect,
+    measures: Measures,
+    /// Contacts that meet it, with their approach, m.
+    sides: Vec<(Side, f64)>,
+    /// First and last angle of the loaded rollers of its row, rad.
+    zone: Option<[f64; 2]>,
+    /// Of the ring, m, and whether somebody stated it.
+    thickness: f64,
+    stated: bool,
+}
+
+impl<'a> Seen<'a> {
+    /// Defect `index` of a model; a roller passes it in `pass` s.
+    pub(super) fn of(
+        (scenario, model, index): (&'a Scenario, &'a Model, usize),
+        pass: f64,
+        statics: Option<&StaticLoadZone>,
+        thickness_mm: Option<f64>,
+    ) -> Self {
+        let defect = &model.defects[index];
+        let force = statics.map(|z| z.largest).filter(|f| *f > 0.0);
+        let approach = |side: Side| {
+            let delta = force.map_or(FALLBACK_APPROACH, |f| model.deflection(side, f));
+            (side, delta)
+        };
+        let sides = match defect.surface {
+            Surface::OuterRaceway => vec![approach(Side::Outer)],
+            Surface::InnerRaceway => vec![approach(Side::Inner)],
+            Surface::Roller(_) => vec![approach(Side::Outer), approach(Side::Inner)],
+        };
+        let zone = statics.and_then(|z| ends(&z.points, z.shift, defect.row));
+        let (first, last) = defect.shape.arc();
+        let arc = (last - first) / defect.radius;
+        let extent = Extent::of(&defect.shape, defect.depth);
+        let (deepest, raised) = deepest(defect);
+        let measures = Measures {
+            length_mm: 1e3 * extent.length,
+            arc_deg: arc.to_degrees(),
+            widest_mm: 1e3 * widest(defect),
+            area_mm2: 1e6 * extent.area,
+            mean_depth_um: 1e6 * extent.depth,
+            deepest_um: 1e6 * deepest,
+            raised_um: 1e6 * raised,
+            pass_ms: 1e3 * pass,
+            speed_rpm: 60.0 * model.rotation.max_speed() / TAU,
+            load_zone_share: match defect.surface {
+                Surface::Roller(_) => None,
+                _ => zone.map(|[from, to]| arc / (to - from)),
+            },
+            approach_um: 1e6 * sides[0].1,
+            force_n: force,
+        };
+        let share = THICKNESS_SHARE * scenario.bearing.roller_diameter_mm;
+        Self {
+            scenario,
+            model,
+            index,
+            defect,
+            measures,
+            sides,
+            zone,
+            thickness: 1e-3 * thickness_mm.unwrap_or(share),
+            stated: thickness_mm.is_some(),
+        }
+    }
+
+    pub(super) fn damage(self, at_rest: Option<&AtRest>) -> Damage {
+        let (s, defect) = (self.scenario, self.defect);
+        let of = &s.defects[self.index];
+        let (angle_deg, passage) = Passage {
+            scenario: s,
+            of,
+            defect,
+            model: self.model,
+            sides: &self.sides,
+        }
+        .panels();
+        let (section_s_mm, section) = match self.is_roller() || self.is_through() {
+            true => (Vec::new(), Vec::new()),
+            false => section(defect, ring_width(s), self.thickness),
+        };
+        let title = format!("Defect {}: {}", self.index + 1, place(defect));
+        let element = s.bearing.element.word();
+        let view = DamageView {
+            plan_title: format!("{title}. {}", self.unrolled()),
+            passage_title: format!("{title}. {}", self.meets()),
+            section_title: format!(
+                "{title}. Section under it of a ring {} mm thick",
+                short(1e3 * self.thickness, 3)
+            ),
+            element: element.into(),
+            surface: match defect.surface {
+                Surface::OuterRaceway => "outer raceway".into(),
+                Surface::InnerRaceway => "inner raceway".into(),
+                Surface::Roller(_) => element.into(),
+            },
+            half_turn_mm: self.is_roller().then_some(0.5e3 * TAU * defect.radius),
+            title,
+            facts: facts(&self.measures, &s.bearing),
+            polygons_mm: in_place(of, &defect.shape),
+            against_mm: Vec::new(),
+            against: String::new(),
+            photo: None,
+            depths: depths(&defect.shape),
+            roller_length_mm: s.bearing.roller_length_mm,
+            roller_diameter_mm: s.bearing.roller_diameter_mm,
+            load_zone_mm: self.load_zone_mm(),
+            angle_deg,
+            passage,
+            passage_note: self.passage_note(),
+            along: at_rest.and_then(|r| along_roller(r, Some(self.index))),
+            section_s_mm,
+            section,
+            section_note: self.section_note(),
+        };
+        Damage {
+            measures: self.measures,
+            view,
+        }
+    }
+
+    fn is_roller(&self) -> bool {
+        matches!(self.defect.surface, Surface::Roller(_))
+    }
+
+    /// Deeper than the ring is thick.
+    fn is_through(&self) -> bool {
+        1e-6 * self.measures.deepest_um >= self.thickness
+    }
+
+    fn unrolled(&self) -> &'static str {
+        match self.defect.surface {
+            Surface::OuterRaceway => "Unrolled",
+            Surface::InnerRaceway => "Unrolled; it turns through the load zone",
+            Surface::Roller(_) => "Unrolled once around; either raceway meets the damage",
+        }
+    }
+
+    fn deformation(&self) -> String {
+        match self.sides[..] {
+            [(_, outer), (_, inner)] => format!(
+                "{} µm at the outer and {} µm at the inner contact",
+                short(1e6 * outer, 3),
+                short(1e6 * inner, 3)
+            ),
+            _ => format!("{} µm", short(self.measures.approach_um, 3)),
+        }
+    }
+
+    fn meets(&self) -> String {
+        let deformation = self.deformation();
+        let element = self.scenario.bearing.element.word();
+        match self.is_roller() {
+            true => {
+                format!("What both contacts meet as it turns; K at a deformation of {deformation}")
+            }
+            false => {
+                format!("What a passing {element} meets; K at a deformation of {deformation}")
+            }
+        }
+    }
+
+    fn passage_note(&self) -> String {
+        let by_force = self
+            .measures
+            .force_n
+            .map_or("no static balance, assumed".to_owned(), |f| {
+                format!(
+                    "the heaviest static contact of the healthy bearing, {} N",
+                    short(f, 3)
+                )
+            });
+        let profile = match self.model.profiled() {
+            Some(_) => "; along the profile, the roller does not tilt",
+            None => "",
+        };
+        format!(
+            "stiffness Q/δⁿ at a deformation of {} ({by_force}); this defect alone, the paths and laws side by side{profile}",
+            self.deformation()
+        )
+    }
+
+    fn load_zone_mm(&self) -> Option<[f64; 2]> {
+        let Surface::OuterRaceway = self.defect.surface else {
+            return None;
+        };
+        let [from, to] = self.zone?;
+        let start = wrap(0.5 * (from + to) - self.defect.center) - 0.5 * (to - from);
+        Some([start, start + to - from].map(|u| 1e3 * u * self.defect.radius))
+    }
+
+    fn section_note(&self) -> String {
+        let thick = short(1e3 * self.thickness, 3);
+        let assumed = match self.stated {
+            true => "stated",
+            false => "an assumption: 0.6 of the roller's diameter",
+        };
+        let bearing = &self.scenario.bearing;
+        if self.is_roller() {
+            let element = bearing.element.word();
+            format!("section properties describe rings; this damage is on a {element}")
+        } else if self.is_through() {
+            format!(
+                "the damage is deeper than the ring is thick, {thick} mm ({assumed}): no section is left"
+            )
+        } else {
+            let width = match bearing.has_balls() {
+                true => "the bearing",
+                false => "the roller is long",
+            };
+            format!(
+                "ring {thick} mm thick ({assumed}), as wide as {width}; as in the paper, these do not enter the equations of motion"
+            )
+        }
+    }
+}

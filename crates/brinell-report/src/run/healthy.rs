@@ -1,0 +1,53 @@
+//! Of the report's data, the same bearing without its damage.
+
+use super::orders;
+use crate::Healthy;
+use crate::number::short;
+use brinell::observe::Findings;
+use brinell::signal::Spectrum;
+use brinell::summary::Parts;
+
+/// Curves at the places of the damaged bearing's own; what lies elsewhere is left out.
+pub(super) fn healthy(parts: &Parts) -> Healthy {
+    let Some(healthy) = parts.healthy else {
+        return Healthy::default();
+    };
+    let (of, at) = (parts.findings.waveform.latest(), healthy.waveform.latest());
+    let envelope = |f: &'_ Findings| f.envelope.as_ref().map(|(e, _)| e.spectrum.clone());
+    let orders = |f: &Findings| orders::orders(parts, f).0;
+    Healthy {
+        waveform: match (of.0, of.1.len()) == (at.0, at.1.len()) {
+            true => at.1,
+            false => Vec::new(),
+        },
+        spectrum: lines(parts.findings.spectrum.clone(), healthy.spectrum.clone()),
+        envelope_spectrum: lines(envelope(parts.findings), envelope(healthy)),
+        envelope_orders: {
+            let (of, at) = (orders(parts.findings), orders(healthy));
+            let alike = of.df_hz == at.df_hz && of.amplitude.len() == at.amplitude.len();
+            if alike { at.amplitude } else { Vec::new() }
+        },
+    }
+}
+
+fn lines(of: Option<Spectrum>, healthy: Option<Spectrum>) -> Vec<f64> {
+    match (of, healthy) {
+        (Some(of), Some(healthy))
+            if of.frequency_step == healthy.frequency_step
+                && of.amplitude.len() == healthy.amplitude.len() =>
+        {
+            healthy.amplitude
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// "4.1 times the healthy bearing's", and its interval; `None` where there is no healthy bearing or no level.
+pub(super) fn times(parts: &Parts) -> Option<(String, String)> {
+    let ratio = parts.findings.over_healthy(parts.healthy?)?;
+    let interval = ratio.interval.map_or(String::new(), |(low, high)| {
+        format!("95 %: {} to {}", short(low, 2), short(high, 2))
+    });
+    let words = format!("{} times the healthy bearing’s", short(ratio.value, 2));
+    Some((words, interval))
+}
