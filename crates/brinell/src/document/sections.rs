@@ -79,6 +79,8 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
 /// Force of an oiled pocket whose clearance is used up, N: the linear law that models of ball bearings take from Meeks and Ng (1985),
 /// K_c = 11/C_p. Taken for rollers too, of which no such number was found.
 const OILED_POCKET_N: f64 = 11.0;
+/// Stiffness of a pocket of steel on steel, N/m, as assumed for the paper's bearing.
+const STEEL_POCKET: f64 = 1e7;
 
 fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     let d = b.roller_diameter_mm;
@@ -173,7 +175,10 @@ fn cage<K: Keys>(k: &mut K, b: &Bearing, c: &mut Cage) {
     );
     k.key(
         key("contact_damping_ns_per_m", "c_c, of pockets and land").from(0.0),
-        assumed(20.0, "the paper does not state it"),
+        assumed(
+            20.0 * (c.contact_stiffness_n_per_m / STEEL_POCKET).sqrt(),
+            "as large a share of the critical damping as 20 N s/m are at 1e7 N/m",
+        ),
         &mut c.contact_damping_ns_per_m,
     );
 }
