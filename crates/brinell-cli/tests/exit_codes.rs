@@ -339,17 +339,21 @@ fn regress_a_failed_run_exits_1_says_where_and_keeps_what_it_has() {
     fs::write(here.join("s.toml"), SHORT.replace("NU206", "NN3007")).unwrap();
     let stiff = "cage.contact_stiffness_n_per_m=1e28";
     let args = ["run", "s.toml", "-o", "o", "--signals", "csv,parquet"];
-    let call = brinell(here, &[&args[..], &["--set", stiff]].concat())
-        .exits(1)
-        .complains(&[
-            "error: ",
-            " at t = 0.0",
-            " s: ",
-            " in row ",
-            // Which contact or pocket is pressed hardest there hangs on round-off.
-            " carries ",
-        ])
-        .says(&["Failed: the results are partial, up to t = 0.0"]);
+    let damping = "cage.contact_damping_ns_per_m=20";
+    let call = brinell(
+        here,
+        &[&args[..], &["--set", stiff, "--set", damping]].concat(),
+    )
+    .exits(1)
+    .complains(&[
+        "error: ",
+        " at t = 0.0",
+        " s: ",
+        " in row ",
+        // Which contact or pocket is pressed hardest there hangs on round-off.
+        " carries ",
+    ])
+    .says(&["Failed: the results are partial, up to t = 0.0"]);
     let errors = call.err.lines().filter(|l| l.starts_with("error"));
     assert_eq!(errors.count(), 1, "{call:#?}");
     let (_, rows) = csv(&here.join("o/signals.csv"));
