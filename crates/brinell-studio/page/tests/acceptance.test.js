@@ -252,7 +252,8 @@ describe("the page before `brinell studio`", { skip: missing }, () => {
   it("carries its scenario over a reload", async () => on(async (page) => {
     await start(page, "inner-race");
     const { toml } = await opened(page);
-    await page.waitForTimeout(1000);
+    // It is kept when nothing has changed for a moment.
+    await until(page, (text) => Object.values(localStorage).includes(text), toml);
     await page.reload();
     await until(page, (text) => globalThis.brinellStudio?.side?.opened?.toml === text, toml);
   }));
