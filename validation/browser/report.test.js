@@ -165,7 +165,7 @@ describe("a plot", () => {
     const [x, y] = await place(page, "waveform", 0.4);
     await page.mouse.move(x, y);
     const words = await readout(page, "waveform").textContent();
-    const [, time, value] = words.match(/^([\d.]+) ms · (−?[\d.]+(?:e[-−]?\d+)?) m\/s²/) || assert.fail(words);
+    const [, time, value] = words.match(/^([\d.]+) ms · damaged (−?[\d.]+(?:e[-−]?\d+)?) m\/s² · healthy −?[\d.]/) || assert.fail(words);
     assert.ok(Math.abs(Number(time) - (lo + 0.4 * (hi - lo))) < 0.003 * (hi - lo), words);
     assert.ok(Number.isFinite(Number(value.replaceAll("−", "-"))));
     await page.mouse.move(0, 0);
@@ -221,7 +221,7 @@ describe("a plot", () => {
   it("reads the same line in m/s², g, mm/s and dB", async () => on({}, async (page) => {
     await click(page, "spectrum", 0.3);
     await page.mouse.move(0, 0);
-    const value = async () => { const [, x, v] = (await readout(page, "spectrum").textContent()).match(/^([\d.]+) Hz · (\S+)/); return [Number(x), number(v)]; };
+    const value = async () => { const [, x, v] = (await readout(page, "spectrum").textContent()).match(/^([\d.]+) Hz · damaged (\S+)/); return [Number(x), number(v)]; };
     const [hz, metres] = await value();
     const near = (a, b) => assert.ok(Math.abs(a / b - 1) < 2e-3, `${a} is not ${b}`);
     await choose(page, "spectrum", "Unit", { label: "g" });
@@ -240,7 +240,7 @@ describe("a plot", () => {
     const [download] = await Promise.all([page.waitForEvent("download"), figure(page, "envelope-spectrum").getByRole("button", { name: /as CSV/ }).click()]);
     assert.equal(download.suggestedFilename(), "envelope-spectrum.csv");
     const rows = (await readFile(await download.path(), "utf8")).trim().split("\n");
-    assert.equal(rows[0], '"Frequency (Hz)","Envelope amplitude (m/s^2)"');
+    assert.equal(rows[0], '"Frequency (Hz)","damaged (m/s^2)","healthy (m/s^2)"');
     const [from, to] = await ends(page, "envelope-spectrum"), places = rows.slice(1).map((row) => row.split(",").map(Number));
     assert.ok(places.length > 4 && places.every(([x, v]) => Number.isFinite(x) && v >= 0));
     assert.ok(places[0][0] <= from && places.at(-1)[0] >= to, `${places[0][0]} to ${places.at(-1)[0]} of ${from} to ${to}`);
