@@ -21,9 +21,11 @@ function nearest(plot, curve, x) {
   }
   return index;
 }
-// Where the cursor stands for a place: at a value, where there is one curve or single points.
-const snap = (plot, x) => { const { chart } = plot, first = chart.curves[0]; return chart.curves.length === 1 || chart.still ? placeOf(first, nearest(plot, first, x)) : x; };
-const readAt = (plot, curve, x) => { const i = nearest(plot, curve, x), at = placeOf(curve, i); return level(plot.chart, curve.values[i], at); };
+// Whether all curves have their values at the same places: a run and the healthy bearing.
+const alike = ({ curves: [first, ...rest] }) => rest.every((curve) => curve.values.length === first.values.length && placeOf(curve, 0) === placeOf(first, 0) && endOf(curve) === endOf(first));
+// Where the cursor stands for a place: at a value of the first curve, where its places are all there are.
+const snap = (plot, x) => { const { chart } = plot, first = chart.curves[0]; return chart.still || alike(chart) ? placeOf(first, nearest(plot, first, x)) : x; };
+const readAt = (plot, curve, x) => { const { chart } = plot, i = nearest(plot, alike(chart) ? chart.curves[0] : curve, x), at = placeOf(curve, i); return level(chart, curve.values[i], at); };
 
 // A unit behind a number.
 const spaced = (unit) => (unit ? ` ${unit}` : "");
