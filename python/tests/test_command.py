@@ -35,7 +35,10 @@ def test_xval_signals_and_summary_have_the_bits_of_the_command(command, examples
 def test_xval_the_page_of_a_run_is_that_of_the_command(command, examples, tmp_path):
     run(command, "run", examples / "rectangle.toml", "--set", "simulation.duration_s=0.3", "-o", tmp_path, "--signals", "none", "-q")
     result = brinell.simulate(examples / "rectangle.toml", settings={"simulation.duration_s": 0.3})
-    assert result.to_html() == (tmp_path / "report.html").read_text(encoding="utf-8")
+    # The command runs the bearing without its damage too.
+    healthy = brinell.simulate(result.scenario.replace({"defects": []}))
+    assert result.to_html(healthy) == (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "the same bearing without the damage" not in result.to_html()
 
 
 def test_xval_sweep_has_the_table_of_the_command(command, examples, tmp_path):
