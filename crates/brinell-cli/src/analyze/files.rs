@@ -25,7 +25,7 @@ pub(super) fn files(named: &[PathBuf]) -> Result<Files, Failure> {
     let is_toml = |path: &&PathBuf| path.extension().is_some_and(|e| e == "toml");
     if let Some(scenario) = named.iter().find(is_toml) {
         return Err(Failure::Usage(format!(
-            "{0} is no file of signals; of a scenario they are simulated first: `brinell run {0} -o FOLDER`, then `brinell analyze FOLDER`",
+            "{0} is no file of signals; of a scenario they are simulated first: `brinell run SCENARIO -o FOLDER`, then `brinell analyze FOLDER`",
             one_line(&scenario.display().to_string())
         )));
     }
