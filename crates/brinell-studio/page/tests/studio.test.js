@@ -338,7 +338,13 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await page.keyboard.press("Control+z");
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 1);
     // A scratch: pen down, along, pen up.
-    for (const key of ["Escape", "p", "Enter", "Enter", "ArrowRight", "ArrowRight", "Enter"].slice(1)) await page.keyboard.press(key);
+    await settled(page);
+    await page.locator('brinell-raceway canvas[aria-label*="1 damaged place"]').waitFor();
+    for (const key of ["p", "Enter", "ArrowRight", "ArrowRight", "Enter"]) {
+      await page.keyboard.press(key);
+      // As fast as a hand is: a stroke that ends before the engine has seen it leaves nothing.
+      await page.waitForTimeout(150);
+    }
     await until(page, () => globalThis.brinellStudio.side.opened.scenario.defects?.length === 2);
     const waiting = page.waitForEvent("download");
     await page.focus("#save");
