@@ -439,7 +439,7 @@ fn healthy_line(parts: &Parts) -> Option<String> {
     });
     Some(format!(
         "  {} without the damage: RMS {} m/s^2; with it {} x that{interval}",
-        ["sensor_ax", "sensor_ay"][healthy.axis],
+        healthy.sensor_name(),
         short(rms.value, 3),
         short(ratio.value, 3),
     ))

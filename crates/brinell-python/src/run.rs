@@ -254,11 +254,6 @@ impl Run {
             })
         })
     }
-
-    /// The sensor channel that spectra are of.
-    fn shown(&self) -> &'static str {
-        ["sensor_ax", "sensor_ay"][self.finished.findings.axis]
-    }
 }
 
 #[pymethods]
@@ -330,7 +325,7 @@ impl Run {
             return Ok(None);
         };
         let dict = crate::signal::spectrum_dict(py, spectrum.clone())?;
-        dict.set_item("channel", self.shown())?;
+        dict.set_item("channel", self.finished.findings.sensor_name())?;
         Ok(Some(dict))
     }
 
@@ -340,7 +335,7 @@ impl Run {
             return Ok(None);
         };
         let dict = crate::signal::spectrum_dict(py, envelope.spectrum.clone())?;
-        dict.set_item("channel", self.shown())?;
+        dict.set_item("channel", self.finished.findings.sensor_name())?;
         dict.set_item("band_hz", (band.low, band.high))?;
         dict.set_item("mean", envelope.mean)?;
         Ok(Some(dict))

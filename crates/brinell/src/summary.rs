@@ -80,13 +80,10 @@ fn beside(findings: &Findings, healthy: &Findings) -> Value {
     let ratio = findings.over_healthy(healthy);
     json!({
         "meaning": "the same scenario without its damage: RMS of the sensor acceleration along the axis that the spectra show, and the damaged bearing's over it",
-        "channel": (["sensor_ax", "sensor_ay"][healthy.axis]),
+        "channel": healthy.sensor_name(),
         "unit": "m/s^2",
         "rms": healthy.rms().as_ref().map(estimate),
-        "ratio": ratio.map(|r| match r.interval {
-            Some((low, high)) => json!({ "value": r.value, "low": low, "high": high }),
-            None => json!({ "value": r.value }),
-        }),
+        "ratio": ratio.map(|r| with_interval(r.value, r.interval)),
     })
 }
 
@@ -246,9 +243,13 @@ fn defects(parts: &Parts) -> Value {
 }
 
 fn estimate(e: &Estimate) -> Value {
-    match &e.interval {
-        Some(i) => json!({ "value": e.value, "low": i.low, "high": i.high }),
-        None => json!({ "value": e.value }),
+    with_interval(e.value, e.interval.map(|i| (i.low, i.high)))
+}
+
+fn with_interval(value: f64, interval: Option<(f64, f64)>) -> Value {
+    match interval {
+        Some((low, high)) => json!({ "value": value, "low": low, "high": high }),
+        None => json!({ "value": value }),
     }
 }
 

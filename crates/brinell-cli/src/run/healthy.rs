@@ -6,7 +6,7 @@ use brinell::result::{RunResult, simulate_with};
 use brinell::scenario::Scenario;
 use brinell::simulate::{End, Observer, SolverWork};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// Runs `damaged`, and the healthy bearing on another thread, where there is damage and somewhere to show it. It is dropped where either
 /// did not come to its end.
@@ -38,9 +38,6 @@ struct Stop<'a>(&'a AtomicBool);
 
 impl Observer for Stop<'_> {
     fn progress(&mut self, _: f64, _: &SolverWork) -> ControlFlow<()> {
-        match self.0.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        brinell::many::go_on(self.0)
     }
 }

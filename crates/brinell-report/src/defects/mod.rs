@@ -8,20 +8,13 @@ mod seen;
 
 use crate::DamageView;
 pub(crate) use along::along_healthy_roller;
-use brinell::defect::{Shape, wrap};
 use brinell::derived::defect_passes;
 use brinell::lamina::AtRest;
 use brinell::model::{Model, ModelError};
-use brinell::scenario::{self, Scenario};
+use brinell::scenario::Scenario;
 use brinell::statics::static_load_zone;
-use brinell_damage::plan::{CORNERS, polygons_mm};
 pub use measures::Measures;
 use seen::Seen;
-
-/// Thickness of a ring that nobody stated, over the roller's diameter.
-const THICKNESS_SHARE: f64 = 0.6;
-/// Approach where no static balance gives one, m.
-const FALLBACK_APPROACH: f64 = 10e-6;
 
 /// One defect with its pictures' data.
 #[derive(Debug, Clone)]
@@ -52,37 +45,4 @@ pub fn damage_of(s: &Scenario, thickness_mm: Option<f64>) -> Result<Vec<Damage>,
         Seen::of((s, &model, k), passes[k], statics.as_ref(), thickness_mm).damage(at_rest.as_ref())
     });
     Ok(seen.collect())
-}
-
-/// Width of the ring whose section is taken, m: a roller's length, or of a ball bearing its own.
-fn ring_width(s: &Scenario) -> f64 {
-    let b = &s.bearing;
-    match b.has_balls() {
-        true => 1e-3 * b.width_mm,
-        false => 1e-3 * b.roller_length_mm,
-    }
-}
-
-/// The damage seen from above where it lies, mm.
-fn in_place(of: &scenario::Defect, shape: &Shape) -> Vec<Vec<[f64; 2]>> {
-    let mut polygons = polygons_mm(of, shape, CORNERS);
-    // An outline has been moved already.
-    if !matches!(shape, Shape::Outline(_)) {
-        for point in polygons.iter_mut().flatten() {
-            point[1] += of.axial_offset_mm;
-        }
-    }
-    polygons
-}
-
-/// First and last angle of the rollers of a row that the inner raceway loads, rad.
-fn ends(points: &[(usize, f64, f64, f64)], shift: [f64; 2], row: usize) -> Option<[f64; 2]> {
-    let middle = shift[1].atan2(shift[0]);
-    let loaded = points.iter().filter(|p| p.0 == row && p.2 > 0.0);
-    let (first, last) = loaded
-        .map(|p| wrap(p.1 - middle))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-            (a.min(x), b.max(x))
-        });
-    (last > first).then_some([middle + first, middle + last])
 }

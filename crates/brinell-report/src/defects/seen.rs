@@ -4,17 +4,23 @@ use super::along::along_roller;
 use super::curves::{depths, section};
 use super::measures::{deepest, facts, widest};
 use super::passage::Passage;
-use super::{Damage, FALLBACK_APPROACH, Measures, THICKNESS_SHARE, ends, in_place, ring_width};
+use super::{Damage, Measures};
 use crate::DamageView;
 use crate::number::short;
 use brinell::defect::simplify::Extent;
-use brinell::defect::{Defect, Side, wrap};
+use brinell::defect::{Defect, Shape, Side, wrap};
 use brinell::lamina::AtRest;
 use brinell::model::Model;
 use brinell::observe::passes::place;
-use brinell::scenario::{Scenario, Surface};
+use brinell::scenario::{self, Scenario, Surface};
 use brinell::statics::StaticLoadZone;
+use brinell_damage::plan::{CORNERS, polygons_mm};
 use std::f64::consts::TAU;
+
+/// Thickness of a ring that nobody stated, over the roller's diameter.
+const THICKNESS_SHARE: f64 = 0.6;
+/// Approach where no static balance gives one, m.
+const FALLBACK_APPROACH: f64 = 10e-6;
 
 pub(super) struct Seen<'a> {
     scenario: &'a Scenario,
@@ -235,4 +241,37 @@ impl<'a> Seen<'a> {
             )
         }
     }
+}
+
+/// Width of the ring whose section is taken, m: a roller's length, or of a ball bearing its own.
+fn ring_width(s: &Scenario) -> f64 {
+    let b = &s.bearing;
+    match b.has_balls() {
+        true => 1e-3 * b.width_mm,
+        false => 1e-3 * b.roller_length_mm,
+    }
+}
+
+/// The damage seen from above where it lies, mm.
+fn in_place(of: &scenario::Defect, shape: &Shape) -> Vec<Vec<[f64; 2]>> {
+    let mut polygons = polygons_mm(of, shape, CORNERS);
+    // An outline has been moved already.
+    if !matches!(shape, Shape::Outline(_)) {
+        for point in polygons.iter_mut().flatten() {
+            point[1] += of.axial_offset_mm;
+        }
+    }
+    polygons
+}
+
+/// First and last angle of the rollers of a row that the inner raceway loads, rad.
+fn ends(points: &[(usize, f64, f64, f64)], shift: [f64; 2], row: usize) -> Option<[f64; 2]> {
+    let middle = shift[1].atan2(shift[0]);
+    let loaded = points.iter().filter(|p| p.0 == row && p.2 > 0.0);
+    let (first, last) = loaded
+        .map(|p| wrap(p.1 - middle))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+            (a.min(x), b.max(x))
+        });
+    (last > first).then_some([middle + first, middle + last])
 }

@@ -7,36 +7,36 @@ use brinell::observe::Findings;
 use brinell::signal::Spectrum;
 use brinell::summary::Parts;
 
-/// Curves at the places of the damaged bearing's own; what lies elsewhere is left out.
-pub(super) fn healthy(parts: &Parts) -> Healthy {
+/// Curves at the places of the damaged bearing's own, whose envelope over orders is `orders`; what lies elsewhere is left out.
+pub(super) fn healthy(parts: &Parts, orders: &crate::Spectrum) -> Healthy {
     let Some(healthy) = parts.healthy else {
         return Healthy::default();
     };
     let (of, at) = (parts.findings.waveform.latest(), healthy.waveform.latest());
-    let envelope = |f: &'_ Findings| f.envelope.as_ref().map(|(e, _)| e.spectrum.clone());
-    let orders = |f: &Findings| orders::orders(parts, f).0;
+    let turned = orders::orders(parts, healthy).0;
+    let alike = orders.df_hz == turned.df_hz && orders.amplitude.len() == turned.amplitude.len();
     Healthy {
         waveform: match (of.0, of.1.len()) == (at.0, at.1.len()) {
             true => at.1,
             false => Vec::new(),
         },
-        spectrum: lines(parts.findings.spectrum.clone(), healthy.spectrum.clone()),
+        spectrum: lines(parts.findings.spectrum.as_ref(), healthy.spectrum.as_ref()),
         envelope_spectrum: lines(envelope(parts.findings), envelope(healthy)),
-        envelope_orders: {
-            let (of, at) = (orders(parts.findings), orders(healthy));
-            let alike = of.df_hz == at.df_hz && of.amplitude.len() == at.amplitude.len();
-            if alike { at.amplitude } else { Vec::new() }
-        },
+        envelope_orders: if alike { turned.amplitude } else { Vec::new() },
     }
 }
 
-fn lines(of: Option<Spectrum>, healthy: Option<Spectrum>) -> Vec<f64> {
+fn envelope(findings: &Findings) -> Option<&Spectrum> {
+    Some(&findings.envelope.as_ref()?.0.spectrum)
+}
+
+fn lines(of: Option<&Spectrum>, healthy: Option<&Spectrum>) -> Vec<f64> {
     match (of, healthy) {
         (Some(of), Some(healthy))
             if of.frequency_step == healthy.frequency_step
                 && of.amplitude.len() == healthy.amplitude.len() =>
         {
-            healthy.amplitude
+            healthy.amplitude.clone()
         }
         _ => Vec::new(),
     }

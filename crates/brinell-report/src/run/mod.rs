@@ -46,7 +46,7 @@ fn report(parts: &Parts) -> Report {
         },
         warnings: brinell::summary::warnings(parts),
         facts: facts(parts),
-        healthy: healthy::healthy(parts),
+        healthy: healthy::healthy(parts, &envelope_orders),
         waveform: waveform(parts),
         spectrum: spectrum(parts),
         spectrogram: spectrogram(parts, sensor_label(parts)),

@@ -1,11 +1,11 @@
 //! Of the report's data, its tables and tiles: headline numbers, slip, audits, the solver's work, assumptions.
 
-use super::{axis, healthy};
+use super::healthy;
 use crate::number::short;
 use crate::{Assumption, Fact};
 use brinell::accuracy::METHOD;
+use brinell::observe::DefectLine;
 use brinell::observe::passes::place;
-use brinell::observe::{DefectLine, Kind};
 use brinell::result::fields::{self, Field};
 use brinell::signal::Indicator;
 use brinell::simulate::Outcome;
@@ -13,13 +13,7 @@ use brinell::summary::Parts;
 
 pub(super) fn facts(parts: &Parts) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let name = format!("sensor_a{}", axis(parts));
-    let sensor = parts
-        .findings
-        .channels
-        .iter()
-        .find(|c| c.name == name && c.kind == Kind::AntiAliased);
-    if let Some(channel) = sensor {
+    if let Some(channel) = parts.findings.sensor() {
         for (indicator, label) in [
             (
                 Indicator::Rms,

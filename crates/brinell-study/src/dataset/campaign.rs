@@ -117,7 +117,7 @@ impl Document {
         let is_scenario = keys.contains_key("bearing") && !keys.contains_key("base");
         is_scenario.then(|| {
             DatasetError::Refused(format!(
-                "{} is a scenario and no plan of a data set: a plan names its scenario (`base`), how many `runs` and what is drawn for each;                  `brinell init plan.toml --template data-set` writes one",
+                "{} is a scenario and no plan of a data set: a plan names its scenario (`base`), how many `runs` and what is drawn for each; `brinell init plan.toml --template data-set` writes one",
                 self.path.display()
             ))
         })

@@ -126,12 +126,21 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// RMS of the anti-aliased sensor acceleration along `axis`, m/s^2.
-    pub fn rms(&self) -> Option<Estimate> {
-        let name = ["sensor_ax", "sensor_ay"][self.axis];
+    /// The channel that spectra and waveform show.
+    pub fn sensor_name(&self) -> &'static str {
+        ["sensor_ax", "sensor_ay"][self.axis]
+    }
+
+    /// Its statistics: the anti-aliased sensor acceleration along `axis`.
+    pub fn sensor(&self) -> Option<&ChannelStatistics> {
+        let name = self.sensor_name();
         let mut channels = self.channels.iter();
-        let channel = channels.find(|c| c.name == name && c.kind == Kind::AntiAliased)?;
-        channel.blocks.estimate(Indicator::Rms)
+        channels.find(|c| c.name == name && c.kind == Kind::AntiAliased)
+    }
+
+    /// Its RMS, m/s^2.
+    pub fn rms(&self) -> Option<Estimate> {
+        self.sensor()?.blocks.estimate(Indicator::Rms)
     }
 
     /// That over the same bearing's without its damage.
