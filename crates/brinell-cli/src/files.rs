@@ -4,10 +4,10 @@ use crate::args::ScenarioArgs;
 use crate::failure::{Failure, print_problems};
 use crate::inputs::Inputs;
 use crate::say::{complain, one_line};
-use brinell::document::reading::parse;
 use brinell::document::{Loaded, read_bytes};
 use brinell_damage::resolve_loaded;
 use brinell_io::read_text;
+use brinell_study::design::{FileKind, kind_of};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -77,10 +77,7 @@ impl Source {
 
     /// That the file is the plan of a data set, where it is one.
     fn plan_in_place(&self) -> Option<Failure> {
-        let keys = parse(&self.text(), &[]).ok()?;
-        let is_there = |key| keys.contains_key(key);
-        let is_plan = is_there("base") && is_there("runs") && !is_there("bearing");
-        is_plan.then(|| {
+        (kind_of(&self.text()) == Some(FileKind::Plan)).then(|| {
             Failure::Usage(format!(
                 "{0} is no scenario but the plan of a data set: `brinell dataset {0} --dry-run` checks it, `brinell dataset {0}` makes it; its scenario is the file \
                  that its key `base` names",
@@ -122,7 +119,7 @@ impl Source {
     }
 }
 
-/// `KEY=VALUE`, what was asked for by `option`.
+/// `KEY=VALUE`, what was requested by `option`.
 pub(crate) fn setting(option: &str, text: &str) -> Result<(String, String), Failure> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => {

@@ -21,7 +21,7 @@ pub struct Parts<'a> {
     pub loaded: &'a Loaded,
     /// The run as prepared.
     pub simulation: &'a Simulation,
-    /// How it went.
+    /// Its outcome.
     pub outcome: &'a Outcome,
     /// What was gathered.
     pub findings: &'a Findings,
@@ -246,7 +246,10 @@ fn estimate(e: &Estimate) -> Value {
     with_interval(e.value, e.interval.map(|i| (i.low, i.high)))
 }
 
-fn with_interval(value: f64, interval: Option<(f64, f64)>) -> Value {
+/// A number and the 95 % interval of its long-run value, as every file of results has it.
+#[doc(hidden)]
+pub fn with_interval(value: impl Into<Option<f64>>, interval: Option<(f64, f64)>) -> Value {
+    let value = value.into();
     match interval {
         Some((low, high)) => json!({ "value": value, "low": low, "high": high }),
         None => json!({ "value": value }),

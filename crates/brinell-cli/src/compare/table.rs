@@ -3,6 +3,7 @@
 use super::sides::Side;
 use brinell::result::Quantity;
 use brinell::signal::ratio::Ratio;
+use brinell::summary::with_interval;
 use brinell_io::{Cells, Column, Table};
 use brinell_study::campaign::Compared;
 use serde_json::{Map, Value, json};
@@ -46,14 +47,8 @@ pub(super) fn scenarios(sides: &[Side]) -> Map<String, Value> {
 }
 
 pub(super) fn json(sides: &[Side], compared: &[Compared]) -> Value {
-    let value = |q: &Quantity| match q.interval() {
-        Some((low, high)) => json!({ "value": q.value, "low": low, "high": high }),
-        None => json!({ "value": q.value }),
-    };
-    let ratio = |r: &Ratio| match r.interval {
-        Some((low, high)) => json!({ "value": r.value, "low": low, "high": high }),
-        None => json!({ "value": r.value }),
-    };
+    let value = |q: &Quantity| with_interval(q.value, q.interval());
+    let ratio = |r: &Ratio| with_interval(r.value, r.interval);
     let by_label = |of: &dyn Fn(usize) -> Option<Value>| -> Map<String, Value> {
         let pairs = sides.iter().enumerate();
         pairs

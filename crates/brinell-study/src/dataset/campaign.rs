@@ -5,8 +5,7 @@ use crate::dataset::columns::{DataColumn, columns};
 use crate::dataset::error::DatasetError;
 use crate::dataset::folder::Folder;
 use crate::dataset::refusal::refused;
-use crate::design::{Draw, Draws, Part, Plan, Survey, place_in_plan, unsaid};
-use brinell::document::reading::parse;
+use crate::design::{Draw, Draws, FileKind, Part, Plan, Survey, kind_of, place_in_plan, unsaid};
 use brinell::document::{Loaded, Problem, canonical, locate};
 use brinell::many;
 use brinell::simulate::Simulation;
@@ -113,9 +112,7 @@ impl Document {
 
     /// That the file is a scenario, where it is one.
     fn scenario_in_place(&self) -> Option<DatasetError> {
-        let keys = parse(&self.text, &[]).ok()?;
-        let is_scenario = keys.contains_key("bearing") && !keys.contains_key("base");
-        is_scenario.then(|| {
+        (kind_of(&self.text) == Some(FileKind::Scenario)).then(|| {
             DatasetError::Refused(format!(
                 "{} is a scenario and no plan of a data set: a plan names its scenario (`base`), how many `runs` and what is drawn for each; `brinell init plan.toml --template data-set` writes one",
                 self.path.display()

@@ -6,6 +6,7 @@
 
 mod distribution;
 mod draws;
+mod kind;
 mod plan;
 mod schema;
 mod sequence;
@@ -17,6 +18,8 @@ mod turns;
 
 pub use distribution::{Distribution, Value};
 pub use draws::{Draw, Draws, Parameter};
+#[doc(hidden)]
+pub use kind::{FileKind, kind_of};
 pub use plan::{Class, Design, HeldSeverity, OutOfRange, Plan, Split};
 pub use schema::plan_schema;
 #[doc(hidden)]
