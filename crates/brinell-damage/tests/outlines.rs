@@ -38,7 +38,7 @@ fn analytic_a_circular_wall_keeps_its_area_within_the_resolution() {
             },
         );
         let outline = wall.outline(10.0, 0.1 * step).unwrap();
-        // The wall stands somewhere between two nodes, the line in their middle.
+        // The wall lies somewhere between two nodes, the line in their middle.
         assert!(
             (outline.area_mm2() - exact).abs() < 0.5 * step * 2.0 * PI * 1.5,
             "{step}"
@@ -144,7 +144,7 @@ fn analytic_damage_at_the_grids_edge_is_closed_along_it() {
 }
 
 #[test]
-fn regress_what_cannot_be_outlined_is_told() {
+fn regress_what_cannot_be_outlined_is_reported() {
     let flat = grid([1.0, 1.0], 0.5, |s, _| if s == 0.0 { 3.0 } else { 0.0 });
     assert!(matches!(
         flat.outline(4.0, 0.0),

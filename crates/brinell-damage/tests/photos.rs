@@ -65,7 +65,7 @@ fn analytic_areas_of_spalls_in_sixty_photos_that_the_reader_was_not_written_with
 }
 
 #[test]
-fn analytic_a_light_spall_is_told_of_and_read_with_invert() {
+fn analytic_a_light_spall_is_reported_and_read_with_invert() {
     let photo = photo(1, 0);
     let decoded = |invert: bool| ImageOptions {
         invert,

@@ -190,7 +190,7 @@ fn regress_a_file_that_is_not_what_its_name_says_is_refused() {
 }
 
 #[test]
-fn regress_every_bad_file_is_told_at_once_and_overlaps_are_seen_after_reading() {
+fn regress_every_bad_file_is_reported_at_once_and_overlaps_are_seen_after_reading() {
     let photo = "shape = { image = { file = \"photo-spall.png\", mm_per_pixel = 0.02 } }";
     let missing = "shape = { image = { file = \"none.png\", mm_per_pixel = 0.02 } }";
     let defect = |shape: &str| {

@@ -2,6 +2,7 @@
 //!
 //! `cargo test --release -p brinell-signal --test all signal_speed:: -- --ignored --nocapture` prints what each part takes.
 
+use crate::analysis::{Damage, damaged, look};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
@@ -89,4 +90,20 @@ fn prop_full_analysis_takes_less_than_a_second() {
     clock.lap("order spectrum");
     println!("{:>24}: {:6.1} ms", "all", 1e3 * clock.total.as_secs_f64());
     assert!(clock.total < Duration::from_secs(1));
+}
+
+#[test]
+#[ignore = "a time, which means something in a release build on a quiet machine"]
+fn prop_a_verdict_on_ten_seconds_takes_less_than_one() {
+    let damage = Damage {
+        order: 3.5848,
+        modulation: 0.0,
+        jitter: 0.01,
+        snr_db: -5.0,
+    };
+    let x = damaged(FS, 10.0, 1, &damage);
+    let start = Instant::now();
+    let a = look(&x, FS);
+    println!("{:?}: {}", start.elapsed(), a.verdict());
+    assert!(start.elapsed().as_secs_f64() < 1.0);
 }

@@ -4,6 +4,7 @@ mod args;
 mod bearing;
 mod ends;
 mod files;
+mod json;
 pub(crate) mod measured;
 mod page;
 mod several;
@@ -19,14 +20,15 @@ use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_
 use crate::say::{complain, document};
 use brinell::analysis::{
     Analysis, Comparison, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of,
-    compare, to_json, velocity,
+    compare, velocity,
 };
-use brinell::signal::{Band, Indicator, RECORD_PEAK, Rotation, VelocityBands};
+use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
 use files::{Files, files};
+use json::{as_json, pretty, whole_indicators};
 use measured::{ASK_SPEED, Beyond, Measured, Reading, Rest, Wanted};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -406,62 +408,6 @@ fn lay_over(
     })
 }
 
-fn as_json(result: &Result_) -> Value {
-    let m = &result.measured;
-    let comparison = result.against.as_ref().map(|a| &a.comparison);
-    let mut value = to_json(
-        &result.analysis,
-        &m.unit,
-        result.velocity.as_ref(),
-        comparison,
-    );
-    value["brinell"] = brinell::VERSION.into();
-    value["severity"] = result.levels.to_json(&m.unit);
-    value["file"] = json!({
-        "path": m.path.display().to_string(),
-        "channel": m.channel,
-        "start_s": m.start,
-        "notes": m.notes,
-        "warnings": m.warnings,
-        "speed": result.speed,
-        "bearing": result.bearing,
-    });
-    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
-        value["whole"] = json!({
-            "samples": rest.samples,
-            "missing": rest.missing,
-            "indicators": whole_indicators(rest).map(|(name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
-            "last": {
-                "start_s": rest.last_start,
-                "samples": last.samples,
-                "verdict": last.verdict(),
-                "damage": last.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
-            },
-        });
-    }
-    if let Some(other) = &result.against {
-        value["against"] = json!({
-            "path": other.measured.path.display().to_string(),
-            "channel": other.measured.channel,
-            "notes": other.measured.notes,
-            "verdict": other.analysis.verdict(),
-        });
-    }
-    value
-}
-
-/// Headline indicators of a whole long signal; its peak is the largest of all samples.
-fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
-    HEADLINES.into_iter().filter_map(|i| {
-        let name = match i {
-            Indicator::Peak => RECORD_PEAK,
-            Indicator::CrestFactor => "record_crest_factor",
-            i => i.name(),
-        };
-        Some((name, rest.moments.get(i)?))
-    })
-}
-
 /// A page with its pictures, and the JSON that describes them, into a folder.
 fn put_pages(
     folder: &Path,
@@ -495,8 +441,4 @@ fn put_json(args: &AnalyzeArgs, json: &Value, written: &mut Vec<PathBuf>) -> Res
         None => {}
     }
     Ok(())
-}
-
-fn pretty(json: &Value) -> String {
-    serde_json::to_string_pretty(json).unwrap_or_default() + "\n"
 }

@@ -1,0 +1,67 @@
+//! An analysis as JSON: what the library says of it, and what file, channel and speed it is of.
+
+use super::measured::Rest;
+use super::{HEADLINES, Result_};
+use brinell::analysis::to_json;
+use brinell::signal::{Indicator, RECORD_PEAK};
+use serde_json::{Value, json};
+
+pub(super) fn as_json(result: &Result_) -> Value {
+    let m = &result.measured;
+    let comparison = result.against.as_ref().map(|a| &a.comparison);
+    let mut value = to_json(
+        &result.analysis,
+        &m.unit,
+        result.velocity.as_ref(),
+        comparison,
+    );
+    value["brinell"] = brinell::VERSION.into();
+    value["severity"] = result.levels.to_json(&m.unit);
+    value["file"] = json!({
+        "path": m.path.display().to_string(),
+        "channel": m.channel,
+        "start_s": m.start,
+        "notes": m.notes,
+        "warnings": m.warnings,
+        "speed": result.speed,
+        "bearing": result.bearing,
+    });
+    if let (Some(rest), Some(last)) = (&result.rest, &result.last) {
+        value["whole"] = json!({
+            "samples": rest.samples,
+            "missing": rest.missing,
+            "indicators": whole_indicators(rest).map(|(name, v)| json!({ "name": name, "value": v })).collect::<Vec<_>>(),
+            "last": {
+                "start_s": rest.last_start,
+                "samples": last.samples,
+                "verdict": last.verdict(),
+                "damage": last.causes().map(|f| f.component.key()).collect::<Vec<_>>(),
+            },
+        });
+    }
+    if let Some(other) = &result.against {
+        value["against"] = json!({
+            "path": other.measured.path.display().to_string(),
+            "channel": other.measured.channel,
+            "notes": other.measured.notes,
+            "verdict": other.analysis.verdict(),
+        });
+    }
+    value
+}
+
+/// Headline indicators of a whole long signal; its peak is the largest of all samples.
+pub(super) fn whole_indicators(rest: &Rest) -> impl Iterator<Item = (&'static str, f64)> {
+    HEADLINES.into_iter().filter_map(|i| {
+        let name = match i {
+            Indicator::Peak => RECORD_PEAK,
+            Indicator::CrestFactor => "record_crest_factor",
+            i => i.name(),
+        };
+        Some((name, rest.moments.get(i)?))
+    })
+}
+
+pub(super) fn pretty(json: &Value) -> String {
+    serde_json::to_string_pretty(json).unwrap_or_default() + "\n"
+}

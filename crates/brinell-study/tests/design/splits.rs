@@ -1,0 +1,111 @@
+//! The parts of a data set: training, validation and test.
+
+use super::{PLAN, draws, number, numbers, refusals};
+use brinell_study::design::{Draws, Part};
+
+#[test]
+fn prop_splits_share_no_conditions_and_have_their_shares() {
+    let plan = PLAN.replace("runs = 60", "runs = 2000").replace(
+        "{ normal = [500, 100], within = [300, 700] }",
+        "{ uniform = [300, 700] }",
+    );
+    let split = |more: &str| {
+        draws(&plan.replace(
+            "[vary]",
+            &format!("[split]\nvalidation = 0.1\ntest = 0.2\n{more}\n[vary]"),
+        ))
+    };
+    let count = |draws: &Draws, part| {
+        (0..2000).filter(|run| draws.part(*run) == part).count() as f64 / 2000.0
+    };
+    let divided = split("");
+    // 64 groups of two keys in eight bands each.
+    for (part, share) in [
+        (Part::Validation, 0.1),
+        (Part::Test, 0.2),
+        (Part::Train, 0.7),
+    ] {
+        assert!((count(&divided, part) - share).abs() < 0.03, "{part:?}");
+    }
+    let [speed, load] =
+        ["operation.speed_rpm", "operation.load_n.0"].map(|key| numbers(&divided, key));
+    // Bands of equal probability are here bands of equal width.
+    let band = |run: usize| ((speed[run] - 1000.0) / 250.0) as usize;
+    let group = |run: usize| (band(run), ((load[run] - 300.0) / 50.0) as usize);
+    let mut of_group = std::collections::HashMap::new();
+    for run in 0..2000 {
+        let part = *of_group.entry(group(run)).or_insert(divided.part(run));
+        assert_eq!(part, divided.part(run), "run {run}");
+    }
+    assert_eq!(of_group.len(), 64);
+    // By one key, whole bands go one way.
+    let by = split("by = [\"operation.speed_rpm\"]");
+    let mut of_band = std::collections::HashMap::new();
+    for run in 0..2000 {
+        let part = *of_band.entry(band(run)).or_insert(by.part(run));
+        assert_eq!(part, by.part(run), "run {run}");
+    }
+    // Each run by itself, and what cannot be.
+    assert!((count(&split("by = []"), Part::Test) - 0.2).abs() < 0.001);
+    let refused = |more: &str| refusals(&plan.replace("[vary]", &format!("{more}\n[vary]")));
+    assert!(
+        refused("[split]\ntest = 0.2\nby = [\"lubricant.viscosity_pa_s\"]")[0]
+            .contains("[vary] draws no such key")
+    );
+    assert!(
+        refused("[split]\ntest = 0.5\nvalidation = 0.5")[0].contains("leave none to train with")
+    );
+    assert!(refused("out_of_range = \"redraw\"\n[split]\ntest = 0.5")[0].contains("drawn again"));
+}
+
+#[test]
+fn prop_no_severity_that_is_held_out_is_in_training_or_validation() {
+    let plan = |split: &str| {
+        PLAN.replace("runs = 60", "runs = 600")
+            .replace("[vary]", &format!("[split]\n{split}\n[vary]"))
+    };
+    let key = "defects.0.depth_um";
+    let range = "severity = [\"defects.0.depth_um\"]\nseverity_range = [10, 20]";
+    let with = draws(&plan(&format!("validation = 0.1\ntest = 0.2\n{range}")));
+    let without = draws(&plan("validation = 0.1\ntest = 0.2"));
+    let (mut held, mut others) = (0, 0);
+    for run in 0..600 {
+        let depth = number(&with, run, key);
+        let is_held = depth.is_some_and(|depth| (10.0..=20.0).contains(&depth));
+        // Elsewhere groups go their way as before.
+        let expected = match is_held {
+            true => Part::Test,
+            false => without.part(run),
+        };
+        assert_eq!(with.part(run), expected, "run {run}: {depth:?}");
+        held += usize::from(is_held && without.part(run) == Part::Train);
+        others += usize::from(depth.is_some() && with.part(run) == Part::Train);
+    }
+    assert!(held > 10 && others > 10, "{held}, {others}");
+    // Without shares, the test is that range alone.
+    let alone = draws(&plan(range));
+    for run in 0..600 {
+        let depth = number(&alone, run, key);
+        let is_held = depth.is_some_and(|depth| (10.0..=20.0).contains(&depth));
+        assert_eq!(alone.part(run) == Part::Test, is_held, "run {run}");
+    }
+    for (split, words) in [
+        ("severity = [\"defects.0.depth_um\"]", "which severities"),
+        ("severity_range = [10, 20]", "of no key"),
+        (
+            "severity = [\"defects.0.depth\"]\nseverity_range = [10, 20]",
+            "no class draws numbers of this key",
+        ),
+        (
+            "severity = [\"defects.0.depth_um\"]\nseverity_range = [1e6, 2e6]",
+            "no run draws a severity of this range",
+        ),
+        (
+            "severity = [\"defects.0.depth_um\", \"operation.speed_rpm\"]\nseverity_range = [0, 1e6]",
+            "leaves no run to train with",
+        ),
+    ] {
+        let told = refusals(&plan(split));
+        assert!(told[0].contains(words), "{split}: {told:?}");
+    }
+}
