@@ -9,7 +9,7 @@ use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 macro_rules! operators {
-    ($type:ident, $($trait:ident $method:ident $body:expr;)*) => {
+    ($type:ident $floats:ident $ints:ident, $($trait:ident $method:ident $body:expr;)*) => {
         $(impl $trait for $type {
             type Output = Self;
             #[inline(always)]
@@ -26,6 +26,84 @@ macro_rules! operators {
             }
         }
         assigning!($type);
+        impl $type {
+            #[inline(always)]
+            fn int(self) -> $ints {
+                // SAFETY: same size, every bit pattern is valid.
+                unsafe { std::mem::transmute::<$floats, $ints>(self.0) }
+            }
+
+            #[inline(always)]
+            fn from_int(x: $ints) -> Self {
+                // SAFETY: as above.
+                Self(unsafe { std::mem::transmute::<$ints, $floats>(x) })
+            }
+        }
+    };
+}
+
+/// Functions of [`Lanes`] that are one instruction of either width.
+macro_rules! alike {
+    ($count:literal; splat $splat:ident new $new:ident array $array:ident times_plus $times_plus:ident minus_times $minus_times:ident
+     at_least $at_least:ident at_most $at_most:ident zero $zero:ident sqrt $sqrt:ident) => {
+        grouped!($count);
+
+        #[inline(always)]
+        fn splat(x: f64) -> Self {
+            unsafe { Self($splat(x)) }
+        }
+
+        #[inline(always)]
+        fn new(x: [f64; $count]) -> Self {
+            unsafe { Self($new(x.as_ptr())) }
+        }
+
+        #[inline(always)]
+        fn array(self) -> [f64; $count] {
+            let mut out = [0.0; $count];
+            unsafe { $array(out.as_mut_ptr(), self.0) };
+            out
+        }
+
+        #[inline(always)]
+        fn times_plus(self, b: Self, c: Self) -> Self {
+            unsafe { Self($times_plus(self.0, b.0, c.0)) }
+        }
+
+        #[inline(always)]
+        fn minus_times(self, b: Self, c: Self) -> Self {
+            unsafe { Self($minus_times(self.0, b.0, c.0)) }
+        }
+
+        #[inline(always)]
+        fn positive_part(self) -> Self {
+            unsafe { Self($at_least(self.0, $zero())) }
+        }
+
+        #[inline(always)]
+        fn at_least(self, other: Self) -> Self {
+            unsafe { Self($at_least(self.0, other.0)) }
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> Self {
+            unsafe { Self($at_most(self.0, other.0)) }
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            unsafe { Self($sqrt(self.0)) }
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            self.and_bits(!(1 << 63))
+        }
+
+        #[inline(always)]
+        fn with_sign(self, sign: Self) -> Self {
+            self.abs().xor(sign.and_bits(1 << 63))
+        }
     };
 }
 
@@ -46,72 +124,19 @@ unsafe fn sum_of_four(x: __m256d) -> f64 {
 pub(crate) struct Avx512(__m512d);
 
 operators! {
-    Avx512,
+    Avx512 __m512d __m512i,
     Add add |a: Self, b: Self| Self(_mm512_add_pd(a.0, b.0));
     Sub sub |a: Self, b: Self| Self(_mm512_sub_pd(a.0, b.0));
     Mul mul |a: Self, b: Self| Self(_mm512_mul_pd(a.0, b.0));
     Div div |a: Self, b: Self| Self(_mm512_div_pd(a.0, b.0));
 }
 
-impl Avx512 {
-    #[inline(always)]
-    fn int(self) -> __m512i {
-        // SAFETY: same size, every bit pattern is valid.
-        unsafe { std::mem::transmute::<__m512d, __m512i>(self.0) }
-    }
-
-    #[inline(always)]
-    fn from_int(x: __m512i) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { std::mem::transmute::<__m512i, __m512d>(x) })
-    }
-}
-
 // SAFETY of every block: see the module.
 impl Lanes for Avx512 {
     type Pair = Self;
-    grouped!(8);
-
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        unsafe { Self(_mm512_set1_pd(x)) }
-    }
-
-    #[inline(always)]
-    fn new(x: [f64; 8]) -> Self {
-        unsafe { Self(_mm512_loadu_pd(x.as_ptr())) }
-    }
-
-    #[inline(always)]
-    fn array(self) -> [f64; 8] {
-        let mut out = [0.0; 8];
-        unsafe { _mm512_storeu_pd(out.as_mut_ptr(), self.0) };
-        out
-    }
-
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm512_fmadd_pd(self.0, b.0, c.0)) }
-    }
-
-    #[inline(always)]
-    fn minus_times(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm512_fnmadd_pd(self.0, b.0, c.0)) }
-    }
-
-    #[inline(always)]
-    fn positive_part(self) -> Self {
-        unsafe { Self(_mm512_max_pd(self.0, _mm512_setzero_pd())) }
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Self {
-        unsafe { Self(_mm512_min_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn at_least(self, other: Self) -> Self {
-        unsafe { Self(_mm512_max_pd(self.0, other.0)) }
+    alike! {
+        8; splat _mm512_set1_pd new _mm512_loadu_pd array _mm512_storeu_pd times_plus _mm512_fmadd_pd minus_times _mm512_fnmadd_pd
+        at_least _mm512_max_pd at_most _mm512_min_pd zero _mm512_setzero_pd sqrt _mm512_sqrt_pd
     }
 
     #[inline(always)]
@@ -121,21 +146,6 @@ impl Lanes for Avx512 {
             let high = _mm512_extractf64x4_pd::<1>(self.0);
             sum_of_four(_mm256_add_pd(low, high))
         }
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm512_sqrt_pd(self.0)) }
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.and_bits(!(1 << 63))
-    }
-
-    #[inline(always)]
-    fn with_sign(self, sign: Self) -> Self {
-        self.abs().xor(sign.and_bits(1 << 63))
     }
 
     #[inline(always)]
@@ -197,92 +207,24 @@ impl Lanes for Avx512 {
 pub(crate) struct Avx2(__m256d);
 
 operators! {
-    Avx2,
+    Avx2 __m256d __m256i,
     Add add |a: Self, b: Self| Self(_mm256_add_pd(a.0, b.0));
     Sub sub |a: Self, b: Self| Self(_mm256_sub_pd(a.0, b.0));
     Mul mul |a: Self, b: Self| Self(_mm256_mul_pd(a.0, b.0));
     Div div |a: Self, b: Self| Self(_mm256_div_pd(a.0, b.0));
 }
 
-impl Avx2 {
-    #[inline(always)]
-    fn int(self) -> __m256i {
-        // SAFETY: same size, every bit pattern is valid.
-        unsafe { std::mem::transmute::<__m256d, __m256i>(self.0) }
-    }
-
-    #[inline(always)]
-    fn from_int(x: __m256i) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { std::mem::transmute::<__m256i, __m256d>(x) })
-    }
-}
-
 // SAFETY of every block: see the module.
 impl Lanes for Avx2 {
     type Pair = Avx2Pair;
-    grouped!(4);
-
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        unsafe { Self(_mm256_set1_pd(x)) }
-    }
-
-    #[inline(always)]
-    fn new(x: [f64; 4]) -> Self {
-        unsafe { Self(_mm256_loadu_pd(x.as_ptr())) }
-    }
-
-    #[inline(always)]
-    fn array(self) -> [f64; 4] {
-        let mut out = [0.0; 4];
-        unsafe { _mm256_storeu_pd(out.as_mut_ptr(), self.0) };
-        out
-    }
-
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm256_fmadd_pd(self.0, b.0, c.0)) }
-    }
-
-    #[inline(always)]
-    fn minus_times(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm256_fnmadd_pd(self.0, b.0, c.0)) }
-    }
-
-    #[inline(always)]
-    fn positive_part(self) -> Self {
-        unsafe { Self(_mm256_max_pd(self.0, _mm256_setzero_pd())) }
-    }
-
-    #[inline(always)]
-    fn at_least(self, other: Self) -> Self {
-        unsafe { Self(_mm256_max_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Self {
-        unsafe { Self(_mm256_min_pd(self.0, other.0)) }
+    alike! {
+        4; splat _mm256_set1_pd new _mm256_loadu_pd array _mm256_storeu_pd times_plus _mm256_fmadd_pd minus_times _mm256_fnmadd_pd
+        at_least _mm256_max_pd at_most _mm256_min_pd zero _mm256_setzero_pd sqrt _mm256_sqrt_pd
     }
 
     #[inline(always)]
     fn sum(self) -> f64 {
         unsafe { sum_of_four(self.0) }
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm256_sqrt_pd(self.0)) }
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.and_bits(!(1 << 63))
-    }
-
-    #[inline(always)]
-    fn with_sign(self, sign: Self) -> Self {
-        self.abs().xor(sign.and_bits(1 << 63))
     }
 
     #[inline(always)]
