@@ -94,7 +94,7 @@ pub use kind::FileKind;
 pub use loaded::resolve_loaded;
 #[doc(hidden)]
 pub use resolve::MOST_TEXT;
-pub use resolve::{ReadShape, Unresolved, read_shape, resolve, shape_of_bytes};
+pub use resolve::{ReadShape, Unresolved, resolve, shape_of_bytes};
 
 #[cfg(feature = "image")]
 pub use image::{ImageOptions, Smooth, Traced, read_image, trace_image};

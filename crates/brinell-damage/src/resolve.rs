@@ -242,14 +242,6 @@ fn scale(shape: &Shape) -> String {
     }
 }
 
-/// Reads the file of one shape; a shape without a file comes back as it is. Gives the shape and warnings.
-///
-/// # Errors
-/// In words.
-pub fn read_shape(shape: &Shape, folder: &Path) -> Result<(Shape, Vec<String>), String> {
-    read_noting(shape, folder).map(|read| (read.shape, read.warnings))
-}
-
 /// A shape that was read from its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadShape {
@@ -263,7 +255,7 @@ pub struct ReadShape {
     pub threshold: Option<f64>,
 }
 
-/// [`read_shape`], with all that was said.
+/// Reads the file of one shape; a shape without a file comes back as it is.
 fn read_noting(shape: &Shape, folder: &Path) -> Result<ReadShape, String> {
     if shape.file().is_none() {
         return shape_of_bytes(shape, &[]);
@@ -382,7 +374,7 @@ fn doubt(grid: &DepthGrid) -> Result<Option<String>, String> {
     Ok((share > DOUBTFUL_RIM).then(|| {
         format!(
             "{:.0} % of the scan's rim is damage: either the raceway's own form is still in it (`remove_form`), \
-             or the damage goes on beyond the scan, where it counts as sound",
+             or the damage continues beyond the scan, where it counts as sound",
             100.0 * share
         )
     }))

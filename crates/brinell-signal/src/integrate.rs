@@ -112,29 +112,6 @@ pub(super) fn velocities(
     Ok(())
 }
 
-/// Velocity from acceleration `a` sampled at `fs` Hz by the trapezoidal rule, from 0 at the first sample, the mean of `a`
-/// removed before and the straight line of least squares removed after.
-///
-/// Keeps low frequencies, down to the record's own length, and their drift with them. The rule's gain over ideal
-/// integration is (x / tan x), x = pi f / fs: 3 % low at a tenth of the sampling rate, zero at half of it.
-///
-/// # Errors
-/// [`SignalError`] with fewer than 8 samples or samples that are not finite.
-pub fn velocity_trapezoid(a: &[f64], fs: f64) -> Result<Vec<f64>, SignalError> {
-    check(a, fs, 8, "integration")?;
-    let mut x = a.to_vec();
-    Detrend::Mean.apply(&mut x);
-    let half_step = 0.5 / fs;
-    let (mut sum, mut before) = (0.0, x[0]);
-    for v in &mut x {
-        sum += half_step * (before + *v);
-        before = std::mem::replace(v, sum);
-    }
-    // The first pair is a sample with itself: half a step too much, a constant that detrending takes away.
-    Detrend::Linear.apply(&mut x);
-    Ok(x)
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
@@ -158,20 +135,6 @@ mod tests {
             .map(|i| (v[i] - expected[i]).abs())
             .fold(0.0, f64::max);
         assert!(worst < 3e-2 * 3.0 / (TAU * f), "{worst:e}");
-    }
-
-    #[test]
-    fn analytic_trapezoid_has_its_known_gain() {
-        let (f, n) = (500.0, 5000);
-        let a = cosine(n, FS, f, 2.0, 0.0);
-        let v = velocity_trapezoid(&a, FS).unwrap();
-        let x = PI * f / FS;
-        let expected = 2.0 / (TAU * f) * x / x.tan();
-        let peak = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        // Ten samples a period, none at the sine's top.
-        assert!((peak / expected - (0.1 * PI).cos().max(0.95106)).abs() < 0.06);
-        let rms = (v.iter().map(|v| v * v).sum::<f64>() / n as f64).sqrt();
-        assert!((rms * 2f64.sqrt() / expected - 1.0).abs() < 1e-3);
     }
 
     #[test]
@@ -205,7 +168,6 @@ mod tests {
         assert!(velocity(&[1.0; 70], FS, Band::above(0.0)).is_err());
         assert!(velocity(&[1.0; 70], FS, Band::above(2500.0)).is_err());
         assert!(velocity(&[f64::NAN; 70], FS, Band::above(10.0)).is_err());
-        assert!(velocity_trapezoid(&[], FS).is_err());
         let v = velocity(&[1.0; 70], FS, Band::above(100.0)).unwrap();
         assert!(v.iter().all(|v| v.abs() < 1e-15));
     }

@@ -95,7 +95,7 @@ pub use filter::{Butterworth, Passband, Section};
 pub use fir::{convolve, fir};
 pub use frequency::{LineFrequency, LineSearch, line_frequency};
 pub use indicators::{Indicator, Moments};
-pub use integrate::{band_pass, velocity, velocity_trapezoid};
+pub use integrate::{band_pass, velocity};
 pub use kurtogram::{Kurtogram, KurtogramBand, kurtogram};
 pub use lines::{Line, LineSet, harmonics};
 pub use order::{Angular, Rotation, order_spectrum, resample};

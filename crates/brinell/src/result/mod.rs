@@ -10,5 +10,5 @@ mod run;
 pub use impacts::{Impacts, impacts};
 pub use quantities::{Quantity, Spread};
 #[doc(hidden)]
-pub use quantities::{UnknownName, check_name, indicator_name, names, quantities};
+pub use quantities::{UnknownName, check_name, names, quantities};
 pub use run::{RunResult, finish, record, simulate, simulate_with};

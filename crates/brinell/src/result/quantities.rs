@@ -77,7 +77,7 @@ impl<F> Field<F> {
     }
 }
 
-/// Everything that is told of a run, in a fixed order.
+/// Every number that is reported of a run, in a fixed order.
 pub fn quantities(
     scenario: &Scenario,
     simulation: &Simulation,
@@ -101,11 +101,6 @@ pub fn quantities(
 
 fn analysed(field: &Field<fn(&Findings) -> f64>, findings: &Findings) -> Quantity {
     field.quantity("", exact(Some((field.of)(findings))))
-}
-
-/// Channel, kind and indicator as one name.
-pub fn indicator_name(channel: &str, kind: Kind, indicator: Indicator) -> String {
-    format!("{}.{}", of_kind(channel, kind), indicator.name())
 }
 
 fn of_kind(channel: &str, kind: Kind) -> String {
