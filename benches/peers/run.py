@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """brinell beside what users write today: installs, checks, runs and plots everything.
 
-    python3 benches/peers/run.py             about twelve minutes; writes docs/peers.md, docs/peers.csv, docs/pictures/work-precision.*
+    python3 benches/peers/run.py             about twelve minutes; writes docs/peers.md, docs/peers.csv, docs/pictures/work-precision.png
     python3 benches/peers/run.py --quick     about two minutes: fewer tolerances, not the slowest solvers; the same files, into the build folder
 
 Needs Python 3.11 or later with venv, Rust, gcc, and for packages that are missing apt-get as root (or through sudo without a
@@ -84,7 +84,7 @@ PEERS = [
     Peer("octave-ode15s", "GNU Octave, ode15s", "octave", "ode15s", ladder(1e-8, 2e-9, 5), max_step=1e-5, slow=True, windows=1),
 ]
 
-# What a table of ratios is asked for, and what it counts by.
+# What a table of ratios shows, and what it counts by.
 TARGETS = [
     ("ARKODE's explicit order 5 in C", ["arkode-5", "arkode-5dp"], 25),
     ("Numba with SciPy", ["numba-RK45", "numba-LSODA", "numba-Radau"], 50),
@@ -310,7 +310,7 @@ class Problem:
         """Stops everything where a peer's right-hand side or start is another."""
         got = [float(x) for x in capture([*command, argument, self.states], env=one_thread()).split()]
         if len(got) != len(self.table):
-            raise SystemExit(f"{name}: {len(got)} values where {len(self.table)} were asked for")
+            raise SystemExit(f"{name}: {len(got)} values where {len(self.table)} were requested")
         worst = 0.0
         for block in range(self.count + 2):
             for a, b in self.groups():

@@ -6,7 +6,7 @@
 #include "../../../validation/independent/model.c"
 #undef main
 
-/* Where the peers' coordinate k stands in model.c. */
+/* Where the peers' coordinate k is in model.c. */
 static int place(int k)
 {
     const int n = M.total, cages = 3 * M.rows;

@@ -1,4 +1,4 @@
-"""Work-precision plot: plot.py DATA.json OUT (writes OUT.svg and OUT.png)."""
+"""Work-precision plot: plot.py DATA.json OUT (writes OUT.png)."""
 
 import json
 import sys
@@ -17,7 +17,7 @@ MARKS = ["o", "s", "^", "D", "v"]
 
 def main():
     data = json.load(open(sys.argv[1]))
-    plt.rcParams |= {"svg.hashsalt": "brinell", "svg.fonttype": "path", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
+    plt.rcParams |= {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
     figure, axes = plt.subplots(figsize=(9.0, 6.0), layout="constrained")
     seen = {}
     for curve in data["curves"]:
@@ -43,9 +43,7 @@ def main():
         axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes.grid(which="major", color="#dddddd", linewidth=0.6)
     figure.legend(loc="outside right upper", frameon=False, fontsize=8)
-    for kind in "svg", "png":
-        metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
-        figure.savefig(f"{sys.argv[2]}.{kind}", dpi=160, metadata=metadata)
+    figure.savefig(f"{sys.argv[2]}.png", dpi=160, metadata={"Software": None})
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ fn load(path: &str, overrides: &[(&str, String)]) -> Loaded {
     document::read(&text, &overrides).unwrap_or_else(|problems| panic!("{path}: {problems:?}"))
 }
 
-/// Where each coordinate of the tables' layout stands in brinell's: r of every roller (row by row), theta, phi, then x, y, theta of
+/// Where each coordinate of the tables' layout is in brinell's: r of every roller (row by row), theta, phi, then x, y, theta of
 /// each cage, tilts where there are any (beta of every roller, slopes of the inner and the outer ring), and x, y of the inner and the outer ring.
 pub fn coordinates(l: &Layout) -> Vec<usize> {
     let rollers: Vec<usize> = (0..l.rows)
