@@ -1,6 +1,6 @@
 """Holds the line that score.py prints against bounds: python check_score.py FILE
 
-Of 38 damaged bearings, 30 sound ones (four of healthy machines, 26 at the other end of a damaged motor). The aim is 33 right; 29 is where it stands.
+Of 38 damaged bearings, 30 sound ones (four of healthy machines, 26 at the other end of a damaged motor). The aim is 33 right; 29 is what it has.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Which component's defect frequencies stand out of a signal."""
+"""Which component's defect frequencies are detected in a signal."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Analysis:
     flaws: list[str]
     """What is wrong with the record itself, in words: samples clipped or held, one event with most of the energy; empty of a sound one."""
     envelope: Spectrum
-    """The envelope spectrum of the band in which the damage stands highest, or of all."""
+    """The envelope spectrum of the band in which the damage is highest over the noise, or of all."""
     report: dict[str, Any] = field(repr=False)
     """Everything, as ``brinell analyze --json`` writes it."""
     _findings: _brinell.Findings | None = field(repr=False)
@@ -60,7 +60,7 @@ class Analysis:
             What the signal is called.
         """
         if self._findings is None:
-            raise RuntimeError("this verdict came from another process: its page is to be asked for there")
+            raise RuntimeError("this verdict came from another process: its page is to be requested there")
         return self._findings.to_html(title)
 
     def plot(self, *, to_hz: float | None = None, ax: Any = None) -> matplotlib.axes.Axes:
@@ -109,17 +109,17 @@ def analyze(
     tolerance : float
         How far slip and an inexact speed may move a frequency, relative.
     band_hz : (float, float), optional
-        Range to demodulate; everything above three times the highest defect frequency unless told.
+        Range to demodulate; everything above three times the highest defect frequency by default.
     simulated : bool
         Whether a simulation made the signal: where its sensor (that of the scenario given as `bearing`) has no noise, healthy rollers
-        that enter the load are heard too, and weak lines of the outer race say less.
+        that enter the load excite it too, and weak lines of the outer race say less.
     machine_class : str, optional
         Class of ISO 20816-3, for the zone of the RMS velocity: group 1 is above 300 kW, group 2 above 15 to 300 kW.
     sensitivity : str, optional
         The sensor's, of a signal in V or mA, as its data sheet has it: ``100mV/g``, ``4mV/(mm/s)``. The signal is then in g or mm/s.
     supply_hz : float, optional
-        Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are set aside. Those of 50 and
-        60 Hz where three stand, unless told.
+        Frequency of the motor's supply where an inverter makes it, known to 0.5 %, 1 to 1000: lines at its multiples are excluded. Those of 50 and
+        60 Hz by default, where three are present.
 
     Raises
     ------

@@ -37,13 +37,13 @@ def defect(
     depth_um : float, optional
         Depth, um; a depth map has its own.
     axial_offset_mm : float, optional
-        Moves the shape along +z; 0 unless told.
+        Moves the shape along +z; 0 by default.
     on : {"outer-raceway", "inner-raceway", "roller"}
         Damaged surface.
     row : int, optional
-        Row of rollers, from 1; 1 unless told.
+        Row of rollers, from 1; 1 by default.
     center_deg : float, optional
-        Where it lies, counter-clockwise from +x; the middle of the load zone unless told, on the outer raceway.
+        Where it lies, counter-clockwise from +x; the middle of the load zone by default, on the outer raceway.
     roller : int, optional
         Which roller of the row, from 1, where ``on`` is ``"roller"``.
 
@@ -186,7 +186,7 @@ def depth_map(
     ds_mm, dz_mm : float
         Distance of columns and of rows.
     s0_mm, z0_mm : float, optional
-        First column and row; the grid is centred unless told.
+        First column and row; the grid is centred by default.
     **place
         As in `defect`.
 
@@ -222,7 +222,7 @@ def depth_map(
 def image(
     file: str | os.PathLike[str], *, mm_per_pixel: float, depth_um: float, options: dict[str, Any] | None = None, **place: Any
 ) -> dict[str, Any]:
-    """Damage in a photo or mask, PNG or JPEG: dark is damaged unless told otherwise.
+    """Damage in a photo or mask, PNG or JPEG: dark is damaged by default.
 
     Parameters
     ----------

@@ -127,7 +127,7 @@ class Plan:
         folder : path
             Where it is or will be.
         jobs : int, optional
-            Runs at a time; as many as there are cores unless told.
+            Runs at a time; as many as there are cores by default.
         shard : (int, int)
             ``(i, n)``: only the i-th of n shares of the files, i from 1.
         progress : callable, optional

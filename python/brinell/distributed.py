@@ -194,7 +194,7 @@ def _drive(
         put_aside += _join(data, incoming)
     if put_aside:
         told = "\n".join(put_aside)
-        raise ValueError(f"files that came and could not be joined; the same call makes them again:\n{told}")
+        raise ValueError(f"files that were received and could not be joined; the same call makes them again:\n{told}")
     return data
 
 
@@ -212,7 +212,7 @@ def _put(place: Path, files: _Files) -> None:
 
 
 def _join(data: DataSet, incoming: Path) -> list[str]:
-    """Joins what arrived to the data set. What cannot be joined is put aside, and told."""
+    """Joins what arrived to the data set. What cannot be joined is excluded, and reported."""
     incoming.mkdir(parents=True, exist_ok=True)
     whole = sorted(path for path in incoming.iterdir() if path.suffix != ".partial")
     aside = []
@@ -283,7 +283,7 @@ def on_dask(
     folder : path
         The data set's folder, of this machine: workers need no common file system.
     client : distributed.Client or str, optional
-        The cluster, or its scheduler's address; the client of this session, or a new cluster on this machine, unless told.
+        The cluster, or its scheduler's address; the client of this session, or a new cluster on this machine, by default.
     retries : int
         How often a file is tried again after an error. A worker that dies is another matter: Dask moves its work on, and gives up where that work has
         killed several workers (``distributed.scheduler.allowed-failures``).
@@ -334,7 +334,7 @@ class _Ray:
         self.parts[self.task.remote(self.parcel, part)] = part
 
     def next(self) -> tuple[int, _Files]:
-        # With a timeout, so that Ctrl-C is heard.
+        # With a timeout, so that Ctrl-C is noticed.
         ready: list[Any] = []
         while not ready:
             ready, _ = self.ray.wait(list(self.parts), num_returns=1, timeout=1.0)

@@ -67,7 +67,7 @@ class Result:
 
     def _native(self) -> _brinell.Run:
         if self._run is None:
-            raise RuntimeError("this result came from another process: what needs the run itself, such as to_html, is to be asked for there")
+            raise RuntimeError("this result came from another process: what needs the run itself, such as to_html, is to be requested there")
         return self._run
 
     def __getitem__(self, channel: str) -> npt.NDArray[np.float64]:
@@ -133,7 +133,7 @@ class Result:
 
     @cached_property
     def events(self) -> dict[str, npt.NDArray[Any]]:
-        """Ground truth: instants ``t`` (s) at which a ``roller`` of a ``row`` comes onto (``enters``) or leaves a ``defect``, all from 1.
+        """Ground truth: instants ``t`` (s) at which a ``roller`` of a ``row`` enters (``enters``) or leaves a ``defect``, all from 1.
 
         The latest 4096.
         """
@@ -146,16 +146,16 @@ class Result:
 
     @cached_property
     def defects(self) -> list[dict[str, Any]]:
-        """Where each defect lies, how often it is struck in pure rolling and as found."""
+        """Where each defect lies, the frequency of its impacts in pure rolling and as found."""
         return self._native().defects()
 
     def analyze(self, channel: str | None = None, **options: Any) -> Analysis:
-        """Which defect frequencies stand out of this run, its start (``analysed_from_s``) left out.
+        """Which defect frequencies are detected in this run, its start (``analysed_from_s``) left out.
 
         Parameters
         ----------
         channel : str, optional
-            The sensor acceleration nearer to the load unless told.
+            The sensor acceleration nearer to the load by default.
         **options
             As of `brinell.analyze`; ``speed_rpm`` is needed where the scenario's varies.
 
@@ -242,11 +242,11 @@ class Result:
         Parameters
         ----------
         channel : str, optional
-            The sensor acceleration nearer to the load unless told.
+            The sensor acceleration nearer to the load by default.
         from_s, to_s : float, optional
             Part of the run.
         ax : matplotlib axes, optional
-            Where to draw; new ones unless told.
+            Where to draw; new ones by default.
         """
         from brinell import plot
 

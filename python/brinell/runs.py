@@ -107,11 +107,11 @@ def simulate_many(
     scenarios : iterable of Scenario or path
         What to run.
     jobs : int, optional
-        Runs at a time; as many as there are cores unless told.
+        Runs at a time; as many as there are cores by default.
     progress : callable, optional
         Gets how many runs are over, and of how many.
     reduce : callable, optional
-        Gets each `Result` as it comes, on this thread; what it returns stands in the list instead, and the result's memory is free again. Without
+        Gets each `Result` as it comes, on this thread; what it returns is in the list instead, and the result's memory is free again. Without
         it every signal is held until the end.
     errors : {"raise", "return"}
         Raise what the first failed run raises and stop the others, or put the exception in its place.

@@ -134,7 +134,7 @@ class Scenario:
         settings : mapping, optional
             As in `from_file`.
         folder : path, optional
-            Where paths in the text count from; the current folder unless told.
+            Where paths in the text count from; the current folder by default.
 
         Examples
         --------
@@ -255,7 +255,7 @@ def given(of: Runnable) -> Scenario:
 
 
 def _restored(*state: Any) -> Scenario:
-    # Its warnings were told where it was made.
+    # Its warnings were given where it was made.
     return Scenario._of(_brinell.Scenario.restore(*state), quiet=True)
 
 

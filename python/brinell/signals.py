@@ -110,7 +110,7 @@ def psd(
     unit : str
         Of the samples: ``"m/s^2"``, ``"g"``.
     length : int, optional
-        Samples of a segment; about a second of them unless told, and at least four segments where the signal is long enough.
+        Samples of a segment; about a second of them by default, and at least four segments where the signal is long enough.
     overlap : float
         Share of a segment that the next one has too.
     window : {"rectangular", "hann", "hamming", "blackman-harris", "flat-top"}
@@ -172,7 +172,7 @@ def envelope(x: npt.ArrayLike, *, rate_hz: float, band_hz: tuple[float, float] |
     rate_hz : float
         Samples a second.
     band_hz : (float, float), optional
-        Low and high edge; everything unless told.
+        Low and high edge; everything by default.
 
     Examples
     --------
@@ -203,7 +203,7 @@ def envelope_spectrum(
     band_hz : (float, float), optional
         Band to demodulate; `kurtogram` finds an impulsive one.
     length : int, optional
-        Samples of a segment; the whole signal unless told.
+        Samples of a segment; the whole signal by default.
     overlap, window
         As in `psd`.
 
@@ -271,7 +271,7 @@ def spectrogram(
 
 @dataclass(frozen=True, eq=False)
 class Kurtogram:
-    """Kurtosis of the envelope in every band: impulsive ones stand out."""
+    """Kurtosis of the envelope in every band: impulsive ones have a high value."""
 
     low_hz: Array
     high_hz: Array
@@ -290,7 +290,7 @@ class Kurtogram:
         return plot.kurtogram(self, ax=ax)
 
     def __repr__(self) -> str:
-        best = "none stands out" if self.best_hz is None else f"best {self.best_hz[0]:g} to {self.best_hz[1]:g} Hz"
+        best = "no band is impulsive" if self.best_hz is None else f"best {self.best_hz[0]:g} to {self.best_hz[1]:g} Hz"
         return f"<brinell.Kurtogram: {len(self.kurtosis)} bands, {best}>"
 
 

@@ -97,7 +97,7 @@ def frequencies(bearing: str | Scenario, speed_rpm: float | None = None) -> dict
     bearing : str or Scenario
         A bearing of the catalogue or of a public data set (``brinell bearing list``), or a scenario.
     speed_rpm : float, optional
-        Needed with a name; the scenario's own unless told.
+        Needed with a name; the scenario's own by default.
 
     Examples
     --------

@@ -80,9 +80,9 @@ class Table:
         y : str
             Column.
         x : str, optional
-            Key; the first one whose values are numbers unless told.
+            Key; the first one whose values are numbers by default.
         ax : matplotlib axes, optional
-            Where to draw; new ones unless told.
+            Where to draw; new ones by default.
         """
         from brinell import plot
 
@@ -115,7 +115,7 @@ def sweep(
     together : sequence of mappings
         Each mapping's keys change in step: equally many values each.
     jobs : int, optional
-        Runs at a time; as many as there are cores unless told.
+        Runs at a time; as many as there are cores by default.
     progress : callable, optional
         Gets how many points are done, and of how many.
     folder : path, optional

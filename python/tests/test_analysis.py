@@ -144,7 +144,7 @@ def test_prop_options_that_do_not_fit_are_refused(settings, words):
         brinell.analyze(outer_race(), **KNOWN, **settings)
 
 
-def test_prop_unknown_bearings_are_told_with_those_known():
+def test_prop_unknown_bearings_are_reported_with_those_known():
     with pytest.raises(ValueError, match="NN3007"):
         brinell.analyze(np.arange(9.0), rate_hz=1e4, unit="g", speed_rpm=1800.0, bearing="X")
     with pytest.raises(ValueError, match="NN3007"):

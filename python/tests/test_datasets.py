@@ -103,7 +103,7 @@ def test_prop_shards_join_to_the_same_bytes(plan, tmp_path):
             chosen.run(tmp_path / "x", shard=shard)
 
 
-def test_xval_bad_plans_are_told_as_the_command_tells_them(command, plan, tmp_path):
+def test_xval_bad_plans_are_reported_as_by_the_command(command, plan, tmp_path):
     with pytest.raises(brinell.ScenarioError) as caught:
         plan(runs=0)
     path = tmp_path / "plan" / "plan.toml"

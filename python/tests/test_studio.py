@@ -145,7 +145,7 @@ def test_prop_the_scenario_goes_both_ways(studio, base):
     assert studio.scenario == text
 
 
-def test_prop_what_was_refused_and_the_indicators_are_told(studio):
+def test_prop_what_was_refused_and_the_indicators_are_reported(studio):
     asked(studio, do="open", slot=0, toml=studio.scenario, carry=False)
     kept = studio.scenario
     asked(studio, do="open", slot=0, toml=kept.replace("depth_um = 20", "depth_um = -20"), carry=True)

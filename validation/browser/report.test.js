@@ -305,7 +305,7 @@ describe("the animation", () => {
     await page.waitForFunction((at) => document.querySelector('svg[data-name="motion"]').closest("figure").dataset.frame !== String(at), stopped);
   }));
 
-  it("stands still for readers who ask for less motion, and obeys the slider's keys", async () => on({}, async (page) => {
+  it("is at rest for readers who ask for less motion, and obeys the slider's keys", async () => on({}, async (page) => {
     await figure(page, "motion").scrollIntoViewIfNeeded();
     const at = await frame(page);
     for (let k = 0; k < 10; k++) await drawn(page);

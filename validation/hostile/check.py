@@ -26,7 +26,7 @@ CASES = []
 
 
 def case(says, code=2):
-    """Registers a case: `says` must stand in what the command prints on standard error, and `code` be its exit code."""
+    """Registers a case: `says` must be in what the command prints on standard error, and `code` be its exit code."""
 
     def register(make):
         CASES.append((make.__name__, make, says, code))

@@ -265,7 +265,7 @@ pub(crate) struct FrequenciesArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum DefectCommand {
-    /// Draw the unrolled raceway with the damage, what a roller meets on its way over it, and the ring's section
+    /// Draw the unrolled raceway with the damage, the contact conditions during roller passage, and the ring's section
     Preview(PreviewArgs),
     /// Print a defect with its shape written as a `profile` or an `outline`
     Convert(ConvertArgs),

@@ -1,4 +1,4 @@
-//! What can go wrong, and how it is told.
+//! What can go wrong, and how it is reported.
 
 use crate::say::complain;
 use brinell::document::{Problem, pointed_out};

@@ -86,7 +86,7 @@ fn listed(known: KnownBearing) -> Value {
     json
 }
 
-/// All that is known of a bearing, as JSON; `class` is that of the clearance in the name it was asked for by.
+/// All that is known of a bearing, as JSON; `class` is that of the clearance in the name it was requested by.
 fn shown(known: KnownBearing, class: Option<ClearanceClass>) -> Value {
     let mut json = listed(known);
     match known {
@@ -156,7 +156,7 @@ fn of_the_name(class: ClearanceClass) -> String {
     )
 }
 
-/// `named`: the class of clearance in the name it was asked for by.
+/// `named`: the class of clearance in the name it was requested by.
 fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
     let all = || entry.facts.iter().chain(&entry.values);
     let width = all().map(|v| v.key.len()).max().unwrap_or(0);

@@ -235,7 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn prop_the_time_to_go_is_told_when_it_is_known_and_never_zero() {
+    fn prop_the_time_to_go_is_printed_when_it_is_known_and_never_zero() {
         let ms = Duration::from_millis;
         assert_eq!(time_left(0.0, ms(0)), None);
         assert_eq!(time_left(0.0, ms(60_000)), None);

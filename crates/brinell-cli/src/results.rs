@@ -333,7 +333,7 @@ impl Place<'_> {
     /// happens; `same` says whether the earlier results, by what tells of them, are of the same.
     ///
     /// # Errors
-    /// Where results of another command, or of another scenario, lie there and `overwrite` was not asked for, or files with a result's name that
+    /// Where results of another command, or of another scenario, lie there and `overwrite` was not requested, or files with a result's name that
     /// nothing lists; where a file that may be written or removed is an input.
     pub(crate) fn earlier(
         &self,

@@ -171,7 +171,7 @@ fn earlier(
     Ok(earlier)
 }
 
-/// Runs, and writes everything that was asked for into the folder, in place of the earlier results.
+/// Runs, and writes everything that was requested into the folder, in place of the earlier results.
 fn execute(
     args: &RunArgs,
     (loaded, folder, earlier): (&Loaded, &Path, &Earlier),
@@ -293,7 +293,7 @@ fn writers(
     formats(args).into_iter().map(make).collect()
 }
 
-/// Formats of signals that are asked for, each once.
+/// Formats of signals that are requested, each once.
 fn formats(args: &RunArgs) -> Vec<Format> {
     let mut formats: Vec<Format> = Vec::new();
     for format in &args.signals {

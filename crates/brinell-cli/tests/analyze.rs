@@ -131,7 +131,7 @@ fn prop_a_speed_that_varies_is_followed() {
         "so envelopes are taken at equal angles of the shaft",
         "Outer race damage, very clear: BPFO at 107.",
     ]);
-    // At the mean speed alone the lines smear over 30 % and do not stand.
+    // At the mean speed alone the lines smear over 30 % and are not present.
     let plain = call(&["--speed", "1800"]).exits(0);
     assert!(!plain.out.contains("very clear"), "{}", plain.out);
 }
@@ -213,7 +213,7 @@ fn regress_what_the_other_file_does_not_say_has_options_of_its_own() {
 }
 
 #[test]
-fn regress_what_the_file_does_not_say_is_asked_for() {
+fn regress_what_the_file_does_not_say_is_requested() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));
     let all = [
@@ -313,7 +313,7 @@ fn regress_the_rate_follows_from_times_whose_name_has_a_unit() {
 }
 
 #[test]
-fn regress_uneven_times_are_told_by_their_worst_step() {
+fn regress_uneven_times_are_reported_with_their_worst_step() {
     let folder = tempdir().unwrap();
     let mut text = String::from("time [s],acc [g]\n");
     for (i, v) in signal(1.0, 0.0, 0.0).iter().enumerate() {
@@ -381,7 +381,7 @@ fn regress_a_run_is_known_whatever_its_format() {
 }
 
 #[test]
-fn regress_pictures_in_the_formats_asked_for() {
+fn regress_pictures_in_the_formats_requested() {
     let folder = tempdir().unwrap();
     column(&folder.path().join("x.csv"), &signal(1.0, 0.0, 0.0));
     brinell(

@@ -107,7 +107,7 @@ fn regress_several_files_keep_their_order() {
 }
 
 #[test]
-fn regress_what_no_file_can_do_without_is_asked_for_once() {
+fn regress_what_no_file_can_do_without_is_requested_once() {
     let folder = records();
     brinell(folder.path(), &["analyze", "records"])
         .exits(2)

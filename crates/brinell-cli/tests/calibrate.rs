@@ -210,7 +210,7 @@ fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
 }
 
 #[test]
-fn prop_targets_out_of_reach_are_told_and_so_is_a_key_without_effect() {
+fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     let folder = folder();
     let args = call(&[
         "--fit",
@@ -270,7 +270,7 @@ fn regress_runs_that_fail_are_rows() {
 }
 
 #[test]
-fn regress_bad_input_is_told_with_key_value_and_range() {
+fn regress_bad_input_is_reported_with_key_value_and_range() {
     let folder = folder();
     let good = ["--fit", "operation.speed_rpm=2900:3100"];
     let refuse = |more: &[&str], parts: &[&str]| {

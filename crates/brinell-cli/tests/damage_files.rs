@@ -128,7 +128,7 @@ fn regress_a_bad_file_ends_with_2_and_names_key_and_file() {
 }
 
 #[test]
-fn regress_a_file_that_is_no_damage_is_told_with_its_line_and_leaves_nothing() {
+fn regress_a_file_that_is_no_damage_is_reported_with_its_line_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("empty.png"), "").unwrap();

@@ -1,4 +1,4 @@
-//! `brinell defect`: what it prints reads back, what it measures is right, what is wrong is told.
+//! `brinell defect`: what it prints reads back, what it measures is right, what is wrong is reported.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

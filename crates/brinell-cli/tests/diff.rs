@@ -5,7 +5,7 @@ use std::fs;
 use tempfile::tempdir;
 
 #[test]
-fn prop_what_differs_is_told_with_units_and_defaults() {
+fn prop_what_differs_is_reported_with_units_and_defaults() {
     let folder = tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("a.toml"), SHORT).unwrap();
@@ -56,7 +56,7 @@ fn prop_what_differs_is_told_with_units_and_defaults() {
 }
 
 #[test]
-fn prop_a_written_scenario_is_the_same_run_and_a_folder_stands_for_it() {
+fn prop_a_written_scenario_is_the_same_run_and_so_is_its_folder() {
     let folder = tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("a.toml"), SHORT).unwrap();

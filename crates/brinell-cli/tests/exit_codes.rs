@@ -460,7 +460,7 @@ mod interrupted {
 
     /// A sample every 200 s of simulated time: minutes go by from one to the next.
     #[test]
-    fn regress_ctrl_c_is_heard_between_samples() {
+    fn regress_ctrl_c_is_noticed_between_samples() {
         let begin = Instant::now();
         let (_folder, call) = interrupt(&["--set", "simulation.sample_rate_hz=0.005"], 0);
         call.exits(130)

@@ -309,7 +309,7 @@ fn regress_pictures_for_print_come_with_their_numbers() {
 }
 
 #[test]
-fn regress_signal_formats_are_what_was_asked_for() {
+fn regress_signal_formats_are_what_was_requested() {
     let folder = folder_with(&SHORT.replace("0.02", "0.002"));
     let here = folder.path();
     for (formats, expected) in [

@@ -134,7 +134,7 @@ fn prop_pages_are_handed_to_the_systems_opener() {
         .exits(0)
         .says(&["opened o/report.html"]);
     assert_eq!(noted(), page.display().to_string());
-    // No opener: the page's place is told; a run is not failed by that.
+    // No opener: the page's place is printed; a run is not failed by that.
     let none = here.join("none");
     fs::create_dir(&none).unwrap();
     call(&["open", "o/report.html"], &none)

@@ -318,7 +318,7 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
         .exits(0)
         .says(&["2 points finished before"]);
     assert!(journal == fs::read(out.join("journal.jsonl")).unwrap());
-    // Signals were not kept: asked for now, the points run again.
+    // Signals were not kept: requested now, the points run again.
     brinell(folder.path(), &args(&["--keep-signals"]))
         .exits(0)
         .says(&["2 runs to do"]);

@@ -32,7 +32,7 @@ pub enum DamageError {
     WrongKind {
         /// What the content is.
         what: String,
-        /// What was asked for.
+        /// What was requested.
         wanted: &'static str,
         /// What to do.
         way_out: &'static str,
@@ -96,7 +96,7 @@ pub enum DamageError {
     /// An id that the drawing does not have.
     #[error("the drawing has no element with the id `{id}`; {known}")]
     NoSuchId {
-        /// The id asked for.
+        /// The id requested.
         id: String,
         /// Some ids that it has.
         known: String,
@@ -162,7 +162,7 @@ pub enum DamageError {
     /// A plane or cylinder that cannot be fitted.
     #[error("the {form} cannot be fitted: {why}")]
     NoFit {
-        /// The form asked for.
+        /// The form requested.
         form: &'static str,
         /// What is in the way.
         why: String,

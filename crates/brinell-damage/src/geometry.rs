@@ -83,7 +83,7 @@ pub struct DepthGrid {
     pub rows: usize,
     /// `depth_um[row * columns + column]`: 0 undamaged, positive into the material, negative raised.
     pub depth_um: Vec<f64>,
-    /// The plane or cylinder that was taken off, where one was asked for.
+    /// The plane or cylinder that was taken off, where one was requested.
     pub form: Option<FormReport>,
     /// What may be wrong, in sentences.
     pub warnings: Vec<String>,

@@ -90,7 +90,7 @@ impl DepthGrid {
 
 /// The rings with fewer corners; a tolerance under which they would cross is halved.
 fn simplified(rings: Vec<Vec<[f64; 2]>>, mut tolerance: f64) -> Vec<Vec<[f64; 2]>> {
-    /// A tolerance of less than a thousandth of what was asked for changes next to nothing.
+    /// A tolerance of less than a thousandth of what was requested changes next to nothing.
     const HALVINGS: u32 = 10;
     for _ in 0..HALVINGS {
         let fewer: Vec<Vec<[f64; 2]>> = rings

@@ -298,7 +298,7 @@ impl<'a> Levels<'a> {
         Ok(all)
     }
 
-    /// Whether it is at the point that is asked for.
+    /// Whether it is at the requested point.
     fn is_wanted(&self, piece: &Piece) -> bool {
         match self.wanted.pieces {
             Pieces::At(at) => piece.holds(at.map(|v| v.max(0.0) as usize)),

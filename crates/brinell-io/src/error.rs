@@ -203,7 +203,7 @@ pub enum IoError {
     NoChannel {
         /// The file.
         path: PathBuf,
-        /// The name asked for.
+        /// The name requested.
         name: String,
         /// The names that are there, some of them where there are many.
         names: String,

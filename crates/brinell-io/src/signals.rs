@@ -101,7 +101,7 @@ impl Metadata {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Every row that was asked for is there.
+    /// Every row that was requested is there.
     Complete,
     /// The run stopped early; the rows up to then are there. Holds the reason.
     Partial(String),

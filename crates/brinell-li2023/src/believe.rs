@@ -242,7 +242,7 @@ impl Facts<'_> {
             Some(short(of("entry")? / of("exit")?, 3))
         };
         Some(format!(
-            "A roller’s impact as it comes onto the defect is {} times that as it leaves it for the simplified shape and {} times for the irregular \
+            "A roller’s impact at defect entry is {} times that at exit for the simplified shape and {} times for the irregular \
              one. Section 4.2 calls them similar: {}; conclusion (3) different: {}.",
             ratio("simplified")?,
             ratio("irregular")?,

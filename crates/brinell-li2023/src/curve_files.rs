@@ -56,7 +56,7 @@ impl CurveFiles {
     }
 }
 
-/// Observes what a case's run is asked for beside its findings.
+/// Observes what is recorded of a case's run beside its findings.
 #[derive(Debug, Clone)]
 pub struct CaseObserver {
     from_start: FromStart,

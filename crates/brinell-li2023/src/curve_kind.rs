@@ -143,9 +143,7 @@ impl CurveKind {
             Self::Spectrum => "Peak amplitude, Hann window. Marked: the frequency in pure rolling.",
             Self::Envelope => "Marked: the frequency in pure rolling.",
             Self::Waveform => "Behind the anti-alias filter, the end of the run.",
-            Self::Impact => {
-                "From just before a roller comes onto the defect until after it leaves it."
-            }
+            Self::Impact => "From just before defect entry until after the exit.",
             Self::Entry | Self::Exit => "Behind the anti-alias filter, averaged over all rollers.",
             Self::Start => "Behind the anti-alias filter.",
             Self::Load | Self::Pocket | Self::Spin => {

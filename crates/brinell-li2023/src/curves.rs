@@ -27,7 +27,7 @@ pub(crate) struct Curves {
     pub(crate) waveform: Even,
     pub(crate) spectrum: Even,
     pub(crate) envelope: Even,
-    /// Instants within the waveform at which rollers come onto the damage.
+    /// Instants within the waveform of defect entry.
     pub(crate) enters: Vec<f64>,
     /// Instants at which they leave it.
     pub(crate) leaves: Vec<f64>,

@@ -116,7 +116,7 @@ impl OtherVerdicts {
                     title: "Verdicts side by side".into(),
                     columns: columns.map(str::to_owned).collect(),
                     rows: rows.collect(),
-                    note: "The same cases, all else alike. What tilts has slices, so slices in the plane stand between.".into(),
+                    note: "The same cases, all else alike. What tilts has slices, so slices in the plane are between both.".into(),
                 }),
             ],
         }

@@ -96,7 +96,7 @@ impl Numbers {
     }
 }
 
-/// Share of the drop in contact stiffness that a roller meets within the first tenth of its way over the damage, `length` (rad) long around
+/// Share of the drop in contact stiffness within the first tenth of a roller's passage over the damage, `length` (rad) long around
 /// the angle 0; `None` where the pass does not tell.
 pub(crate) fn entry_drop(points: &[PassPoint], length: f64) -> Option<f64> {
     let healthy = points.iter().map(|p| p.stiffness).max_by(f64::total_cmp)?;

@@ -16,7 +16,7 @@ const RULES: [&str; 6] = [
     "“Near” holds where the interval lies wholly within the stated bounds, and does not hold where it lies wholly outside. Trends are decided by \
      the ratios of neighbours: a step whose interval includes equality may go either way, and a trend holds where it holds whichever way \
      such steps go, does not hold where it fails whichever way they go.",
-    "A claim holds where all its statements do, in part where some hold and others do not. Each interval stands by itself; of twenty true \
+    "A claim holds where all its statements do, in part where some hold and others do not. Each interval is for one comparison; of twenty true \
      equalities one is expected to look decided. What is read off a shape has no interval.",
     "A claim that does not hold as it is read first, and does under another reading of what the paper leaves open, is undecided, and the verdict \
      says what it hangs on. A verdict that rests on our reading of the paper’s Ref. [43] says so: the paper describes that model and defect no \

@@ -170,7 +170,7 @@ impl Reproduction {
         self.sensitivity.as_ref().map(Sensitivity::found)
     }
 
-    /// What tilting changes, in a sentence, where that was asked for.
+    /// What tilting changes, in a sentence, where that was requested.
     pub fn tilting_result(&self) -> Option<String> {
         self.models.as_ref().map(OtherVerdicts::found)
     }

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How often the folder's progress is told, and how long Ctrl-C may wait.
+/// How often the folder's progress is reported, and how long Ctrl-C may wait.
 const BEAT: Duration = Duration::from_millis(50);
 
 fn failed(py: Python, error: DatasetError) -> PyErr {

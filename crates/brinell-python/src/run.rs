@@ -122,7 +122,7 @@ pub(crate) fn simulate(
     }
 }
 
-/// Runs at a time, of `count` in all: as asked for, or one a core.
+/// Runs at a time, of `count` in all: as requested, or one a core.
 pub(crate) fn threads(jobs: Option<isize>, count: usize) -> PyResult<NonZeroUsize> {
     let Some(jobs) = jobs else {
         return Ok(brinell::many::threads(count));
@@ -136,7 +136,7 @@ pub(crate) fn threads(jobs: Option<isize>, count: usize) -> PyResult<NonZeroUsiz
 }
 
 /// Does `job` for every index below `count` on threads of its own, and hands each result to `deliver` on this one, with Python's lock. Signals
-/// are heard meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the flag.
+/// are noticed meanwhile. An error of `deliver`, or a signal's, stops the rest: jobs see the flag.
 pub(crate) fn over_threads<T: Send>(
     py: Python<'_>,
     count: usize,
@@ -341,7 +341,7 @@ impl Run {
         Ok(Some(dict))
     }
 
-    /// Instants at which rollers come onto damage and leave it, the latest 4096.
+    /// Instants of defect entry and exit, the latest 4096.
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.finished.findings.passes.events;
         let layout = &self.finished.simulation.model().layout;

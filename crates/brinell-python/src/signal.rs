@@ -34,7 +34,7 @@ pub(crate) fn spectrum_dict(py: Python<'_>, s: Spectrum) -> PyResult<Bound<'_, P
     Ok(dict)
 }
 
-/// Segments as asked for: `length` samples, or the whole signal.
+/// Segments as requested: `length` samples, or the whole signal.
 fn segments(
     samples: usize,
     length: Option<usize>,
@@ -341,7 +341,7 @@ fn supply(hz: f64) -> PyResult<f64> {
     }
 }
 
-/// Which component's defect frequencies stand out: the JSON of `brinell analyze`, the envelope spectrum that shows most, and what the page is made of.
+/// Which component's defect frequencies are detected: the JSON of `brinell analyze`, the envelope spectrum that shows most, and what the page is made of.
 #[pyfunction]
 #[expect(
     clippy::too_many_arguments,

@@ -114,7 +114,7 @@ fn demo(duration: f64) -> Report {
         markers: [
             ("BPFO", "a roller passes a point of the outer raceway", BPFO, 6, true),
             ("BPFI", "a roller passes a point of the inner raceway", 319.898, 6, false),
-            ("2 BSF", "a point of a roller meets either raceway", 241.326, 6, false),
+            ("2 BSF", "a point of a roller passes either raceway", 241.326, 6, false),
             ("FTF", "the cage turns once", 13.163, 6, false),
         ]
         .map(|(label, meaning, frequency_hz, harmonics, present)| Marker {

@@ -45,7 +45,7 @@ pub struct Report {
     pub spectrogram: Spectrogram,
     /// The bearing's defect frequencies.
     pub markers: Vec<Marker>,
-    /// The defects: seen from above, and what a roller meets on them.
+    /// The defects: seen from above, and the contact conditions during roller passage.
     pub damage: Vec<DamageView>,
     /// Why there is damage that `damage` does not show; a bearing without both is healthy.
     pub undrawn_damage: Option<String>,
@@ -202,7 +202,7 @@ pub struct MinMax {
 /// What an [`Event`] marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
-    /// A roller comes onto a defect.
+    /// Defect entry.
     Enter,
     /// A roller leaves it.
     Leave,

@@ -285,7 +285,7 @@ fn kept(values: &[f64], dx: f64, peak: bool, most: usize) -> (Vec<f64>, f64) {
     (thin, dx * group as f64 / per as f64)
 }
 
-/// A JSON string that may stand inside a script element.
+/// A JSON string that may be inside a script element.
 pub(crate) fn json(text: &str) -> String {
     let mut quoted = String::from("\"");
     for c in text.chars() {

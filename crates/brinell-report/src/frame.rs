@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 pub(crate) const THINNED: &str = "Curves are thinned to the pixels of the page: each column keeps its smallest and largest value, in spectra its largest.";
 
 /// A page up to the end of its header: title, a line under it, the version of the program that `done` it ("Simulated"); both may be empty.
-/// Each of `alerts` is a few words that stand out, and what is to be said of them; either may be empty.
+/// Each of `alerts` is a few words in bold, and what is to be said of them; either may be empty.
 pub(crate) fn open<'a>(
     title: &str,
     subtitle: &str,

@@ -62,7 +62,7 @@ pub struct MotionRow {
 /// What is damaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DamagedSurface {
-    /// Stands still.
+    /// At rest.
     Outer,
     /// Turns with the inner ring.
     Inner,

@@ -7,7 +7,7 @@ use crate::frame::{figure, none};
 use crate::picture::{Anchor, Paint, Picture, Text, escape, ink};
 use crate::plots::{Layout, legend};
 
-/// Where the cages' centres went.
+/// Paths of the cages' centres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CageOrbits {
     /// The cages.

@@ -80,7 +80,7 @@ pub struct SheetDamage {
     pub frequency_hz: Option<f64>,
 }
 
-/// Two of these stand beside each other on a desktop, one under the other on a phone.
+/// Two of these are beside each other on a desktop, one under the other on a phone.
 const SIZE: Size = Size {
     width: 460.0,
     height: 190.0,

@@ -1,6 +1,6 @@
 //! Entry and exit of a defect: how far apart in time, and what length that implies.
 //!
-//! A rolling element that passes a spall is felt twice: where it enters, and where it strikes the far edge or leaves. The
+//! A rolling element that passes a spall causes two impulses: where it enters, and where it hits the far edge or leaves. The
 //! time between the two is the spall's length over the speed of the contact: N. Sawalhi and R. B. Randall, "Vibration
 //! response of spalled rolling element bearings: observations, simulations and signal processing techniques to track
 //! the spall size", Mech. Syst. Signal Process. 25 (2011) 846-870.
@@ -111,7 +111,7 @@ pub enum Events {
     /// The contact reaches the near and the far edge: the roller follows the floor, or carries load again only past the
     /// far edge. Length = speed times separation.
     BothEdges,
-    /// The contact reaches the near edge; later the roller, bridging the defect, strikes the far edge when its centre is
+    /// The contact reaches the near edge; later the roller, bridging the defect, hits the far edge when its centre is
     /// over the middle. Length = twice speed times separation (Sawalhi and Randall 2011, for defects in which the roller
     /// does not reach the floor).
     EdgeAndImpact,

@@ -233,7 +233,7 @@ mod tests {
                 .fold(0.0, |m: f64, a| m.max(*a));
             assert!(
                 strongest <= line.amplitude,
-                "nothing stands above the modulation"
+                "nothing is present above the modulation"
             );
         }
     }

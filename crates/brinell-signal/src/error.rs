@@ -6,7 +6,7 @@ pub enum SignalError {
     /// Fewer samples than the analysis needs.
     #[error("{have} samples, fewer than the {need} that {what} needs")]
     TooShort {
-        /// What was asked for.
+        /// What was requested.
         what: &'static str,
         /// Samples given.
         have: usize,
@@ -22,7 +22,7 @@ pub enum SignalError {
     /// A signal without any variation where the analysis needs some.
     #[error("the signal is constant: {what} is not defined")]
     Constant {
-        /// What was asked for.
+        /// What was requested.
         what: &'static str,
     },
     /// A parameter out of its range.

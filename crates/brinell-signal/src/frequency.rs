@@ -47,7 +47,7 @@ const HIGHEST_NOMINAL: f64 = 0.4;
 /// Lowest noise that a line is weighed against, as a share of the strongest power: the round-off and leakage that a
 /// noiseless signal still has.
 const NOISE_FLOOR: f64 = 1e-9;
-/// Independent places at which a comb may stand, for each bin of its highest harmonic: Hann's lines are smooth, but the
+/// Independent places at which a comb may lie, for each bin of its highest harmonic: Hann's lines are smooth, but the
 /// maximum is sought between bins too.
 const PLACES_PER_BIN: f64 = 3.0;
 /// What interpolation adds to the uncertainty, in bins of the highest harmonic that counts.

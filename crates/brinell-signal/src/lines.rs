@@ -33,7 +33,7 @@ pub struct Line {
     pub floor: f64,
     /// Signal to noise: power over that of the floor, in decibels; 0 is what noise shows on average.
     pub snr_db: f64,
-    /// Chance that the largest of the bins searched stands as high under Gaussian noise.
+    /// Chance that the largest of the bins searched is as high under Gaussian noise.
     pub false_alarm: f64,
 }
 

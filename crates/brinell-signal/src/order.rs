@@ -400,7 +400,7 @@ mod tests {
             assert!((peak.frequency - order).abs() < 1e-3, "{peak:?}");
             assert!((peak.amplitude / amplitude - 1.0).abs() < 3e-3, "{peak:?}");
         }
-        // Values stand where they say.
+        // Values are where they say.
         for k in [0, 5000, 20_000] {
             let turns = angular.first_angle + k as f64 / 256.0;
             let exact = (TAU * 7.3 * turns).cos() + 0.2 * (TAU * 31.0 * turns).sin();

@@ -81,7 +81,7 @@ mod tests {
     use std::sync::Barrier;
 
     #[test]
-    fn prop_every_job_is_done_once_and_told_where_the_caller_is() {
+    fn prop_every_job_is_done_once_and_reported_where_the_caller_is() {
         let here = thread::current().id();
         for (count, threads) in [(0, 1), (1, 4), (7, 1), (7, 2), (50, 3)] {
             let mut told = vec![0; count];

@@ -18,7 +18,7 @@ pub struct Spectra {
     pub spectrum: Option<Spectrum>,
     /// Each segment demodulated by itself, the window-weighted mean taken off, then as `spectrum`; `None` with fewer than 8 samples.
     pub envelope: Option<EnvelopeSpectrum>,
-    /// One a search: the mean over the segments in which a comb stands clear; `None` where none does, or a segment is too short to tell.
+    /// One a search: the mean over the segments in which a comb is clear of the noise; `None` where none does, or a segment is too short to tell.
     pub lines: Vec<Option<LineFrequency>>,
 }
 

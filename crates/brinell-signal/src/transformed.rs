@@ -236,7 +236,7 @@ mod tests {
         }
     }
 
-    /// Two tones, however far apart in the band: what stands where nothing is, is the fourth line of their beat and those beyond.
+    /// Two tones, however far apart in the band: what is present where nothing should be, is the fourth line of their beat and those beyond.
     #[test]
     fn analytic_beats_fold_back_as_little_as_said() {
         let (n, count) = (1 << 17, 1 << 13);

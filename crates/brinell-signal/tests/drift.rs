@@ -92,7 +92,7 @@ fn stray(analysis: &Analysis, rig: &Rig) -> f64 {
 }
 
 #[test]
-fn prop_a_drift_is_told_by_the_shafts_lines() {
+fn prop_a_drift_is_found_from_the_shafts_lines() {
     for ramp in [0.02, -0.02, 0.05, -0.05] {
         for seed in 0..2 {
             let rig = Rig {

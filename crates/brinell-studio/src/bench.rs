@@ -211,7 +211,7 @@ impl Bench {
         &self.heard.simulation
     }
 
-    /// Shaft speed that was asked for last, Hz; `None` where it varies.
+    /// Shaft speed that was requested last, Hz; `None` where it varies.
     pub(crate) fn shaft(&self) -> Option<f64> {
         shaft_of(&self.loaded)
     }

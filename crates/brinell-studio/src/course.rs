@@ -50,7 +50,7 @@ impl Course {
 mod tests {
     use super::*;
 
-    /// The angle before a change is what it was, and the speed after it what was asked for.
+    /// The angle before a change is what it was, and the speed after it what was requested.
     #[test]
     fn prop_a_change_of_speed_leaves_the_past_alone() {
         let mut course = Course::of(&Speed::Constant(1800.0)).unwrap();

@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_alike_bearings_are_not_told_apart() {
+    fn prop_alike_bearings_are_not_distinguished() {
         let one = verdict(&["BPFI"], [2.0, 1.9, 2.1]);
         let words = said(&one, &one);
         assert!(

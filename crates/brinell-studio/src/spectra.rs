@@ -1,4 +1,4 @@
-//! Spectra, lines and the verdict of what was heard since a bearing was opened; a loop to listen to.
+//! Spectra, lines and the verdict of the signal since a bearing was opened; a loop to listen to.
 
 use crate::bench::Bench;
 use crate::judged;
@@ -83,7 +83,7 @@ struct Named {
     defect: Option<usize>,
 }
 
-/// Frequencies at which damage would show at the speed asked for, the defects' own with their numbers.
+/// Frequencies at which damage would show at the speed requested, the defects' own with their numbers.
 fn names(bench: &Bench) -> Vec<Named> {
     let Some(shaft) = bench.shaft().filter(|f| *f > 0.0) else {
         return Vec::new();
@@ -95,8 +95,8 @@ fn names(bench: &Bench) -> Vec<Named> {
         std::f64::consts::TAU * shaft,
     );
     let own = |name: &str| {
-        let struck = |d: &brinell::scenario::Defect| k.struck_by(d.on).0 == name;
-        scenario.defects.iter().position(struck).map(|at| at + 1)
+        let excited = |d: &brinell::scenario::Defect| k.defect_frequency(d.on).0 == name;
+        scenario.defects.iter().position(excited).map(|at| at + 1)
     };
     [("BPFO", k.bpfo), ("BPFI", k.bpfi), ("2 BSF", 2.0 * k.bsf)]
         .map(|(name, hz)| Named {
@@ -107,7 +107,7 @@ fn names(bench: &Bench) -> Vec<Named> {
         .into()
 }
 
-/// `brinell analyze` on what was heard.
+/// `brinell analyze` on the signal so far.
 pub(crate) fn verdict(bench: &Bench) -> Answer<Value> {
     let Some(shaft) = bench.shaft() else {
         return Err(Trouble::of("a verdict asks for a constant speed"));
@@ -136,7 +136,9 @@ pub(crate) fn sound(bench: &Bench, arrays: &mut Arrays) -> Answer<Value> {
     let wanted = (LOOP_S * fs / turn).ceil().max(1.0);
     let turns = wanted.min((held / turn).floor());
     if turns < 1.0 {
-        return Err(Trouble::of("not a turn of the shaft has been heard yet"));
+        return Err(Trouble::of(
+            "not a turn of the shaft has been simulated yet",
+        ));
     }
     let length = (turns * turn).round() as usize;
     let fade = (FADE * length as f64) as usize;

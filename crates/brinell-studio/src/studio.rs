@@ -223,7 +223,7 @@ fn geometry(scenario: &Scenario) -> Value {
     })
 }
 
-/// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples heard.
+/// The numbers of a run from t = 0 that is over; before, and of a live one, those of the samples since the last edit.
 fn indicators(bench: &Bench) -> Value {
     let Some((outcome, findings)) = &bench.finished else {
         let heard = spectra::moments(bench);

@@ -92,7 +92,7 @@ fn prop_a_run_in_slices_is_the_run_of_the_library() {
 }
 
 #[test]
-fn prop_an_edit_is_heard_without_a_new_start() {
+fn prop_an_edit_changes_the_signal_without_a_new_start() {
     let mut studio = Studio::new();
     good(
         &mut studio,
@@ -115,13 +115,13 @@ fn prop_an_edit_is_heard_without_a_new_start() {
     )
     .json;
     assert_eq!(before["samples"], json!(0));
-    let mut struck = Vec::new();
+    let mut damaged = Vec::new();
     for _ in 0..64 {
         let answer = good(
             &mut studio,
             json!({ "do": "advance", "slot": 0, "rows": 256, "frames": true }),
         );
-        struck.extend(singles(&answer, &answer.json["x"]));
+        damaged.extend(singles(&answer, &answer.json["x"]));
         let frames = &answer.json["frames"];
         assert_eq!(frames["count"], json!(32));
         let rows = frames["rows"].as_array().unwrap();
@@ -135,7 +135,7 @@ fn prop_an_edit_is_heard_without_a_new_start() {
         );
     }
     let rms = |x: &[f32]| (x.iter().map(|v| v * v).sum::<f32>() / x.len() as f32).sqrt();
-    assert!(rms(&struck) > 1.5 * rms(&quiet[quiet.len() / 2..]));
+    assert!(rms(&damaged) > 1.5 * rms(&quiet[quiet.len() / 2..]));
     let spectra = good(
         &mut studio,
         json!({ "do": "spectra", "slot": 0, "longest": 16384 }),
@@ -178,7 +178,7 @@ fn prop_an_edit_is_heard_without_a_new_start() {
 }
 
 #[test]
-fn prop_a_bad_scenario_is_told_in_the_librarys_words_and_the_last_good_one_runs_on() {
+fn prop_a_bad_scenario_is_reported_in_the_librarys_words_and_the_last_good_one_runs_on() {
     let mut studio = Studio::new();
     good(
         &mut studio,

@@ -4,7 +4,7 @@
 //!
 //! Each round runs the first RUNS of the plan with nobody listening, on one thread and on two, then as data sets of 1, 8 and RUNS runs a file, and on
 //! two threads. A data set is compared with the bare solver on as many threads: two runs at once share caches, clock and memory, whoever listens.
-//! Rounds alternate, and medians are told, so that what else the machine does weighs on all alike. Processor time is told where /proc has it: on a busy
+//! Rounds alternate, and medians are printed, so that what else the machine does weighs on all alike. Processor time is printed where /proc has it: on a busy
 //! machine it says more than the clock, which in turn shows what waits for the disk.
 
 use brinell::many;

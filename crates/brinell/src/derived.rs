@@ -49,13 +49,13 @@ pub fn defect_passes(model: &Model) -> Vec<f64> {
     let kinematics = model.kinematics(model.rotation.max_speed());
     let pass = |d: &Defect| {
         let (first, last) = d.shape.arc();
-        let (_, frequency) = kinematics.struck_by(d.surface);
-        // One turn of the surface past the contacts takes Z (raceways) or 2 (a roller) strikes.
-        let strikes = match d.surface {
+        let (_, frequency) = kinematics.defect_frequency(d.surface);
+        // One turn of the surface past the contacts takes Z (raceways) or 2 (a roller) impacts.
+        let impacts = match d.surface {
             Surface::Roller(_) => 2.0,
             _ => model.layout.rollers_per_row as f64,
         };
-        (last - first) / (TAU * d.radius * frequency / strikes)
+        (last - first) / (TAU * d.radius * frequency / impacts)
     };
     model.defects.iter().map(pass).collect()
 }

@@ -17,7 +17,7 @@
 //!   [`document::read`] also takes overrides (`operation.speed_rpm` = `900`), and gives warnings and the origin of every value.
 //!   [`Scenario::to_toml`] writes it with every default.
 //! - [`simulate()`] runs it to its end. The same scenario gives the same bits on the same machine, on any number of threads.
-//! - A [`RunResult`] has the [`Simulation`](simulate::Simulation) that was run, how it went ([`Outcome`](simulate::Outcome): counted work,
+//! - A [`RunResult`] has the [`Simulation`](simulate::Simulation) that was run, its outcome ([`Outcome`](simulate::Outcome): counted work,
 //!   audits of energy and momentum), what was gathered on the way ([`Findings`](observe::Findings): spectra, load zone, slip, passes of rollers
 //!   over damage), and all of it as named numbers ([`Quantity`](result::Quantity)). Its size does not grow with the duration.
 //! - An [`Observer`] is informed of every step, sample and row of a run, and may stop it: [`simulate_with`].

@@ -1,4 +1,4 @@
-//! Slices across a roller: where they stand, the profile's drop there, and what they carry together (sections 3, 15, 16).
+//! Slices across a roller: where they lie, the profile's drop there, and what they carry together (sections 3, 15, 16).
 //!
 //! The contact laws of [`crate::contact`] hold for each slice with 1/n_s of the stiffness and of the damping. SI; z from the roller's
 //! middle along +Z.

@@ -179,7 +179,7 @@ impl Acting {
     }
 }
 
-/// Share of a stretch left out at each of its ends. A contact that has just closed or is about to open stands near delta = 0, where
+/// Share of a stretch left out at each of its ends. A contact that has just closed or is about to open is near delta = 0, where
 /// delta^(10/9) is not smooth, and no step is short enough there for an order to show.
 const MARGIN: f64 = 0.1;
 
@@ -220,7 +220,7 @@ fn quiet_stretch(model: &Model, from: f64, to: f64) -> (f64, f64, Vec<f64>) {
 const LONGEST: f64 = 3.2e-6;
 /// Halvings of it that are compared, the first included.
 const LEVELS: i32 = 5;
-/// Of these, the ones whose audit stands well above its round-off, about 5e-16 J.
+/// Of these, the ones whose audit is well above its round-off, about 5e-16 J.
 const AUDITED: usize = 3;
 
 /// Between two switches the bearing is smooth, and the order is the method's there: against steps eight times as short as

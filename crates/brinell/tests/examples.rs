@@ -83,6 +83,6 @@ fn prop_examples_run() {
             assert!(column.iter().all(|x| x.is_finite()), "{stem}: {name}");
         }
         let moved = rows.column("outer_ax").iter().any(|a| *a != 0.0);
-        assert!(moved, "{stem}: the outer ring stands still");
+        assert!(moved, "{stem}: the outer ring does not move");
     }
 }

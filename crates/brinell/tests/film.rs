@@ -246,7 +246,7 @@ fn prop_film_only_dissipates_in_its_rotating_frame() {
         let f = guide.force(offset, velocity, cage, ring);
         let power = f.film[0] * v[0] + f.film[1] * v[1];
         assert!(power < 0.0, "{power} W: {guide:?} {offset:?} {velocity:?}");
-        // And no direction is damped by more than the solver is told: -dF/dv is the matrix of the integrals.
+        // And no direction is damped by more than the solver assumes: -dF/dv is the matrix of the integrals.
         assert!(f.film[0].hypot(f.film[1]) <= f.damping * v[0].hypot(v[1]) * (1.0 + 1e-12));
     }
 }

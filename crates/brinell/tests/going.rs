@@ -72,7 +72,7 @@ fn prop_a_run_that_goes_on_in_the_same_simulation_stays_on_its_way() {
 }
 
 #[test]
-fn prop_a_spall_that_is_cut_into_a_running_bearing_is_heard_and_the_run_has_no_end() {
+fn prop_a_spall_in_a_running_bearing_raises_the_rms_and_the_run_has_no_end() {
     let healthy = simulation("[simulation]\nduration_s = 0.1\n");
     let damaged = simulation(&format!("{SPALL}[simulation]\nduration_s = 0.1\n"));
     let mut run = healthy.start();
@@ -81,11 +81,11 @@ fn prop_a_spall_that_is_cut_into_a_running_bearing_is_heard_and_the_run_has_no_e
     let before = sensor.0.len();
     run.go_on_in(&damaged).unwrap();
     assert_eq!(run.advance(2560, &mut sensor), None);
-    let (quiet, struck) = (&sensor.0[before / 2..before], &sensor.0[before..]);
+    let (quiet, damaged) = (&sensor.0[before / 2..before], &sensor.0[before..]);
     assert!(
-        rms(struck) > 1.5 * rms(quiet),
+        rms(damaged) > 1.5 * rms(quiet),
         "{} {}",
-        rms(struck),
+        rms(damaged),
         rms(quiet)
     );
     let outcome = run.outcome(End::Stopped);

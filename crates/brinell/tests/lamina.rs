@@ -125,7 +125,7 @@ fn lit_makers_dynamic_ratings_are_a_seventh_above_iso_281() {
 #[test]
 fn analytic_life_of_an_aligned_bearing_is_the_fourth_power_of_c_over_p() {
     // No clearance, straight: half a turn is loaded, and without the stress riser L10r = (C/(0.83 P))^4: ISO 281 takes the reduction 0.83 for edges
-    // and misalignment, and the power 10/3 for its range of loads. The riser stands between both.
+    // and misalignment, and the power 10/3 for its range of loads. The riser is between both.
     let riser = |n: usize| {
         let sum: f64 = (0..n).map(|k| stress_riser(k, n).powf(4.5)).sum();
         (sum / n as f64).powf(-8.0 / 9.0)
@@ -192,7 +192,7 @@ fn analytic_slices_add_up_to_the_load() {
     }
 }
 
-/// A hole that no roller reaches the floor of, over the middle 4 mm of 6: on each surface the roller that is looked at stands over it, and the
+/// A hole that no roller reaches the floor of, over the middle 4 mm of 6: on each surface the roller that is looked at is over it, and the
 /// load that its slices lose the others take.
 #[test]
 fn analytic_the_load_along_a_roller_leaves_out_a_hole() {

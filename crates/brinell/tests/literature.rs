@@ -40,7 +40,7 @@ fn line(s: &Scenario) -> LineFrequency {
     let findings = watching.0.finish(&simulation);
     let line = &findings.lines[0];
     assert_eq!(line.name, "BPFO");
-    line.found.expect("a line stands clear of the noise")
+    line.found.expect("a line is clear of the noise")
 }
 
 fn found(name: &str, shape: Shape, printed: f64) {

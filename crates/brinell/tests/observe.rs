@@ -138,7 +138,7 @@ fn analytic_slip_over_the_place_is_found_where_it_was() {
     }
 }
 
-/// While the shaft stands still, or hardly turns, slip says nothing; of the kinematic model it never does.
+/// While the shaft is at rest, or hardly turns, slip says nothing; of the kinematic model it never does.
 #[test]
 fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
     let from_rest = model(|s| {
@@ -159,7 +159,7 @@ fn analytic_slip_is_missing_where_there_is_no_speed_to_compare_with() {
         |f| course.take(f, Places::default().at(f), true),
     );
     let slip = course.over_time(0);
-    // Cage and rollers stand still all the time: NaN before the shaft turns, then all of its speed is missing.
+    // Cage and rollers are at rest all the time: NaN before the shaft turns, then all of its speed is missing.
     assert!(slip.cage[0].is_nan() && slip.orbit[0].is_nan());
     assert_eq!(slip.cage.last(), Some(&1.0));
     assert_eq!(slip.spin.last(), Some(&1.0));

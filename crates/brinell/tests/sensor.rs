@@ -115,7 +115,7 @@ fn prop_noise_repeats_whatever_runs_beside() {
 }
 
 #[test]
-fn analytic_noise_has_the_ratio_asked_for() {
+fn analytic_noise_has_the_ratio_requested() {
     // A ratio to the run's own level, which a first run tells.
     let quiet = Sensor {
         high_cut_hz: Some(10_000.0),

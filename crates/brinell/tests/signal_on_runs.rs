@@ -113,7 +113,7 @@ fn analytic_roller_damage() {
     found(Surface::Roller(2), Component::Element);
 }
 
-/// What `brinell analyze` says of runs: speeds, lengths, and no noise at all, in which sidebands of damage that turns stand everywhere.
+/// What `brinell analyze` says of runs: speeds, lengths, and no noise at all, in which sidebands of damage that turns are present everywhere.
 #[test]
 fn regress_verdicts_on_short_runs_with_and_without_noise() {
     let rate = 25_600.0;
@@ -294,7 +294,7 @@ fn regress_bpfo_of_healthy_bearings() {
                 })
                 .collect();
             println!("{preset}, {rpm} r/min, {load} N: {}", found.join("; "));
-            // A single row's passing may be clear; all else that stands where nothing is damaged has to be called weak.
+            // A single row's passing may be clear; all other lines of an undamaged bearing have to be called weak.
             assert!(analysis.causes().all(|f| analysis.clarity(f) == "weak"
                 || preset == "NU206" && f.component == Component::OuterRace));
         }

@@ -221,7 +221,7 @@ fn analytic_gravity_beyond_centrifugal_drops_a_roller() {
             ..Problem::at_start(&model)
         };
         let b = balance(&model, &problem);
-        // Roller 6 of row 1 stands nearest to the top, at 94.7 degrees.
+        // Roller 6 of row 1 is nearest to the top, at 94.7 degrees.
         let slot = model.layout.slot(0, 5);
         let own = fraction * weight - weight * problem.orbit[slot].sin();
         let (carries, free) = if drops {
@@ -381,7 +381,7 @@ fn prop_ring_that_nothing_holds_is_refused() {
 }
 
 #[test]
-fn regress_no_balance_is_told_without_a_nan() {
+fn regress_no_balance_is_reported_without_a_nan() {
     let told = |residual: f64| {
         let none = brinell::statics::NoBalance {
             residual,

@@ -105,7 +105,7 @@ fn gather(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Fenced blocks with what stands behind their fence.
+/// Fenced blocks with what is behind their fence.
 fn blocks(text: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut open: Option<(String, String)> = None;

@@ -12,7 +12,7 @@ use pulldown_latex::{Parser, Storage};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Equations of the paper: each stands in the book once.
+/// Equations of the paper: each is in the book once.
 const LAST_EQUATION: u32 = 51;
 
 pub struct Equations;
@@ -35,7 +35,7 @@ impl Preprocessor for Equations {
             for number in tags(&chapter.content) {
                 if let Some(first) = home.insert(number, path.clone()) {
                     problems.push(format!(
-                        "Eq. ({number}) stands in {} and in {}",
+                        "Eq. ({number}) is in {} and in {}",
                         first.display(),
                         path.display()
                     ));
@@ -43,7 +43,7 @@ impl Preprocessor for Equations {
             }
         });
         let missing = (1..=LAST_EQUATION).filter(|n| !home.contains_key(n));
-        problems.extend(missing.map(|n| format!("Eq. ({n}) stands nowhere")));
+        problems.extend(missing.map(|n| format!("Eq. ({n}) is missing")));
         book.for_each_mut(|item| {
             let BookItem::Chapter(chapter) = item else {
                 return;

@@ -31,12 +31,12 @@ def studio(scenario: Runnable | None = None) -> Studio:
     Parameters
     ----------
     scenario : Scenario or path, optional
-        Where to begin; the scenario of `template` unless told.
+        Where to begin; the scenario of `template` by default.
 
     Returns
     -------
     Studio
-        A widget. Its ``scenario`` is the TOML text as it stands, ``run()`` a `Result` of it.
+        A widget. Its ``scenario`` is the present TOML text, ``run()`` a `Result` of it.
 
     Raises
     ------

@@ -44,7 +44,7 @@ class Studio(anywidget.AnyWidget):
     Parameters
     ----------
     scenario : Scenario or path, optional
-        Where to begin; the scenario of `template` unless told.
+        Where to begin; the scenario of `template` by default.
 
     Raises
     ------
@@ -83,7 +83,7 @@ class Studio(anywidget.AnyWidget):
             self.send({"load": change.new})
 
     def run(self) -> Result:
-        """Runs the scenario as it stands from t = 0 to its end: the bits of `simulate` and of ``brinell run``.
+        """Runs the present scenario from t = 0 to its end: the bits of `simulate` and of ``brinell run``.
 
         Returns
         -------

@@ -7,7 +7,7 @@ use brinell::signal::Indicator;
 use brinell_report::{level_lines, ratio, shaft_lines};
 use std::path::PathBuf;
 
-/// What stands at each defect frequency, in columns.
+/// What is found at each defect frequency, in columns.
 fn families(a: &Analysis) {
     let heads = COLUMNS.map(|c| c.trim_start_matches('#').to_owned());
     let rows: Vec<_> = [heads].into_iter().chain(a.rows()).collect();

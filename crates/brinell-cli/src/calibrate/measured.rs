@@ -149,7 +149,7 @@ fn targets(
         }
     }
     for (k, defect) in scenario.defects.iter().enumerate() {
-        let (_, nominal) = kinematics.struck_by(defect.on);
+        let (_, nominal) = kinematics.defect_frequency(defect.on);
         let enough = ANALYSED * simulation.samples() as f64 / rate * nominal >= PERIODS;
         if nominal <= 0.0 || nominal >= 0.4 * rate || !enough {
             continue;
@@ -184,7 +184,7 @@ fn targets(
 fn lines(scenario: &Scenario, kinematics: &Kinematics) -> Vec<(&'static str, f64)> {
     let mut lines: Vec<(&'static str, f64)> = Vec::new();
     for defect in &scenario.defects {
-        let (name, frequency) = kinematics.struck_by(defect.on);
+        let (name, frequency) = kinematics.defect_frequency(defect.on);
         let name = match name {
             "BPFO" => "bpfo",
             "BPFI" => "bpfi",

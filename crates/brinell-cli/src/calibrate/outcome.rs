@@ -143,7 +143,7 @@ impl<'a> Outcome<'a> {
         Ok(written)
     }
 
-    /// A row a run, in the order asked for.
+    /// A row a run, in the order requested.
     fn table(&self) -> Table {
         let all = &self.fit.evaluations;
         let mut table = Table::default();

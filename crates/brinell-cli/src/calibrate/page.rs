@@ -209,7 +209,7 @@ impl Outcome<'_> {
                 self.plan.settings.budget
             ),
             format!(
-                "The Jacobian is made of differences around run {}, over these shares of the ranges: {}. Within {} % a difference would drown in the \
+                "The Jacobian is made of differences around run {}, over these shares of the ranges: {}. Within {} % a difference would be below the \
                  scatter of runs, whose impacts amplify round-off.",
                 self.fit.centre + 1,
                 steps.join(", "),

@@ -32,13 +32,16 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
     };
     let begin = |run: &&RunResult| run.findings.from.max(kept(run).0);
     let from = runs.iter().map(begin).fold(0.0, f64::max);
-    let strike = |run: &&RunResult| {
+    let ball_pass = |run: &&RunResult| {
         let model = run.simulation.model();
         let k = model.kinematics(model.rotation.max_speed());
-        let struck = model.defects.iter().map(|d| k.struck_by(d.surface).1);
-        struck.fold(k.bpfo, f64::max)
+        let of_defects = model
+            .defects
+            .iter()
+            .map(|d| k.defect_frequency(d.surface).1);
+        of_defects.fold(k.bpfo, f64::max)
     };
-    let quickest = runs.iter().map(strike).fold(0.0, f64::max);
+    let quickest = runs.iter().map(ball_pass).fold(0.0, f64::max);
     let width = if quickest > 0.0 { 5.0 / quickest } else { 0.02 };
     let curves = runs.iter().enumerate().map(|(of, run)| {
         let (first, values) = kept(run);
@@ -57,7 +60,7 @@ pub(super) fn waveform(runs: &[&RunResult]) -> Overlay {
         y_label: capital(&acceleration(runs[0])),
         y_unit: "m/s^2".into(),
         curves: curves.collect(),
-        note: "The first strikes of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
+        note: "The first impacts of the analysed time. Impacts amplify small differences: later the runs drift apart even where their \
                statistics agree."
             .into(),
         ..Overlay::default()
@@ -200,7 +203,7 @@ pub(super) fn over_defect(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     pieces
 }
 
-/// The mean acceleration around the instants at which rollers come onto the defect and leave it.
+/// The mean acceleration around the instants of rollers' entry to and exit from the defect.
 pub(super) fn entry_and_exit(runs: &[&RunResult], defect: usize) -> Vec<Piece> {
     let all: Vec<Vec<Impacts>> = runs
         .iter()

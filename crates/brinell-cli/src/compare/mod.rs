@@ -48,7 +48,7 @@ pub(crate) fn side_by_side(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let scenarios = scenario_files(&sides, &folder);
     let earlier = earlier(args, &sides, &folder, &inputs)?;
     make_folder(&folder.join(SCENARIOS))?;
-    // Before the runs: a folder that takes no files is told of now.
+    // Before the runs: a folder that takes no files is reported now.
     let mut ready = Vec::new();
     for (path, side) in scenarios.iter().zip(&sides) {
         ready.push(atomic_prepare(path, side.loaded.to_toml())?);

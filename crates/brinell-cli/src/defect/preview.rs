@@ -67,7 +67,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The defects asked for, each with its index, in a ring that is thick enough for them.
+/// The defects requested, each with its index, in a ring that is thick enough for them.
 fn damages(s: &Scenario, args: &PreviewArgs) -> Result<Vec<(usize, Damage)>, Failure> {
     if let Some(x) = args
         .ring_thickness_mm

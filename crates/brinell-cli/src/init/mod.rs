@@ -188,7 +188,7 @@ struct Fitted {
 
 /// The paper's bearing, load and spall.
 const PAPER: (&str, f64, [f64; 2]) = ("NN3007", 300.0, [3.0, 4.0]);
-/// Load of a bearing that is asked for over its static rating.
+/// Load of a bearing over its static rating, where none is given.
 const LOAD_OVER_RATING: f64 = 0.02;
 /// Size of a spall on it over the rolling element's diameter, and over the roller's length.
 const SPALL: [f64; 2] = [0.3, 0.5];
@@ -321,7 +321,7 @@ fn filled(text: &str, names: &Names, of: &Fitted) -> String {
     aligned(&text)
 }
 
-/// Comments that stand behind keys, in one column for each block of lines.
+/// Comments behind keys, in one column for each block of lines.
 fn aligned(text: &str) -> String {
     /// Keys that are longer keep their comment right behind them.
     const WIDEST: usize = 48;

@@ -13,7 +13,7 @@ use std::path::Path;
 /// File in the folder of a run.
 pub(super) const FILE: &str = "line_loads.csv";
 
-/// What the instants asked for are read with; `None` where none are.
+/// What the instants requested are read with; `None` where none are.
 pub(super) fn asked(
     args: &RunArgs,
     simulation: &Simulation,

@@ -171,7 +171,7 @@ pub(crate) fn reason(failure: &Failure) -> String {
     }
 }
 
-/// Runs points from their source, and keeps their signals where that is asked for.
+/// Runs points from their source, and keeps their signals where that is requested.
 pub(super) struct FromSource<'a> {
     pub(super) source: &'a Source,
     pub(super) signals: Option<PathBuf>,

@@ -1,4 +1,4 @@
-//! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not fit is told.
+//! Data sets: the same bytes whatever the threads, the shards and the interruptions; what is there stays; what does not fit is reported.
 
 mod bytes;
 mod refusals;

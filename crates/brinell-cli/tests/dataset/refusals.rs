@@ -1,11 +1,11 @@
-//! What does not fit, or was changed, is told; what is there stays.
+//! What does not fit, or was changed, is reported; what is there stays.
 
 use super::{PLAN, brinell, contents, files, folder_with, make};
 use brinell_io::record_facts;
 use std::fs;
 
 #[test]
-fn prop_what_was_changed_after_it_was_written_is_told() {
+fn prop_what_was_changed_after_it_was_written_is_reported() {
     let folder = folder_with(PLAN);
     let out = folder.path().join("out");
     make(folder.path(), &["-o", "out", "-q"]).exits(0);
@@ -89,7 +89,7 @@ fn regress_distributions_that_leave_a_range_are_refused_with_how_often() {
 }
 
 #[test]
-fn regress_bad_input_is_told() {
+fn regress_bad_input_is_reported() {
     for (from, to, parts) in [
         (
             "speed_rpm",

@@ -270,7 +270,7 @@ fn prop_held_out_labels_lie_apart() {
 }
 
 #[test]
-fn prop_what_a_data_set_is_and_what_was_made_are_told_as_json() {
+fn prop_what_a_data_set_is_and_what_was_made_are_reported_as_json() {
     let folder = folder_with(PLAN);
     let here = folder.path();
     let told = |args: &[&str]| -> serde_json::Value {

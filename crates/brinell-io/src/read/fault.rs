@@ -5,7 +5,7 @@ use std::io;
 /// Why a reader stopped.
 #[derive(Debug)]
 pub(crate) enum Fault {
-    /// The system's error; an early end is told as damage.
+    /// The system's error; an early end is reported as damage.
     Io(io::Error),
     /// The receiver of the values wanted no more.
     Stopped,

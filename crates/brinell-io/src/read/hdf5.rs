@@ -339,7 +339,7 @@ fn vector(
     let axis = shape.iter().position(|&n| n != 1).unwrap_or(0);
     let length = shape.get(axis).copied().unwrap_or(1);
     let along = chunk_shape.get(axis).copied().unwrap_or(1).max(1);
-    // Within a chunk, neighbours along the axis stand this many values apart.
+    // Within a chunk, neighbours along the axis are this many values apart.
     let step = chunk_shape.iter().skip(axis + 1).product::<u64>().max(1) as usize;
     let chunk_bytes = chunk_shape.iter().product::<u64>() as usize * width;
     let filters = array.dataset.filters();

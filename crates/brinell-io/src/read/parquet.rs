@@ -22,7 +22,7 @@ use super::numbers::{Number, Sink, give, half};
 use super::{Listing, Source};
 use crate::{Column, IoError, Metadata, Signals, keys};
 
-/// Values asked for at a time.
+/// Values requested at a time.
 const BATCH: usize = 64 << 10;
 
 /// Reads a whole Parquet file of numeric columns. A missing value becomes not-a-number.

@@ -134,7 +134,7 @@ fn curves(page: &mut AnalysisReport, of: &Findings) {
         " Shaded: the band demodulated below, {low:.0} to {high:.0} Hz ({}).",
         a.view.choice.words()
     );
-    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines stand highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
+    let lanes = " Above the plot lie the defect frequencies and their harmonics, where their lines are highest; those of damage, and a comb at none of them on which the verdict rests, run through it as dashed lines.";
     page.waveforms.push(series(m));
     page.band_hz = Some((low, high));
     let (label, of_envelope) = (

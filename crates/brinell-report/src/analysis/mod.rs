@@ -61,7 +61,7 @@ pub struct AnalysisReport {
     pub spectra: Vec<Spectrum>,
     /// Envelope spectra.
     pub envelopes: Vec<Spectrum>,
-    /// Defect frequencies; `present` for those that stand.
+    /// Defect frequencies; `present` for those that are detected.
     pub markers: Vec<Marker>,
     /// The band demodulated, Hz: shaded in the spectrum.
     pub band_hz: Option<(f64, f64)>,

@@ -122,7 +122,7 @@ pub fn calibration_html(report: &CalibrationReport) -> String {
         }
     });
     section(&mut page, "course", "Course of the search", |page| {
-        let caption = "Dots: each run in the order asked for. Line: the best so far.";
+        let caption = "Dots: each run in the order requested. Line: the best so far.";
         figure(
             page,
             "course",

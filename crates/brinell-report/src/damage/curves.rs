@@ -1,4 +1,4 @@
-//! Curves of damage: what a roller meets on its way over it, and the ring's section under it.
+//! Curves of damage: the contact conditions during roller passage, and the ring's section under it.
 
 use super::{AlongRoller, DamagePanel, DamageView, heading};
 use crate::chart::{Chart, Domain, Size, Spec, left_margin, range};

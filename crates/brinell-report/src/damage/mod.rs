@@ -1,4 +1,4 @@
-//! Pictures of damage: the raceway unrolled, what a roller meets on its way over it, and the ring's section under it.
+//! Pictures of damage: the raceway unrolled, the contact conditions during roller passage, and the ring's section under it.
 
 mod curves;
 mod photo;
@@ -50,7 +50,7 @@ pub struct DamageView {
     pub load_zone_mm: Option<[f64; 2]>,
     /// Angle of a roller from the defect's centre.
     pub angle_deg: Vec<f64>,
-    /// What the roller meets there.
+    /// Contact conditions during roller passage.
     pub passage: Vec<DamagePanel>,
     /// At which deformation, by which laws.
     pub passage_note: String,

@@ -11,7 +11,7 @@ const TRACK: &str = "#eef2f6";
 /// Largest picture of a raceway, px.
 const TALLEST: f64 = 440.0;
 
-/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller as it comes onto the damage, and
+/// The surface unrolled, s to the right and z upwards to one scale: damage, the track of the roller, the roller at defect entry, and
 /// the load zone. Of a roller the whole circumference, with both lines of contact.
 pub fn damage_plan(view: &DamageView, index: usize, layout: Layout) -> Picture {
     let Size { width, font, .. } = layout.size(0.0);
@@ -267,11 +267,11 @@ impl<'a> Plan<'a> {
 fn contact_words(view: &DamageView) -> [String; 2] {
     match view.half_turn_mm {
         Some(half) if half.is_finite() && half > 0.0 => [
-            "line of contact as the damage comes to it".into(),
+            "line of contact at defect entry".into(),
             "the contact with the other raceway then".into(),
         ],
         _ => [
-            format!("line of contact as the {} comes on", view.element()),
+            "line of contact at defect entry".into(),
             format!("the {} above it", view.element()),
         ],
     }

@@ -1,4 +1,4 @@
-//! What a roller meets on a defect, and the ring's section under it; depths for the picture from above.
+//! Contact conditions during roller passage over a defect, and the ring's section under it; depths for the picture from above.
 
 use crate::{DamageCurve, DamagePanel, DepthPatch};
 use brinell::defect::section::{Section, sections};

@@ -1,4 +1,4 @@
-//! Damage as it is seen before it is simulated: extents, outlines, what a roller meets, the ring's section.
+//! Damage as it is seen before it is simulated: extents, outlines, contact conditions during roller passage, the ring's section.
 
 mod along;
 mod curves;

@@ -1,4 +1,4 @@
-//! What a roller meets on its way over a defect: lengths, depths and stiffness by path and law.
+//! Contact conditions during roller passage over a defect: lengths, depths and stiffness by path and law.
 
 use super::curves::curve;
 use crate::{DamageCurve, DamagePanel};

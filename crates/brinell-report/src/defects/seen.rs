@@ -111,7 +111,7 @@ impl<'a> Seen<'a> {
         let element = s.bearing.element.word();
         let view = DamageView {
             plan_title: format!("{title}. {}", self.unrolled()),
-            passage_title: format!("{title}. {}", self.meets()),
+            passage_title: format!("{title}. {}", self.conditions()),
             section_title: format!(
                 "{title}. Section under it of a ring {} mm thick",
                 short(1e3 * self.thickness, 3)
@@ -160,7 +160,7 @@ impl<'a> Seen<'a> {
         match self.defect.surface {
             Surface::OuterRaceway => "Unrolled",
             Surface::InnerRaceway => "Unrolled; it turns through the load zone",
-            Surface::Roller(_) => "Unrolled once around; either raceway meets the damage",
+            Surface::Roller(_) => "Unrolled once around; the damage passes both raceways",
         }
     }
 
@@ -175,15 +175,15 @@ impl<'a> Seen<'a> {
         }
     }
 
-    fn meets(&self) -> String {
+    fn conditions(&self) -> String {
         let deformation = self.deformation();
         let element = self.scenario.bearing.element.word();
         match self.is_roller() {
             true => {
-                format!("What both contacts meet as it turns; K at a deformation of {deformation}")
+                format!("Both contacts while it turns; K at a deformation of {deformation}")
             }
             false => {
-                format!("What a passing {element} meets; K at a deformation of {deformation}")
+                format!("Contact during {element} passage; K at a deformation of {deformation}")
             }
         }
     }

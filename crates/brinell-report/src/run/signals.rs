@@ -122,9 +122,9 @@ pub(super) fn markers_at(scenario: &Scenario, model: &Model, speed: f64) -> Vec<
     let damaged: Vec<&str> = scenario
         .defects
         .iter()
-        .map(|d| k.struck_by(d.on).0)
+        .map(|d| k.defect_frequency(d.on).0)
         .collect();
-    // Strikes first, then what modulates them.
+    // Impacts first, then what modulates them.
     let shaft = speed.abs() / TAU;
     ["BPFO", "BPFI", "2 BSF", "FTF", "shaft"]
         .into_iter()

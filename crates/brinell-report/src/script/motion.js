@@ -145,7 +145,7 @@
   slider.addEventListener("input", () => { wanted = false; set(false); go(Number(slider.value)); });
   addEventListener("resize", () => show(frame));
   addEventListener("beforeprint", () => { set(false); stages.forEach((s) => s.svg.style.display = ""); });
-  // Plays by itself while it is in view, unless the reader asked for less motion or paused it.
+  // Plays by itself while it is in view, unless the reader requested less motion or paused it.
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const decide = () => set(visible && (wanted ?? !calm.matches));
   if ("IntersectionObserver" in window) new IntersectionObserver((entries) => { visible = entries[entries.length - 1].isIntersecting; decide(); }, { threshold: 0.3 }).observe(figure);

@@ -62,7 +62,7 @@ function indexOf(curve, x) {
 
 // A velocity has no lines below this frequency: dividing by it would show the window, not the bearing.
 const SLOWEST_HZ = 10;
-// A value in the unit chosen; of an acceleration at x Hz the velocity, where that is asked for.
+// A value in the unit chosen; of an acceleration at x Hz the velocity, where that is requested.
 function inUnit(chart, v, x) {
   const [, factor, velocity] = chart.units[chart.unit];
   return velocity ? (x >= SLOWEST_HZ ? v * factor / (2 * Math.PI * x) : undefined) : v * factor;
@@ -183,7 +183,7 @@ function axis(plot, view) {
   }
   if (!(hi > lo) && lo === 0) return null;
   const room = 0.06 * (hi - lo) || 0.1 * Math.abs(hi), ends = [chart.peak ? Math.min(0, lo) : lo - room, hi + room];
-  // Of what is drawn as on paper the axis' label stands.
+  // What is drawn as on paper keeps the axis' label.
   const largest = Math.max(Math.abs(ends[0]), Math.abs(ends[1])), power = asMade(chart) ? Math.round(Math.log10(plot.yScale)) : largest >= 1e4 || largest < 0.05 ? 3 * Math.floor(Math.log10(largest) / 3) : 0, unit = 10 ** power;
   return { lo: ends[0], hi: ends[1], list: ticks(ends[0] / unit, ends[1] / unit, target).map(([v, name]) => [v * unit, name]), power };
 }

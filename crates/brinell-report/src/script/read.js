@@ -1,6 +1,6 @@
 // Cursors: what a plot says about the place that the reader points at, and how one points: mouse, fingers, keys.
 
-// Modes of the cursor, with what the reader is told to do.
+// Modes of the cursor, with the hint that the reader gets.
 const MODES = {
   single: ["Single cursor", "Click or Enter sets the cursor"],
   delta: ["Difference", "Click or Enter sets the first end, again the second"],
@@ -23,7 +23,7 @@ function nearest(plot, curve, x) {
 }
 // Whether all curves have their values at the same places: a run and the healthy bearing.
 const alike = ({ curves: [first, ...rest] }) => rest.every((curve) => curve.values.length === first.values.length && placeOf(curve, 0) === placeOf(first, 0) && endOf(curve) === endOf(first));
-// Where the cursor stands for a place: at a value of the first curve, where its places are all there are.
+// The cursor's position for a place: at a value of the first curve, where its places are all there are.
 const snap = (plot, x) => { const { chart } = plot, first = chart.curves[0]; return chart.still || alike(chart) ? placeOf(first, nearest(plot, first, x)) : x; };
 const readAt = (plot, curve, x) => { const { chart } = plot, i = nearest(plot, alike(chart) ? chart.curves[0] : curve, x), at = placeOf(curve, i); return level(chart, curve.values[i], at); };
 

@@ -7,7 +7,7 @@ use crate::font;
 use crate::picture::{Anchor, Paint, Picture, Shape, Text, ink};
 use crate::plots::{Layout, legend};
 
-/// Colours that are told apart by everybody, then the same with dashes.
+/// Colours that the colour-blind distinguish too, then the same with dashes.
 const COLORS: [&str; 6] = [
     ink::BLUE,
     ink::VERMILLION,

@@ -31,7 +31,7 @@ fn report(key: FittedKey, tried: Vec<Tried>) -> CalibrationReport {
 }
 
 #[test]
-fn regress_targets_that_are_not_met_are_told_first() {
+fn regress_targets_that_are_not_met_are_reported_first() {
     let tried = vec![
         run(1e6, 30.0, false),
         run(2e6, 8.0, true),

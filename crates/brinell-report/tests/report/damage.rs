@@ -119,7 +119,7 @@ fn regress_damage_that_cannot_be_drawn_is_not_called_healthy() {
 }
 
 #[test]
-fn regress_the_page_shows_what_a_roller_meets_and_the_rings_section() {
+fn regress_the_page_shows_the_roller_passage_and_the_rings_section() {
     let mut report = ordinary();
     let curve = |name: &str| DamageCurve {
         name: name.into(),
@@ -132,7 +132,7 @@ fn regress_the_page_shows_what_a_roller_meets_and_the_rings_section() {
         curves: vec![curve("in contact, L_e"), curve("damaged, L_s")],
     };
     report.damage = vec![DamageView {
-        passage_title: "What a passing roller meets".into(),
+        passage_title: "Contact conditions during roller passage".into(),
         section_title: "Section under it".into(),
         angle_deg: vec![-1.0, 0.0, 1.0],
         passage: vec![panel("Length")],
@@ -143,7 +143,7 @@ fn regress_the_page_shows_what_a_roller_meets_and_the_rings_section() {
     }];
     let page = html(&report);
     for words in [
-        "What a passing roller meets",
+        "Contact conditions during roller passage",
         "Section under it",
         "Stiffness at 1 um.",
     ] {

@@ -28,7 +28,7 @@ fn regress_an_ordinary_page_is_whole_and_small() {
     assert_eq!(page.matches("data-chart=").count(), 4);
 }
 
-/// The result stands before everything; what was assumed before what was stated, which is folded; over orders only where the speed varies.
+/// The result is before everything; what was assumed before what was stated, which is folded; over orders only where the speed varies.
 #[test]
 fn regress_the_result_comes_first_and_assumptions_before_statements() {
     let mut report = ordinary();

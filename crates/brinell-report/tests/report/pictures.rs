@@ -7,7 +7,7 @@ use brinell_report::{
 
 /// A quarter turn on, a roller that orbits at (r, 0) is at (0, r), its force's line above it; the scale is the same both ways.
 #[test]
-fn analytic_a_force_line_stands_on_its_contact_and_is_as_long_as_the_force() {
+fn analytic_a_force_line_begins_at_its_contact_and_is_as_long_as_the_force() {
     let quarter = std::f32::consts::FRAC_PI_2;
     let motion = Motion {
         dt_s: 1e-3,

@@ -60,7 +60,7 @@ fn regress_a_failed_point_is_a_gap_and_the_marks_are_explained() {
 }
 
 #[test]
-fn regress_names_stand_under_the_axis() {
+fn regress_names_are_under_the_axis() {
     let points = vec![point(0.0, 3.0, None), point(1.0, 4.0, None)];
     let (_, svg) = page(plot(points, &["full", "lumped"]));
     for words in [">full<", ">lumped<", "operation.speed_rpm"] {

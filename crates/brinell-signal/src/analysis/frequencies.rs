@@ -1,4 +1,4 @@
-//! Where damage would strike, as orders of the shaft: from a geometry, from given frequencies, or by a bearing's name.
+//! Frequencies at which damage would cause impacts, as orders of the shaft: from a geometry, from given frequencies, or by a bearing's name.
 //!
 //! T. A. Harris and M. N. Kotzalas, "Rolling bearing analysis", 5th ed. (2006), vol. 1, chapter 8: with Z elements of diameter
 //! d on a pitch circle D, contact angle a and g = (d / D) cos a, in turns of the inner ring, outer ring at rest, pure rolling:
@@ -48,7 +48,7 @@ pub struct DefectOrders {
     pub bpfo: Option<f64>,
     /// Elements passing a point of the inner raceway.
     pub bpfi: Option<f64>,
-    /// Turns of an element relative to the cage; damage on it strikes both raceways, 2 BSF.
+    /// Turns of an element relative to the cage; damage on it passes both raceways, 2 BSF.
     pub bsf: Option<f64>,
 }
 
@@ -85,7 +85,7 @@ impl DefectOrders {
         self.strikes().fold(0.0, |highest, s| s.2.max(highest))
     }
 
-    /// What to look for: component, name, order of its strikes.
+    /// What to look for: component, name, order of its impacts.
     pub fn strikes(&self) -> impl Iterator<Item = (Component, &'static str, f64)> + use<> {
         [
             (Component::OuterRace, "BPFO", self.bpfo),

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn analytic_each_flaw_is_told_and_noise_has_none() {
+    fn analytic_each_flaw_is_reported_and_noise_has_none() {
         assert_eq!(flaws(&noise(), FS, SHAFT), []);
         let mut off = noise();
         off[10_000..].fill(0.0);

@@ -17,9 +17,9 @@ pub const COLUMNS: [&str; 8] = [
 
 /// Slip of a loaded induction motor, at most.
 const MOST_SLIP: f64 = 0.05;
-/// What else may strike the resting race.
-const PASSING: &str = "Rollers that enter the load of a healthy bearing strike its race at this rate too, and modulate the envelope as much where \
-                       nothing else is heard: compare with a run of the healthy bearing.";
+/// What else may excite the race at rest.
+const PASSING: &str = "Rollers that enter the load of a healthy bearing cause lines of its race too, and modulate the envelope as much where \
+                       there is little noise: compare with a run of the healthy bearing.";
 
 /// The verdict: a headline, its reasons, and what would tell more.
 pub(super) fn verdict(analysis: &Analysis) -> String {
@@ -60,7 +60,7 @@ fn damage(analysis: &Analysis, text: &mut Vec<String>) {
         );
         text.push(capital(&headline));
         if family.name == "FTF" {
-            text.push("One element impacts once a turn of the cage, on its way through the load zone; damage of the cage shows the same.".into());
+            text.push("One element causes an impact once a turn of the cage, in the load zone; damage of the cage shows the same.".into());
         }
         if analysis.may_be_passing(family) {
             text.push(PASSING.into());

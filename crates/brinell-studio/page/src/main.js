@@ -201,7 +201,7 @@ class Studio {
     if (kind === "spectra" || kind === "scenario" || kind === "problems") this.still = null;
     if (kind === "absent" && side !== this.sides[0]) this.#failed(data.error);
     if (kind === "state" || kind === "problems" || kind === "recovered") this.#dirty.add("state");
-    if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one goes on with the last good bearing.`);
+    if (kind === "lost") notice("lost", `The engine was lost (${data.why}). A new one continues with the last good bearing.`);
     if (kind === "recovered") speak("The engine was lost and runs again");
     if (kind === "problems") this.#refused(side, data);
     if (kind === "verdict" || kind === "opened") this.#differ();
@@ -283,7 +283,7 @@ class Studio {
     if (side === this.side) this.passage.data = data;
   }
 
-  /** The engine's words stand beside the control; the last good bearing runs on. @param {Side} side @param {any} data */
+  /** The engine's message is beside the control; the last good bearing runs on. @param {Side} side @param {any} data */
   #refused(side, { problems, edit }) {
     if (!side.opened && edit) {
       notice("before", problems.map((/** @type {any} */ p) => p.message).join(" "), { bad: true });
@@ -434,7 +434,7 @@ class Studio {
   /** What is refused is neither saved nor shared: the fields would say one thing and the file another. */
   #isRefused() {
     if (!this.side.problems.length) return false;
-    notice("failed", "The scenario as it stands is refused, so the last good one runs. Correct it or undo, then save or share it.", { bad: true });
+    notice("failed", "The present scenario is refused, so the last good one runs. Correct it or undo, then save or share it.", { bad: true });
     return true;
   }
 

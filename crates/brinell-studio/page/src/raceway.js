@@ -49,7 +49,7 @@ export class Raceway extends HTMLElement {
   penWidth = 0.5;
   /** @type {number | null} */
   loadDeg = null;
-  /** Whether time stands still. */
+  /** Whether time is stopped. */
   frozen = false;
   canvas = document.createElement("canvas");
   /** What is shown of the motion. @type {import("./player.js").Now | null} */
@@ -199,7 +199,7 @@ export class Raceway extends HTMLElement {
     const g = this.canvas.getContext("2d"), ratio = this.canvas.width / this.#width;
     if (!g) return;
     this.#colours ??= colours(this);
-    // All of the turn in view stands in the middle.
+    // All of the turn in view is in the middle.
     if (this.#view.scale * this.turn < this.#width) this.#view.s = 0;
     g.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.instant = this.#player.step(this.frozen || still() ? 0 : dt);

@@ -37,8 +37,8 @@ function figures(side) {
   return [pair("RMS", `${short(m.rms)} ${unit}`), pair("peak", `${short(m.peak)} ${unit}`), pair("crest factor", short(m.crest)), pair("kurtosis", short(m.kurtosis))];
 }
 
-/** How a bearing's run stands, in words. @param {Side} side */
-function standing(side) {
+/** The state of a bearing's run, in words. @param {Side} side */
+function state(side) {
   const { live, opened, moments } = side;
   if (live.state === "loading") return opened ? "stored run" : "";
   if (live.state === "done") return `run from t = 0, ${short(opened?.samples / opened?.rate_hz)} s`;
@@ -55,7 +55,7 @@ export function readout(root, sides, difference) {
     h("span", { className: "headline" }, several ? h("span", { className: "name" }, side.name) : null,
       side.verdict?.headline ?? (side.opened ? "Not enough signal for a verdict yet" : "")),
     h("span", { className: "note" },
-      [standing(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
+      [state(side), side.pace && side.live.state !== "paused" ? `${short(side.pace, 2)} × real time` : "",
         side.took ? `edit in ${Math.round(side.took)} ms` : ""].filter(Boolean).join(" · ")),
     h("dl", {}, ...figures(side)),
   ]));

@@ -95,7 +95,7 @@ describe("the page with its engine, held against the command", { skip: missing }
       assert.ok(got.whole, `${name} ran to its end`);
       assert.equal(got.samples, summary.simulated.samples, name);
       const own = got.quantities.find((q) => q.name === `${got.axis}.rms`), theirs = rms(summary, got.axis);
-      // A run-up has one record and no interval. Its rollers, started in step, may fall out of it: a tenth is asked for.
+      // A run-up has one record and no interval. Its rollers, started in step, may fall out of it: a tenth is allowed.
       if (theirs.low !== undefined && theirs.low !== null) meet(`${name}, RMS`, own, theirs);
       else assert.ok(Math.abs(own.value / theirs.value - 1) < 0.1, `${name}: RMS ${own.value}, the command's ${theirs.value}`);
       for (const [k, { frequency }] of summary.defects.entries()) {

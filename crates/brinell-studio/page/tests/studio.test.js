@@ -233,7 +233,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     await page.click('dialog button:has-text("Cancel")');
     await drop(page, "photo-spall.png", (await readFile(resolve(ROOT, "../examples/photo-spall.png"))).toString("base64"));
     await page.click('dialog button:has-text("Open")');
-    // What nobody was asked for yet is no error.
+    // What was not requested yet is no error.
     await until(page, () => /Still needed/.test(document.querySelector("dialog")?.textContent ?? ""));
     assert.equal(await page.textContent("dialog .trouble"), "");
     const scale = page.locator("dialog .field", { hasText: "Millimetres per pixel" }).locator("input[type=number]");
@@ -363,7 +363,7 @@ describe(`the page, with ${real ? "its engine" : "a stand-in for the engine"}`, 
     }));
   }
 
-  it("stands still where little motion is preferred", async () => {
+  it("is at rest where little motion is preferred", async () => {
     for (const reducedMotion of ["reduce", "no-preference"]) {
       await on({ reducedMotion }, async (page) => {
         const look = () => page.evaluate(() => globalThis.brinellStudio.panel.raceway.instant?.rows[0].orbit[0]);

@@ -214,7 +214,7 @@ describe("the bearing", () => {
     told: node.shadowRoot.querySelector(".readout").textContent }));
   const wait = (page, frames) => page.evaluate(async (n) => { for (let k = 0; k < n; k++) await new Promise(requestAnimationFrame); }, frames);
 
-  it("stands still where less motion is preferred, until it is asked", async () => on({}, async (page) => {
+  it("is at rest where less motion is preferred, until it is asked", async () => on({}, async (page) => {
     const first = await state(page);
     await wait(page, 12);
     assert.deepEqual(await state(page), first);
@@ -270,7 +270,7 @@ describe("the bearing", () => {
     assert.ok(worst.worst < 0.13, `${worst.worst} rad`);
   }));
 
-  it("shows the edited bearing while it stands still, and takes no frames of another", async () => on({}, async (page) => {
+  it("shows the edited bearing while it is stopped, and takes no frames of another", async () => on({}, async (page) => {
     const seen = await page.locator("brinell-bearing").evaluate((node) => {
       const made = window.made, most = () => node.motion.state.largest, ring = () => node.motion.state.ring;
       const heavy = (t) => { const f = made.frames(t, 40); for (const row of f.rows) row.outer_n.forEach((v, i) => { row.outer_n[i] = 3 * v; }); return f; };

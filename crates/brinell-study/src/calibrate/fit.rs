@@ -22,7 +22,7 @@ pub struct Settings {
     pub budget: usize,
 }
 
-/// Why a point was asked for.
+/// Why a point was requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// Spread over the whole.
@@ -63,7 +63,7 @@ pub struct Evaluation {
 /// The outcome.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// All runs, in the order in which they were asked for.
+    /// All runs, in the order in which they were requested.
     pub evaluations: Vec<Evaluation>,
     /// Standard uncertainty that each target weighs with: its own, and a run's.
     pub sigma: Vec<f64>,
@@ -114,7 +114,7 @@ pub fn start_size(keys: usize, budget: usize) -> usize {
 const BETTER: f64 = 1.0;
 /// A run's share of a target's uncertainty from which on runs count as noisy.
 const NOISY: f64 = 0.1;
-/// A difference should stand so many times above its noise.
+/// A difference should be so many times its noise.
 const ABOVE_NOISE: f64 = 3.0;
 /// Half the distance of a difference at most, in ranges.
 const WIDEST: f64 = 0.2;
@@ -131,7 +131,7 @@ struct Book<'a> {
     evaluations: Vec<Evaluation>,
     sigma: Vec<f64>,
     stage: Stage,
-    /// Runs that may have been asked for by the end of this stage.
+    /// Runs that may have been requested by the end of this stage.
     limit: usize,
 }
 

@@ -220,7 +220,7 @@ mod tests {
         assert!((found.half_widths[0] - 3.182_446 * inflation / 20.0).abs() < 1e-5);
     }
 
-    /// r depends on a + 2 b alone: 2 a - b is free, and c stands by itself.
+    /// r depends on a + 2 b alone: 2 a - b is free, and c is determined.
     #[test]
     fn analytic_a_combination_that_nothing_depends_on_is_found() {
         let jacobian = DMatrix::from_row_slice(

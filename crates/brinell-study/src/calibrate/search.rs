@@ -1,6 +1,6 @@
 //! Where to look next: a Latin hypercube, a particle swarm, and Levenberg and Marquardt's method. All in the unit cube; knows no bearing.
 //!
-//! Points are asked for in batches, and a batch does not depend on how many threads answer it or in which order. A search is a function of
+//! Points are requested in batches, and a batch does not depend on how many threads answer it or in which order. A search is a function of
 //! its seed and the answers alone: asked again with the same answers, it asks for the same points. That is how an interrupted one goes on.
 
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
@@ -121,7 +121,7 @@ pub fn swarm<'b>(
     }
 }
 
-/// Residuals by differences, for the least-squares solver. Its parameters may leave the cube; what is asked for does not.
+/// Residuals by differences, for the least-squares solver. Its parameters may leave the cube; what is requested does not.
 struct Local<'a, 'b> {
     ask: &'a RefCell<&'b mut Ask<'b>>,
     halt: Cell<Option<Halt>>,

@@ -90,7 +90,7 @@ pub fn check(targets: &[Target]) -> Result<(), CalibrateError> {
 /// What a run has for a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
-    /// `None` where the run has no such number: a line that does not stand out.
+    /// `None` where the run has no such number: a line that is not detected.
     pub value: Option<f64>,
     /// The run's own standard uncertainty; 0 where it states none.
     pub uncertainty: f64,

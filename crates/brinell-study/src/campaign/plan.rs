@@ -46,7 +46,7 @@ pub enum PlanError {
     /// More points than 100 000.
     #[error("{points} points\n  allowed: 1 to {MOST_POINTS} points")]
     TooMany {
-        /// Points asked for.
+        /// Points requested.
         points: u128,
     },
 }

@@ -6,7 +6,7 @@ use brinell::{Error, RunResult, Scenario, simulate_with};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` is told which scenario
+/// Runs scenarios side by side, up to `threads` at a time; each result in the place of its scenario. `progress` gets which scenario
 /// has reached which time, s, from the thread that runs it. Results are those of each run alone, bit for bit.
 pub fn run_all(
     scenarios: &[Scenario],

@@ -158,7 +158,7 @@ const TRUTH: [Fixed; 53] = [
     ("defect_area_mm2", "mm^2", "of each defect: damaged area", Numbers(|r| r.defects(|_, d| 1e6 * d.shape.area()))),
     ("defect_frequency_hz", "Hz", "of each defect: its ball-pass frequency (of a roller twice the spin frequency), in pure rolling at constant speed", Numbers(|r| {
         let k = r.kinematics()?;
-        r.defects(|d, _| k.struck_by(d.on).1)
+        r.defects(|d, _| k.defect_frequency(d.on).1)
     })),
     ("entry_t_s", "s", "instants at which a roller comes onto a defect: ends of solver steps", Numbers(|r| r.instants(true, |i, _| i.event.t))),
     ("entry_defect", "1", "of each entry: which defect, from 1", Wholes(|r| r.instants(true, |i, _| i.event.defect + 1))),

@@ -5,7 +5,7 @@ use brinell_io::IoError;
 use std::io;
 use std::path::PathBuf;
 
-/// Why a data set is not what was asked for.
+/// Why a data set is not what was requested.
 #[derive(Debug, thiserror::Error)]
 pub enum DatasetError {
     /// The plan or its base scenario is bad; name and text of the file are for pointing at lines.

@@ -21,7 +21,7 @@ pub struct Merged {
 impl Merged {
     /// What is still to do, in words; `None` where every file is there.
     pub fn lack(&self) -> Option<String> {
-        /// Numbers that are told.
+        /// Numbers that are printed.
         const SHOWN: usize = 10;
         let first: Vec<String> = self
             .missing

@@ -29,7 +29,7 @@ pub(crate) struct Run<'a> {
     pub(crate) index: usize,
     pub(crate) draw: Option<Draw>,
     pub(crate) loaded: Option<Loaded>,
-    /// The run as prepared, how it went, and what was recorded.
+    /// The run as prepared, its outcome, and what was recorded.
     ended: Option<(Simulation, Outcome, Truth<'a>)>,
     /// Why it failed.
     pub(crate) failed: Option<String>,

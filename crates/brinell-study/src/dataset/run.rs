@@ -50,7 +50,7 @@ impl FromStr for Shard {
     }
 }
 
-/// How a shard went.
+/// The outcome of a shard.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ShardSummary {
     /// Runs of the shard.

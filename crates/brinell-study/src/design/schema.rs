@@ -39,7 +39,7 @@ pub fn plan_schema() -> Json {
     schema
 }
 
-/// Whether a table names some keys of one that is there, or stands in for it.
+/// Whether a table names some keys of one that is there, or replaces it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Sets {
     Some,
@@ -86,7 +86,7 @@ fn opened(schema: &Json, sets: Sets) -> Json {
 fn drawn(schema: &Json, sets: Sets) -> Json {
     let mut open = opened(schema, sets);
     let mut either = Map::new();
-    // Editors show what stands outside.
+    // Editors show what is outside.
     for key in ["description", "x-unit", "default"] {
         if let Some(value) = schema.get(key) {
             either.insert(key.into(), value.clone());

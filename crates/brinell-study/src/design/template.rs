@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// A value, a distribution, or a list or a table of these.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Template {
-    /// As it stands, TOML.
+    /// As it is, TOML.
     Fixed(String),
     /// To be drawn.
     Drawn(Distribution),

@@ -195,7 +195,7 @@ fn one<W: Work>(
     Ok(Some(row(numbers)))
 }
 
-/// Two observers of one run; the first alone is told the time.
+/// Two observers of one run; the first alone gets the time.
 struct Both<'a>(&'a mut dyn Observer, &'a mut dyn Observer);
 
 impl Observer for Both<'_> {

@@ -1,7 +1,7 @@
 //! Names of bearings as people write them: `NU 206 ECP`, `nu206`, `6205-2RS`, `SKF 6205 2RSH/C3`.
 //!
 //! A designation is a series and a size (letters, then digits), and suffixes for cage, seals, clearance and the like, which do not change the
-//! bearing's inner geometry. The class of clearance among them is told, because it does change the clearance.
+//! bearing's inner geometry. The class of clearance among them is reported, because it does change the clearance.
 
 use super::clearance::ClearanceClass;
 
@@ -97,7 +97,7 @@ pub fn clearance_of(name: &str) -> Option<ClearanceClass> {
     let (_, suffix) = readings(name).into_iter().next()?;
     let words = suffix.split(|c: char| is_gap(c) || c == '/');
     let mut classes = words.filter_map(|word| {
-        // The letters of the grease may stand behind it: C3WT.
+        // The letters of the grease may follow it: C3WT.
         let two = word.get(..2)?;
         ClearanceClass::ALL
             .into_iter()

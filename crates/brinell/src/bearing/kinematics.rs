@@ -1,4 +1,4 @@
-//! Pure rolling: the speeds of cage and rollers, and the frequencies at which damage is struck.
+//! Pure rolling: the speeds of cage and rollers, and the defect frequencies.
 //!
 //! The outer ring rests. Rollers roll on both raceways without slip, with the levers of the centred bearing
 //! (model.md, section 4): `dtheta = w R_i / (2 R_m)`, `dphi = -(w R_i - R_m dtheta) / r`. Where `R_i = R_m - r`, as
@@ -50,7 +50,7 @@ pub struct Kinematics {
     pub bpfo: f64,
     /// BPFI: rollers passing a point of the inner raceway a second, Hz.
     pub bpfi: f64,
-    /// BSF: turns of a roller relative to the cage a second, Hz. Damage on it strikes a raceway 2 BSF times.
+    /// BSF: turns of a roller relative to the cage a second, Hz. Damage on it passes a raceway 2 BSF times.
     pub bsf: f64,
     /// dtheta: orbit speed of rollers and cage, rad/s.
     pub orbit_speed: f64,
@@ -92,7 +92,7 @@ impl Kinematics {
     }
 
     /// Name and value (Hz) of the frequency at which damage on a surface causes impacts.
-    pub fn struck_by(&self, surface: Surface) -> (&'static str, f64) {
+    pub fn defect_frequency(&self, surface: Surface) -> (&'static str, f64) {
         match surface {
             Surface::OuterRaceway => ("BPFO", self.bpfo),
             Surface::InnerRaceway => ("BPFI", self.bpfi),

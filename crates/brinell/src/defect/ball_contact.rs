@@ -1,6 +1,6 @@
 //! Force, stiffness and energy of a ball's contact that is on damage (section 17).
 //!
-//! The ellipse's load stands on independent strips across the groove ([`Strips`]). Damage divides its own axial extent into slices; over the
+//! The ellipse's load is carried by independent strips across the groove ([`Strips`]). Damage divides its own axial extent into slices; over the
 //! covered part of a slice the strips are pressed by delta - h_k, over everything else by delta. No term is negative: an ellipse wholly within a
 //! pit carries exactly nothing.
 

@@ -1,11 +1,11 @@
 //! Several defects at one contact are one surface, the deepest at each point (section 3); a defect that leaves a point alone has no say there.
 //!
 //! Along an envelope a roller rests on that surface at the height min over x of [h(x) + x^2 / (2 R_eq)], x being the distance from its line
-//! of contact. Defects on one surface keep their distance, one on a roller and one on a raceway do not, so the minimum is searched where the roller
-//! stands.
+//! of contact. Defects on one surface keep their distance, one on a roller and one on a raceway do not, so the minimum is searched for each position of
+//! the roller.
 //!
 //! The joint surface is nowhere higher than any defect alone (raised edges apart), so no envelope of one lies below that of all: where the
-//! point on which the roller rests over the defect with the lowest-lying envelope is left standing by the others, that is the answer. Else
+//! point on which the roller rests over the defect with the lowest-lying envelope is not removed by the others, that is the answer. Else
 //! the search goes outwards from x = 0, from one end of a straight piece to the next, until the roller's own curvature lies above what was found.
 
 use super::bands::Band;

@@ -248,7 +248,7 @@ impl Defect {
         self.windows[side as usize]
     }
 
-    /// Angles of a roller whose contact on a side stands at the angle u (rad) from the damage's centre, at rest.
+    /// Angles of a roller whose contact on a side is at the angle u (rad) from the damage's centre, at rest.
     pub fn met_at(&self, side: Side, u: f64) -> Angles {
         // A roller's damage meets the inner raceway half a turn after the outer one.
         let half_turn = match (self.surface, side) {

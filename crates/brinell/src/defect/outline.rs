@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn analytic_faults_are_told_apart() {
+    fn analytic_faults_are_distinguished() {
         let bow = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
         assert!(matches!(
             faults(&[bow])[..],

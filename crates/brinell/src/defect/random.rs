@@ -1,7 +1,7 @@
 //! Ragged spalls drawn from a seed, the same on every machine.
 //!
 //! An ellipse whose edge is moved by smooth noise; only its largest connected part remains, which is then stretched to the extents
-//! asked for. Nothing but additions, multiplications and divisions of IEEE doubles is used (no sine, no power), and the integers
+//! requested. Nothing but additions, multiplications and divisions of IEEE doubles is used (no sine, no power), and the integers
 //! are SplitMix64's, so every machine computes the same bits.
 
 use crate::random::mix;
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_extents_and_mean_depth_are_those_asked_for() {
+    fn prop_extents_and_mean_depth_are_those_requested() {
         for seed in 0..50 {
             let roughness = f64::from(seed as u32 % 5) / 4.0;
             let g = spall(seed, 5.0, 3.0, roughness, 20.0);

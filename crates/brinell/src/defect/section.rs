@@ -43,7 +43,7 @@ impl Section {
     }
 }
 
-/// Section properties at `points` equally spaced s (m) over the damage: of a ring of width L and the given thickness (m), `depth` (m) standing in
+/// Section properties at `points` equally spaced s (m) over the damage: of a ring of width L and the given thickness (m), `depth` (m) is for
 /// where the shape has none of its own.
 pub fn sections(
     shape: &Shape,

@@ -121,10 +121,7 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         &mut b.roller_mass_kg,
     );
     k.key_where(
-        key(
-            "profile",
-            "p(z), how far roller and raceway together stand back",
-        ),
+        key("profile", "p(z), the drop of roller and raceway together"),
         (!b.has_balls(), ROLLERS),
         stated(RollerProfile::Straight, PAPER),
         &mut b.profile,

@@ -1,4 +1,4 @@
-//! Problems as they are told, each with the line that it is about.
+//! Problems as they are printed, each with the line that it is about.
 
 use super::problem::{Problem, Severity};
 

@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Problems of a kind that are told.
+/// Problems of a kind that are reported.
 pub const MOST_OF_A_KIND: usize = 20;
-/// Kinds that are told apart; those after them count as one.
+/// Kinds that are distinguished; those after them count as one.
 const MOST_KINDS: usize = 50;
 
 /// Problems of one text.
@@ -24,7 +24,7 @@ pub struct Problems<'a> {
 struct Kind {
     severity: Severity,
     count: usize,
-    /// Of the last one that is told.
+    /// Of the last one that is reported.
     name: String,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Problems<'a> {
         self.add_of(problem.severity, kind, || (problem, span));
     }
 
-    /// How many there are, told or not.
+    /// How many there are, reported or not.
     pub(crate) fn count(&self) -> usize {
         self.kinds.values().map(|kind| kind.count).sum()
     }

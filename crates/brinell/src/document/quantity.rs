@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_what_is_no_quantity_of_the_keys_is_told() {
+    fn prop_what_is_no_quantity_of_the_keys_is_reported() {
         for (text, unit, words) in [
             ("25", "r/min", "no unit"),
             ("Hz", "r/min", "begin with one"),

@@ -38,7 +38,7 @@ pub struct Reader<'a> {
     preset: Option<&'static catalogue::Entry>,
     /// The class of clearance in the preset's name: C3 of `6205-2RS/C3`.
     named_clearance: Option<ClearanceClass>,
-    /// A preset was asked for and is unknown: what it would have filled is not worth a word.
+    /// A preset was requested and is unknown: what it would have filled is not worth a word.
     preset_unknown: bool,
     /// Section and name of every key there is, for hints on unknown ones.
     vocabulary: &'a [(String, String)],

@@ -14,7 +14,7 @@ pub(crate) const DEEPEST: usize = 32;
 /// Values and tables of a text at most: parsed, a value takes two hundred bytes and a table two kilobytes.
 const MOST_VALUES: usize = 500_000;
 const MOST_TABLES: usize = 50_000;
-/// Bytes of a text up to which every syntax error is looked for; of a longer one the first is told.
+/// Bytes of a text up to which every syntax error is looked for; of a longer one the first is reported.
 const MOST_RECOVERED: usize = 256 << 10;
 
 /// A value and where it is in the file; an override is nowhere.

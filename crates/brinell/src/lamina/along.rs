@@ -133,7 +133,7 @@ pub(super) fn over_damage(
     Ok(all)
 }
 
-/// Where every part stands with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot that is looked at.
+/// The positions of all parts with a roller at s (m) of a defect, or in the middle of the load zone (rad), and the slot that is looked at.
 fn at_rest(model: &Model, over: Option<(&Defect, f64)>, middle: f64) -> (Problem, usize) {
     let l = &model.layout;
     let mut problem = Problem::at_start(model);

@@ -1,7 +1,7 @@
 //! Basic reference rating life of cylindrical roller bearings by ISO/TS 16281, from the load of every lamina.
 //!
 //! L10r = ( sum over rows and laminae of (q_kei/q_kci)^(9/2) + (q_kee/q_kce)^(9/2) )^(-8/9) million revolutions, 90 % reliability. The inner ring
-//! turns and the load stands: the inner raceway's equivalent load is the mean of order 4 over the rollers, the outer one's that of order 9/2.
+//! turns and the load does not: the inner raceway's equivalent load is the mean of order 4 over the rollers, the outer one's that of order 9/2.
 //! The formulas and their constants were checked against a public implementation that names the standard's equations (38 to 65), and
 //! against the derivation: 0.378, 0.364 and 1.038 are J_r/J_1, J_r/J_2 and J_2/J_1 of a load zone of half a turn.
 

@@ -181,13 +181,13 @@ mod tests {
                             spin: 0.0,
                             ring,
                         };
-                        let stands = slot < l.rollers()
+                        let damaged = slot < l.rollers()
                             && model
                                 .defects_of(slot, side)
                                 .any(|d| d.floor(d.local_angle(&angles, side), side).is_some());
                         let bit = lanes & (1 << lane) != 0;
-                        assert!(bit || !stands, "slot {slot} at {turn} on {side:?}");
-                        met[0] += u32::from(stands);
+                        assert!(bit || !damaged, "slot {slot} at {turn} on {side:?}");
+                        met[0] += u32::from(damaged);
                         met[1] += u32::from(bit);
                     }
                 }

@@ -74,7 +74,7 @@ pub struct DefectLine {
     pub name: &'static str,
     /// In pure rolling, Hz.
     pub nominal: f64,
-    /// As found; `None` where none stands clear of the noise or the run is too short.
+    /// As found; `None` where none is clear of the noise or the run is too short.
     pub found: Option<LineFrequency>,
     /// 95 % interval of the mean frequency, slip's wander included; `None` where the run is too short to tell.
     pub interval: Option<Interval>,
@@ -415,7 +415,7 @@ fn defect_lines(scenario: &Scenario, simulation: &Simulation) -> Vec<DefectLine>
     let model = simulation.model();
     let k = model.kinematics(model.rotation.at(0.0).0);
     let line = |(defect, d): (usize, &Defect)| {
-        let (name, nominal) = k.struck_by(d.on);
+        let (name, nominal) = k.defect_frequency(d.on);
         DefectLine {
             defect,
             name,

@@ -30,7 +30,7 @@ struct Rate {
 }
 
 impl Rate {
-    /// Whether the mean rate of the motion is that of the impacts: a roller spins more slowly where nothing presses it, and strikes where something
+    /// Whether the mean rate of the motion is that of the impacts: a roller spins more slowly where nothing presses it, and causes impacts where something
     /// does.
     fn on_raceway(&self) -> bool {
         !matches!(self.surface, Surface::Roller(_))
@@ -106,7 +106,7 @@ impl PassRates {
     /// The frequency found in the envelope as an estimate of the mean rate, with its interval.
     ///
     /// Where the rate swings at a steady pace (a cage that whirls takes the rollers with it), each line of the comb splits into lobes, and the
-    /// highest lobe is not the mean rate: farther from the motion's own by more than half a percent, that one stands in its place.
+    /// highest lobe is not the mean rate: farther from the motion's own by more than half a percent, that one replaces it.
     pub(super) fn mean_rate(
         &self,
         defect: usize,
@@ -137,7 +137,7 @@ impl PassRates {
     ///
     /// A rate that wanders with spectral density S at frequency zero scatters by sqrt(S / T) over a time T, and the motion gives S. A comb of
     /// many harmonics settles on the stretch in which the rate was steadiest, so on a raceway, where the motion's mean rate over the same time
-    /// is the same quantity, the distance between the two counts as a further error. A roller spins more slowly where it strikes nothing:
+    /// is the same quantity, the distance between the two counts as a further error. A roller spins more slowly where it has no impacts:
     /// there T is [`LineFrequency::span`], of a weighted average over the record. Hann's window gives the beginning little weight, so where
     /// cages still settle there (Geweke's comparison finds a drift) it does not count as wander. Degrees of freedom by Welch and
     /// Satterthwaite, those of the noise counting as many. `None` where the run is too short to tell.

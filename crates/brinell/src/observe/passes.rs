@@ -37,7 +37,7 @@ pub struct Pass {
     pub peak: f64,
 }
 
-/// A roller comes onto or leaves a defect.
+/// Defect entry or exit of a roller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// End of the step in which it happened, s.
@@ -70,7 +70,7 @@ struct Watch {
     margin: f64,
     /// Of a raceway's defect: cosine of the widest angle from its middle at which a roller is looked at.
     cos_near: Option<f64>,
-    /// Contacts that can meet the defect, and whether each stands on it.
+    /// Contacts that can meet the defect, and whether each is on it.
     contacts: Vec<(usize, Side, bool)>,
     current: Option<Pass>,
     stride: usize,
@@ -103,7 +103,7 @@ impl Passes {
             let between = MARGIN_BETWEEN * (TAU * l.rows as f64 / l.rollers() as f64 - arc);
             let margin = match d.surface {
                 Surface::Roller(_) => usual,
-                // Where the damage is longer than a pitch, no pass stands alone anyway.
+                // Where the damage is longer than a pitch, passes overlap anyway.
                 _ if between <= 0.0 => usual,
                 _ => usual.min(between),
             };

@@ -76,7 +76,7 @@ impl Slip {
         }
     }
 
-    /// Takes one instant; skipped while the ring stands still.
+    /// Takes one instant; skipped while the ring is at rest.
     pub fn take(&mut self, f: &Frame) {
         let (w, angle) = f.model.rotation.at(f.t);
         if f.model.kind == ModelKind::Lumped || w == 0.0 {

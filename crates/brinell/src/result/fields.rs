@@ -166,7 +166,7 @@ fields! {
 fields! {
     "Of a defect's entries and of its exits, in this order."
     IMPACTS: fn(&Impacts) -> Option<Estimate>;
-    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller comes onto the defect" |i| i.peak;
+    ENTRY_PEAK "entry_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller enters the defect" |i| i.peak;
     EXIT_PEAK "exit_peak" "m/s^2" Passes "largest |acceleration| of the sensor after a roller leaves the defect" |i| i.peak;
 }
 

@@ -1,4 +1,4 @@
-//! What the sensor acceleration does when rollers come onto a defect and leave it: the mean course around those instants, and the
+//! What the sensor acceleration does when rollers enter a defect and leave it: the mean course around those instants, and the
 //! peak after them.
 //!
 //! Instants are those of [`crate::observe::passes::Event`], as far as the waveform kept reaches. The window is the time that a roller takes over the
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn analytic_what_leaving_does_is_no_part_of_entry() {
-        // A roller comes on at 50 and leaves at 70; a symmetric filter lets the exit begin before its instant.
+        // A roller enters at 50 and leaves at 70; a symmetric filter lets the exit begin before its instant.
         let mut values = vec![0.0; 200];
         (values[52], values[69], values[71]) = (3.0, -7.0, 9.0);
         let peaks = |instant: f64| around(&values, [instant].into_iter(), 20.0).1;

@@ -25,7 +25,7 @@ pub struct RunResult {
     pub scenario: Scenario,
     /// The same, made a model of.
     pub simulation: Simulation,
-    /// How it went.
+    /// Its outcome.
     pub outcome: Outcome,
     /// What was gathered.
     pub findings: Findings,

@@ -50,7 +50,7 @@ pub enum Shape {
         /// The scan.
         grid: DepthGrid,
     },
-    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area asked for.
+    /// An outline enlarged or shrunk alike in both directions, about s = z = 0, until it has the width or the area requested.
     Grown {
         /// Polygons as in [`Shape::Outline`], mm.
         outline: Vec<Vec<[f64; 2]>>,

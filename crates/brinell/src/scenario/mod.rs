@@ -106,7 +106,7 @@ pub struct Bearing {
     pub outer_ring_mass_kg: f64,
     /// m, kg.
     pub roller_mass_kg: f64,
-    /// p(z), how far roller and raceway together stand back.
+    /// p(z), the drop of roller and raceway together.
     pub profile: RollerProfile,
     /// B, of all rows; `tilting` only.
     pub width_mm: f64,

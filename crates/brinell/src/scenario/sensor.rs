@@ -91,7 +91,7 @@ impl Sensor {
         }
     }
 
-    /// Whether anything is asked for.
+    /// Whether any noise is requested.
     pub fn is_on(&self) -> bool {
         let filters = [
             self.mounting_resonance_hz,

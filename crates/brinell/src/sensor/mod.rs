@@ -2,7 +2,7 @@
 //!
 //! In this order: the transfer path, the mounting's resonance, the amplifier's band; all linear, at the fast grid's rate, before the anti-alias filter
 //! removes what lies above half the sample rate, so a resonance beyond that still shows in what is left below. Then, at the sample rate, noise
-//! and the ADC. Along x and y (and along the sensor's own direction, if it has one) stand sensors of one kind, with noise of their own.
+//! and the ADC. Along x and y (and along the sensor's own direction, if it has one) are sensors of one kind, with noise of their own.
 //!
 //! The path is that of a point on a structure whose foot moves with the ring: its acceleration over the ring's is 1 - sum g_k s^2 / (s^2 + 2 zeta_k w_k s +
 //! w_k^2), the modes of a proportionally damped structure on a moving foot (R. W. Clough and J. Penzien, Dynamics of structures, 2nd ed. (1993),

@@ -4,7 +4,7 @@
 //! x_k = p x_(k-1) + sqrt(1 - p^2) w_k with p = exp(-2 pi f_i / f_s) has unit variance and, as a process in time, the power spectrum of a first-order
 //! low-pass with corner f_i. One, at the lowest corner, is brown noise; equal shares at corners a factor apart add up to 1/f between them (A. van der
 //! Ziel, Physica 16 (1950) 359-372). The states start from their stationary distribution, so there is no run-in, and the variance is exactly the one
-//! asked for. Below the lowest corner the spectrum is flat. From ten times that to a tenth of the
+//! requested. Below the lowest corner the spectrum is flat. From ten times that to a tenth of the
 //! sample rate it keeps to its law within 0.3 dB; above, brown noise flattens (by 2.4 dB at 0.4 of the rate), because a sampled process folds.
 
 use std::f64::consts::TAU;
@@ -15,7 +15,7 @@ use crate::scenario::NoiseColour;
 /// From one corner of pink noise to the next; the last lies below half the sample rate.
 const APART: f64 = 2.0;
 
-/// What noise is asked for; fields as in the scenario, SI.
+/// What noise is requested; fields as in the scenario, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Level {
     pub(super) rms: f64,
@@ -129,7 +129,7 @@ mod tests {
                 let db = 10.0 * (density(f) / law).log10();
                 assert!(db.abs() < 0.3, "{colour:?} at {f} Hz: {db} dB");
             }
-            // The whole of it is the variance asked for.
+            // The whole of it is the variance requested.
             let n = 2_000_000;
             let df = 0.5 * RATE / f64::from(n);
             let power: f64 = (0..n)

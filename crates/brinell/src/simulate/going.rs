@@ -177,7 +177,7 @@ impl<S: Deref<Target = Simulation>> Run<S> {
         }
     }
 
-    /// How it went so far, the end given.
+    /// The outcome so far, the end given.
     pub fn outcome(&mut self, end: End) -> Outcome {
         let model = &self.simulation.model;
         let t = self.stepper.t();

@@ -146,7 +146,7 @@ pub struct Outcome {
     pub work: SolverWork,
     /// Energy audit.
     pub energy: EnergyAudit,
-    /// Largest relative momentum imbalance over the samples; `None` where it cannot be told.
+    /// Largest relative momentum imbalance over the samples; `None` where it is not defined.
     pub momentum_imbalance: Option<f64>,
     /// What the sensor did to each of its channels, in the order of [`Simulation::filtered`]; empty without one.
     pub sensor: Vec<ChannelRecord>,

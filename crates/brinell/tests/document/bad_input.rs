@@ -1,4 +1,4 @@
-//! Each kind of bad input, and what its author is told.
+//! Each kind of bad input, and the message that its author gets.
 
 use brinell::document::{Problem, Severity, read, read_bytes};
 
@@ -357,7 +357,7 @@ fn regress_overlaps_crossings_and_overhang_are_said_and_run() {
 }
 
 #[test]
-fn regress_a_key_is_found_where_it_stands() {
+fn regress_a_key_is_found_where_it_is() {
     let text =
         "a = 1\n[[defects]]\nrow = 1\n[[defects]]\nshape = { image = { file = \"x.png\" } }\n";
     let place = brinell::document::locate(text, "defects.1.shape.image.file").unwrap();

@@ -7,7 +7,7 @@ use brinell::scenario::{GuidanceFilm, Scenario, Shape, Surface};
 use super::{BARE, INNER, OUTER, good, report, with};
 
 #[test]
-fn xval_reference_scenarios_read_as_they_stand() {
+fn xval_reference_scenarios_read_unchanged() {
     let outer = good(OUTER);
     assert!(outer.warnings.is_empty(), "{}", report(&outer.warnings));
     let mut example = Scenario::example();
@@ -167,7 +167,7 @@ fn regress_the_template_is_the_example() {
     let live: String = template()
         .lines()
         .map(|line| match line.strip_prefix("# ") {
-            // Explanations of shapes stand further in.
+            // Explanations of shapes are indented.
             Some(code)
                 if code.contains(" = ")
                     && !code.starts_with(' ')

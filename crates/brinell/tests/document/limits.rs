@@ -1,4 +1,4 @@
-//! How much a document may hold, and how many of its problems are told.
+//! How much a document may hold, and how many of its problems are reported.
 
 use brinell::defect::MOST_CROSSINGS;
 use brinell::document::{MOST_OF_A_KIND, Problem, Severity, read};
@@ -50,7 +50,7 @@ fn regress_tables_and_lists_lie_32_deep_at_most() {
 }
 
 #[test]
-fn prop_unknown_keys_are_told_twenty_times_and_counted() {
+fn prop_unknown_keys_are_reported_twenty_times_and_counted() {
     let keys: String = (0..3000).map(|k| format!("k{k} = 1\n")).collect();
     let on_one_line = keys.replace('\n', ", ");
     let tables: String = (0..3000).map(|k| format!("[t{k}]\n")).collect();
@@ -91,7 +91,7 @@ fn prop_problems_are_few_whatever_they_are() {
 }
 
 #[test]
-fn prop_overlaps_are_told_twenty_times_and_counted() {
+fn prop_overlaps_are_reported_twenty_times_and_counted() {
     let defect = "[[defects]]\non = \"outer-raceway\"\ndepth_um = 1\nshape = { circle = { diameter_mm = 2 } }\n";
     let loaded = good(&(BARE.to_owned() + &defect.repeat(300)));
     let overlaps = |w: &&Problem| w.message.starts_with("overlaps");
@@ -168,7 +168,7 @@ fn lit_no_bearing_turns_beyond_its_speed_factor() {
 }
 
 #[test]
-fn lit_no_load_is_beyond_what_steel_stands() {
+fn lit_no_load_is_beyond_the_strength_of_steel() {
     // ISO 76: C0 = 44 (1 - d/D_m) i Z L d. 10 C0 is 12.6 GPa.
     let b = good(BARE).scenario.bearing;
     let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
@@ -237,7 +237,7 @@ fn analytic_no_body_moves_faster_than_a_run_can_follow() {
 }
 
 #[test]
-fn regress_keys_and_values_of_megabytes_are_told_in_part() {
+fn regress_keys_and_values_of_megabytes_are_reported_in_part() {
     let long = "k".repeat(3_000_000);
     for text in [
         format!("{long} = 1\n{BARE}"),

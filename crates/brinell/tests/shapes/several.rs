@@ -62,7 +62,7 @@ fn analytic_deepest_of_several_acts_in_each_slice_and_spares_raised_edges() {
     assert!(alone > 0.0 && same(alone, with));
 }
 
-/// The angles at which a roller's line of contact stands `u` (rad) from the centre of damage at 0 on either side.
+/// The angles at which a roller's line of contact is `u` (rad) from the centre of damage at 0 on either side.
 fn over(on: Surface, side: Side, u: f64) -> Angles {
     match (on, side) {
         (Surface::Roller(_), Side::Inner) => at(u - PI),

@@ -38,7 +38,7 @@ pub(crate) struct Wanted<'a> {
     pub(crate) duration: Option<f64>,
     /// What the options of this file begin with: `against-` in `--against-rate`, or nothing.
     pub(crate) whose: &'static str,
-    /// Whether a shaft speed is asked for where the file states none.
+    /// Whether a shaft speed is requested where the file states none.
     pub(crate) ask_speed: bool,
     /// Likewise the bearing.
     pub(crate) ask_bearing: bool,
@@ -181,7 +181,7 @@ struct Known {
     scaled: Scaled,
 }
 
-/// Channel, rate and unit; what is missing is asked for at once, speed and bearing with it.
+/// Channel, rate and unit; what is missing is requested at once, speed and bearing with it.
 fn known(
     file: &mut SignalFile,
     path: &Path,
@@ -194,7 +194,7 @@ fn known(
         Chosen::One(name, channel) => (name, channel),
         Chosen::Among(channels, words) => {
             asked.push(words);
-            // What any of them states is not asked for yet.
+            // What any of them states is not requested yet.
             let states =
                 |c: &Channel| usize::from(c.rate.is_some()) + usize::from(c.unit.is_some());
             let most = channels.into_iter().rev().max_by_key(states);

@@ -1,4 +1,4 @@
-//! The bytes of one variable, plain or inflated as they are asked for.
+//! The bytes of one variable, plain or inflated as they are requested.
 
 use std::io::{self, BufReader, Read, Take};
 

@@ -56,7 +56,7 @@ export class BrinellBearing extends View {
     this.empty = element("div", { class: "empty" }, "waiting for the bearing");
     this.stage = /** @type {HTMLElement} */ (element("div", { class: "stage" }, this.canvas, this.empty));
     this.playButton = /** @type {HTMLButtonElement} */ (element("button", { type: "button", id: "play" }, "Play"));
-    this.turnButton = /** @type {HTMLButtonElement} */ (element("button", { type: "button", title: "One turn of the shaft, then stand still" }, "1 turn"));
+    this.turnButton = /** @type {HTMLButtonElement} */ (element("button", { type: "button", title: "One turn of the shaft, then stop" }, "1 turn"));
     this.pace = /** @type {HTMLInputElement} */ (element("input",
       { type: "range", min: "20", max: "200", step: "5", value: "60", "aria-label": "Slow motion, times slower than real" }));
     this.paceTold = element("output");
@@ -109,7 +109,7 @@ export class BrinellBearing extends View {
     if (!frames || !this.motion) return;
     this.motion.push(frames);
     if (!this.motion.clip) { this.motion.go(0); this.requestDraw(); }
-    // A picture that stands still shows the edited bearing too, at nearly the same angles.
+    // A stopped picture shows the edited bearing too, at nearly the same angles.
     if (!this.playing && this.renew()) { this.motion.show(0); this.requestDraw(); }
   }
   /** Answer of `damage`, or its list. @returns {any} */

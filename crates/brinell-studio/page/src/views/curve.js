@@ -45,7 +45,7 @@ export class BrinellCurve extends View {
     this.held = null;
     /** Ends of the zoom counted from the curve's start; null shows the home view. @type {[number, number] | null} */
     this.zoomed = null;
-    /** Where the cursor stands, counted from the curve's start. @type {number | null} */
+    /** Where the cursor is, counted from the curve's start. @type {number | null} */
     this.place = null;
     this.log = false;
     this.limit = new Limit();
@@ -186,7 +186,7 @@ export class BrinellCurve extends View {
       const [first, last] = part(curve, this.view);
       for (let i = first; i <= last; i++) { const v = Math.abs(curve.values[i]); if (v > most) most = v; }
     }
-    // Labels stand above the curves, nominal frequencies below.
+    // Labels are above the curves, nominal frequencies below.
     const strip = this.kind === "envelope" && data.lines?.length ? STRIP : 0, tall = Math.max(0.4 * height, height - room - strip);
     const top = this.log ? 10 * Math.ceil(decibel(most || 1) / 10) : this.limit.hold(most), least = this.log ? top - DEPTH : this.kind === "waveform" ? -top : 0,
       px = (top - least) / tall;

@@ -15,7 +15,7 @@ import { breadth, font } from "./pen.js";
 /** @typedef {{ on: "outer" | "inner" | "roller", roller: number, from: number, to: number }} Arc damage along the surface, rad */
 /** @typedef {{ x: number, y: number, scale: number, colours: Colours, perNewton: number }} Stage centre, px a mm, px a N */
 
-/** Thickness of a ring as a share of the outer raceway's radius. The bars of the forces stand in it. */
+/** Thickness of a ring as a share of the outer raceway's radius. The bars of the forces are in it. */
 export const RING = 0.17;
 /** Shallower than this share of the deepest is round-off. */
 const LEAST = 1e-3;
@@ -122,7 +122,7 @@ function paintForces(pen, stage, geometry, row) {
 /** Bars of the cage, between the pockets. @param {Pen} pen @param {Stage} stage @param {Geometry} geometry @param {import("./motion.js").RowState} row */
 function paintCage(pen, { x, y, scale, colours }, geometry, row) {
   const n = geometry.elements, pitch = 2 * Math.PI / n, half = pitch / 2 - 1.08 * Math.asin(Math.min(geometry.element_mm / geometry.pitch_mm, 1));
-  // The pockets stand evenly about the cage; their offset is that of the rollers in them.
+  // The pockets are evenly spaced on the cage; their offset is that of the rollers in them.
   let [c, s] = [0, 0];
   for (let e = 0; e < n; e++) { const a = n * (row.orbit[e] - row.cage); c += Math.cos(a); s += Math.sin(a); }
   const offset = Math.atan2(s, c) / n, r = scale * geometry.pitch_mm;

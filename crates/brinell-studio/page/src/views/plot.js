@@ -1,4 +1,4 @@
-// The only file that knows uPlot: frame, axes, grid, scales and the shade of a selection. What stands in the frame is painted by the caller.
+// The only file that knows uPlot: frame, axes, grid, scales and the shade of a selection. What is in the frame is painted by the caller.
 import uPlot from "../../vendor/uplot.mjs";
 import { font } from "./pen.js";
 import { sheet } from "./theme.js";
@@ -27,7 +27,7 @@ export const plotSheet = sheet(`
 /**
  * @param {HTMLElement} box the plot fills it
  * @param {() => Colours} colours
- * @param {(pen: Pen, frame: Frame) => void} paint what stands in the frame, in the pixels of the box
+ * @param {(pen: Pen, frame: Frame) => void} paint what is in the frame, in the pixels of the box
  */
 export function makePlot(box, colours, paint) {
   /** @type {Axes} */
@@ -59,7 +59,7 @@ export function makePlot(box, colours, paint) {
   }), [[0, 1], [0, 1]], box);
   plot.root.setAttribute("aria-hidden", "true");
   return {
-    /** Where the pointer is heard. */
+    /** Where pointer events are received. */
     over: /** @type {HTMLElement} */ (plot.over),
     /** Draws anew with these axes. @param {Axes} next */
     draw(next) {

@@ -76,7 +76,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A speed that no bearing of this size stands; its run would take steps of 1e-11 s.
+    /// A speed that no bearing of this size withstands; its run would take steps of 1e-11 s.
     pub(super) fn speed_factor(&mut self) {
         let pitch = self.s.bearing.pitch_diameter_mm;
         let (speed, place) = match &self.s.operation.speed_rpm {
@@ -241,7 +241,7 @@ impl Checker<'_> {
             .s
             .defects
             .iter()
-            .map(|defect| kinematics.struck_by(defect.on))
+            .map(|defect| kinematics.defect_frequency(defect.on))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((name, frequency)) = highest else {
             return;

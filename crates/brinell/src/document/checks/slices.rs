@@ -59,7 +59,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A profile that stands back everywhere is a slip, or a clearance.
+    /// A profile with a drop everywhere is a mistake, or a clearance.
     fn drops(&mut self) {
         let b = &self.s.bearing;
         let (length, diameter) = (1e-3 * b.roller_length_mm, 1e-3 * b.roller_diameter_mm);
@@ -79,7 +79,7 @@ impl Checker<'_> {
             self.error(
                 PROFILE,
                 format!(
-                    "no slice ever touches: the profile stands back by {} um or more everywhere",
+                    "no slice ever touches: the profile has a drop of {} um or more everywhere",
                     short(1e6 * least)
                 ),
                 format!("a least drop of 0 to {} um", short(most)),
@@ -89,7 +89,7 @@ impl Checker<'_> {
             self.warn(
                 PROFILE,
                 format!(
-                    "the profile stands back by {} um or more everywhere, which acts as a clearance of that size at each contact",
+                    "the profile has a drop of {} um or more everywhere, which acts as a clearance of that size at each contact",
                     short(1e6 * least)
                 ),
                 "a least drop of 0".into(),

@@ -15,7 +15,7 @@ struct Cages<L> {
 }
 
 impl<L: Lanes> Cages<L> {
-    /// For the groups that stand as `phase` does in the pattern of rows.
+    /// For the groups at the place of `phase` in the pattern of rows.
     #[inline(always)]
     fn spread(model: &Model, q: &[f64], v: &[f64], phase: usize) -> Self {
         let l = &model.layout;
