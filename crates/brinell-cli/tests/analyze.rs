@@ -1,6 +1,6 @@
 //! `brinell analyze`: what it says of signals whose damage is known, and of files that are no signal.
 
-use crate::common::{GIVEN, brinell, json};
+use crate::common::{GIVEN, brinell, json, typed};
 use ::brinell::random::Random;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -111,20 +111,9 @@ fn prop_a_speed_that_varies_is_followed() {
         );
     }
     fs::write(folder.path().join("ramp.csv"), text).unwrap();
-    let given = [
-        "analyze",
-        "ramp.csv",
-        "--channel",
-        "acc",
-        "--rate",
-        "12000",
-        "--unit",
-        "g",
-        "--bearing",
-        "6205",
-    ];
+    let given = typed("analyze ramp.csv --channel acc --rate 12000 --unit g --bearing 6205");
     let call = |more: &[&'static str]| {
-        let args: Vec<&str> = given.into_iter().chain(more.iter().copied()).collect();
+        let args: Vec<&str> = given.iter().chain(more).copied().collect();
         brinell(folder.path(), &args)
     };
     call(&["--speed-channel", "speed"]).exits(0).says(&[

@@ -1,6 +1,6 @@
 //! Calibrations: known keys come back from brinell's own runs, nothing depends on threads or interruptions, and what is wrong is said.
 
-use crate::common::{brinell, files, interrupted, json, lines, same, with_blocks};
+use crate::common::{brinell, files, interrupted, json, lines, same, typed, with_blocks};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -178,27 +178,11 @@ fn prop_neither_threads_nor_interruptions_change_a_byte() {
 #[test]
 fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
     let folder = folder();
-    let args = [
-        "run",
-        "base.toml",
-        "--set",
-        "operation.speed_rpm=3300",
-        "--no-report",
-        "-q",
-        "-o",
-        "rig",
-    ];
+    let args = typed("run base.toml --set operation.speed_rpm=3300 --no-report -q -o rig");
     brinell(folder.path(), &args).exits(0);
-    let args = call(&[
-        "--fit",
-        "operation.speed_rpm=2700:3700",
-        "--measured",
-        "rig",
-        "--budget",
-        "20",
-        "-o",
-        "cal",
-    ]);
+    let args = call(&typed(
+        "--fit operation.speed_rpm=2700:3700 --measured rig --budget 20 -o cal",
+    ));
     brinell(folder.path(), &args)
         .exits(0)
         .keeps_quiet()
@@ -212,20 +196,9 @@ fn prop_a_measured_signal_is_met_by_the_run_that_made_it() {
 #[test]
 fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
     let folder = folder();
-    let args = call(&[
-        "--fit",
-        "operation.speed_rpm=2900:3100",
-        "--fit",
-        "cage.guide_width_mm=5:7",
-        "--target",
-        "defect1.pure_rolling_frequency=500~1",
-        "--budget",
-        "14",
-        "--set",
-        "simulation.duration_s=0.04",
-        "-o",
-        "cal",
-    ]);
+    let args = call(&typed(
+        "--fit operation.speed_rpm=2900:3100 --fit cage.guide_width_mm=5:7 --target defect1.pure_rolling_frequency=500~1 --budget 14 --set simulation.duration_s=0.04 -o cal",
+    ));
     brinell(folder.path(), &args).exits(0).says(&[
         "The targets are not met within the bounds: chi-square",
         "defect1.pure_rolling_frequency:",
@@ -243,20 +216,9 @@ fn prop_targets_out_of_reach_are_reported_and_so_is_a_key_without_effect() {
 fn regress_runs_that_fail_are_rows() {
     let folder = folder();
     // Each bound is good with the middle of the other; in a corner the damage is wider than the roller.
-    let args = call(&[
-        "--fit",
-        "bearing.roller_length_mm=6:12",
-        "--fit",
-        "defects.0.shape.rectangle.width_mm=3:9",
-        "--target",
-        "sensor_ax.rms=30~1",
-        "--budget",
-        "40",
-        "--set",
-        "simulation.duration_s=0.02",
-        "-o",
-        "cal",
-    ]);
+    let args = call(&typed(
+        "--fit bearing.roller_length_mm=6:12 --fit defects.0.shape.rectangle.width_mm=3:9 --target sensor_ax.rms=30~1 --budget 40 --set simulation.duration_s=0.02 -o cal",
+    ));
     brinell(folder.path(), &args).exits(0);
     let cal = folder.path().join("cal");
     let failed = json(&cal.join("calibrate.json"))["runs"]["failed"].as_u64();

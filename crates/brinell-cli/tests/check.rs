@@ -1,6 +1,6 @@
 //! What `brinell check` says of a scenario, and that `brinell run` repeats its warnings.
 
-use crate::common::{Call, SHORT, brinell};
+use crate::common::{Call, SHORT, brinell, typed};
 use std::fs;
 use tempfile::tempdir;
 
@@ -171,16 +171,7 @@ fn regress_check_and_run_warn_alike() {
     }
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("s.toml"), SHORT).unwrap();
-    let args = [
-        "run",
-        "s.toml",
-        "-o",
-        "o",
-        "--signals",
-        "none",
-        "--set",
-        "defects.0.center_deg=180",
-    ];
+    let args = typed("run s.toml -o o --signals none --set defects.0.center_deg=180");
     brinell(folder.path(), &args)
         .exits(0)
         .complains(&["outside the load zone", "too short to settle"]);

@@ -1,6 +1,6 @@
 //! Scenarios side by side: what comes out, that a run beside itself is itself, and what is refused.
 
-use crate::common::{brinell, files, json, same, with_blocks};
+use crate::common::{brinell, files, json, same, typed, with_blocks};
 use brinell_io::{Cells, Table};
 use std::fs;
 use tempfile::TempDir;
@@ -89,15 +89,13 @@ fn regress_files_and_variants_come_side_by_side() {
 #[test]
 fn prop_a_run_beside_itself_is_itself_on_any_number_of_threads() {
     let folder = folder();
-    let args = [
-        "compare",
-        "actual.toml",
-        "--variant",
-        "again:name=twin",
-        "-o",
-    ];
+    let args = typed("compare actual.toml --variant again:name=twin -o");
     for (out, jobs) in [("one", "1"), ("two", "2")] {
-        let args: Vec<&str> = args.into_iter().chain([out, "-q", "-j", jobs]).collect();
+        let args: Vec<&str> = args
+            .iter()
+            .copied()
+            .chain([out, "-q", "-j", jobs])
+            .collect();
         brinell(folder.path(), &args).exits(0).keeps_quiet();
     }
     same(&folder.path().join("one"), &folder.path().join("two"));

@@ -1,6 +1,6 @@
 //! `diff`: two scenarios key by key, defaults included.
 
-use crate::common::{SHORT, brinell};
+use crate::common::{SHORT, brinell, typed};
 use std::fs;
 use tempfile::tempdir;
 
@@ -62,16 +62,7 @@ fn prop_a_written_scenario_is_the_same_run_and_so_is_its_folder() {
     fs::write(here.join("a.toml"), SHORT).unwrap();
     brinell(
         here,
-        &[
-            "run",
-            "a.toml",
-            "-o",
-            "o",
-            "-q",
-            "--no-report",
-            "--signals",
-            "none",
-        ],
+        &typed("run a.toml -o o -q --no-report --signals none"),
     )
     .exits(0);
     brinell(here, &["diff", "a.toml", "o"])

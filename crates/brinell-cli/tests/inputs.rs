@@ -1,6 +1,6 @@
 //! No command writes over a file that it reads, and none mixes its results with another command's.
 
-use crate::common::{Call, GIVEN, SHORT, brinell, files, json};
+use crate::common::{Call, GIVEN, SHORT, brinell, files, json, typed};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -165,14 +165,7 @@ fn prop_campaigns_spare_their_inputs() {
         .exits(2)
         .complains(&["best.toml, which `brinell calibrate` would write over"]);
     fs::write(here.join("sweep.json"), "{}").unwrap();
-    let args = [
-        "sweep",
-        "base.toml",
-        "--vary",
-        "operation.speed_rpm=1000",
-        "-o",
-        ".",
-    ];
+    let args = typed("sweep base.toml --vary operation.speed_rpm=1000 -o .");
     brinell(here, &args).exits(2).complains(&["sweep.json"]);
     fs::remove_file(here.join("sweep.json")).unwrap();
     assert!(crate::common::results(here) == before);
@@ -207,14 +200,7 @@ fn regress_results_of_another_command_are_refused_or_replaced_whole() {
     analyze(here, "x.csv", &["-o", "o"])
         .exits(2)
         .complains(&words);
-    let sweep = [
-        "sweep",
-        "s.toml",
-        "--vary",
-        "operation.speed_rpm=1500",
-        "-q",
-        "-o",
-    ];
+    let sweep = typed("sweep s.toml --vary operation.speed_rpm=1500 -q -o");
     for args in [
         &["compare", "s.toml", "--variant", "t:name=t", "-o", "o"][..],
         &["defect", "preview", "s.toml", "-o", "o"],

@@ -1,6 +1,6 @@
 //! The commands that look things up: `frequencies`, `bearing`, `schema`, `init`, and every `--help`.
 
-use crate::common::{SHORT, brinell, brinell_reading};
+use crate::common::{SHORT, brinell, brinell_reading, typed};
 use serde_json::Value;
 use std::fs;
 use tempfile::tempdir;
@@ -27,18 +27,7 @@ fn analytic_frequencies_of_the_papers_bearing() {
         .exits(0)
         .keeps_quiet()
         .out;
-    let by_numbers = [
-        "frequencies",
-        "--pitch",
-        "49",
-        "--diameter",
-        "6",
-        "--rollers",
-        "19",
-        "--speed",
-        "1800",
-        "--json",
-    ];
+    let by_numbers = typed("frequencies --pitch 49 --diameter 6 --rollers 19 --speed 1800 --json");
     let catalogued = call(&["frequencies", "nn3007", "--speed", "1800", "--json"]).exits(0);
     let [catalogued, given] = [catalogued, call(&by_numbers).exits(0)].map(|c| parsed(&c.out));
     for (name, hz) in SECTION_13 {

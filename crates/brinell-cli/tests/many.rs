@@ -1,6 +1,6 @@
 //! Several scenarios in one call: where results go, what happens when one fails, and that company changes no bit.
 
-use crate::common::{SHORT, brinell, files};
+use crate::common::{SHORT, brinell, files, typed};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -69,15 +69,7 @@ fn regress_every_scenario_is_checked_before_any_runs() {
     scenario(folder.path(), "worse.toml", "-2");
     brinell(
         folder.path(),
-        &[
-            "run",
-            "good.toml",
-            "bad.toml",
-            "worse.toml",
-            "none.toml",
-            "-o",
-            "out",
-        ],
+        &typed("run good.toml bad.toml worse.toml none.toml -o out"),
     )
     .exits(2)
     .complains(&[

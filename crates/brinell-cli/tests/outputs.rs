@@ -1,6 +1,6 @@
 //! What `brinell run` leaves in its folder and says on the terminal.
 
-use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, json};
+use crate::common::{SHORT, brinell, brinell_reading, command, csv, files, json, typed};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -76,15 +76,7 @@ fn regress_csv_has_the_documented_channels_and_number_of_rows() {
 fn prop_a_duration_between_samples_is_rounded_down() {
     for (duration, rate, rows) in [("0.001", "25600.0", 26), ("0.0012", "10000.0", 13)] {
         let folder = folder_with(&SHORT.replace("0.02", duration).replace("25600.0", rate));
-        let args = [
-            "run",
-            "s.toml",
-            "-o",
-            "o",
-            "--signals",
-            "csv",
-            "--no-report",
-        ];
+        let args = typed("run s.toml -o o --signals csv --no-report");
         brinell(folder.path(), &args).exits(0);
         assert_eq!(csv(&folder.path().join("o/signals.csv")).1.len(), rows);
     }
@@ -147,15 +139,7 @@ fn regress_summary_has_the_documented_members() {
     // Long enough for indicators from blocks of revolutions.
     let folder = folder_with(&SHORT.replace("0.02", "0.3"));
     let here = folder.path();
-    let args = [
-        "run",
-        "s.toml",
-        "-o",
-        "o",
-        "--signals",
-        "none",
-        "--no-report",
-    ];
+    let args = typed("run s.toml -o o --signals none --no-report");
     let call = brinell(here, &args).exits(0).keeps_quiet();
     assert!(
         call.out.contains("in the envelope; pure rolling 131.05 Hz"),

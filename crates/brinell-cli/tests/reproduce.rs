@@ -1,6 +1,6 @@
 //! The reproduction: what it writes, that neither threads nor a cut journal change a byte, and what it refuses.
 
-use crate::common::{brinell, files, json};
+use crate::common::{brinell, files, json, typed};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -92,18 +92,7 @@ fn prop_one_figure_whole_cut_and_on_another_number_of_threads() {
 #[test]
 fn prop_the_start_up_is_read_and_said_with_fig_20() {
     let folder = tempdir().unwrap();
-    let args = [
-        "reproduce",
-        "--figure",
-        "20",
-        "--turns",
-        "3",
-        "--quiet",
-        "-o",
-        "a",
-        "--book",
-        "a/book",
-    ];
+    let args = typed("reproduce --figure 20 --turns 3 --quiet -o a --book a/book");
     brinell(folder.path(), &args).exits(0);
     let claims = json(&folder.path().join("a/claims.json"));
     let all = claims["claims"].as_array().unwrap();

@@ -1,6 +1,6 @@
 //! A run into a folder that holds results already; what a run keeps of its scenario's assumptions; the kernel.
 
-use crate::common::{SHORT, brinell, command, files, json};
+use crate::common::{SHORT, brinell, command, files, json, typed};
 use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
@@ -30,17 +30,7 @@ fn regress_the_same_scenario_again_leaves_no_file_of_the_run_before() {
     let here = folder.path();
     brinell(
         here,
-        &[
-            "run",
-            "a.toml",
-            "-o",
-            "o",
-            "--quiet",
-            "--signals",
-            "csv",
-            "--plots",
-            "svg",
-        ],
+        &typed("run a.toml -o o --quiet --signals csv --plots svg"),
     )
     .exits(0);
     let output = here.join("o");
@@ -216,17 +206,7 @@ fn regress_a_scenario_that_somebody_wrote_or_changed_is_not_replaced_unasked() {
 fn regress_one_foreign_folder_stops_all_of_several_runs() {
     let folder = folder();
     let here = folder.path();
-    let both = [
-        "run",
-        "a.toml",
-        "b.toml",
-        "-o",
-        "o",
-        "--quiet",
-        "--no-report",
-        "--signals",
-        "none",
-    ];
+    let both = typed("run a.toml b.toml -o o --quiet --no-report --signals none");
     brinell(
         here,
         &["run", "a.toml", "-o", "o/b", "--quiet", "--no-report"],
@@ -268,16 +248,7 @@ fn regress_written_scenarios_keep_what_was_assumed() {
     let first = json(&here.join("o/summary.json"));
     brinell(
         here,
-        &[
-            "run",
-            "o/scenario.toml",
-            "-o",
-            "again",
-            "--quiet",
-            "--no-report",
-            "--signals",
-            "none",
-        ],
+        &typed("run o/scenario.toml -o again --quiet --no-report --signals none"),
     )
     .exits(0);
     let again = json(&here.join("again/summary.json"));

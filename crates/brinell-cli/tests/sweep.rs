@@ -1,6 +1,6 @@
 //! Sweeps: the plan, what a killed one costs, that neither threads nor interruptions change a byte, and what happens to bad points.
 
-use crate::common::{brinell, files, interrupted, json, lines, results, same, with_blocks};
+use crate::common::{brinell, files, interrupted, json, lines, results, same, typed, with_blocks};
 use brinell_io::{Cells, Table};
 use std::fs;
 use std::path::Path;
@@ -356,18 +356,9 @@ fn regress_signals_are_kept_on_request_and_a_dry_run_leaves_nothing() {
 #[test]
 fn regress_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on() {
     let folder = folder();
-    let args = [
-        "sweep",
-        "base.toml",
-        "--vary",
-        "operation.speed_rpm=2000:3000:10",
-        "--set",
-        "simulation.model=lumped",
-        "-o",
-        "out",
-        "-j",
-        "1",
-    ];
+    let args = typed(
+        "sweep base.toml --vary operation.speed_rpm=2000:3000:10 --set simulation.model=lumped -o out -j 1",
+    );
     let journal = folder.path().join("out/journal.jsonl");
     let call = interrupted(folder.path(), &args, &journal, 3);
     call.exits(1).complains(&[

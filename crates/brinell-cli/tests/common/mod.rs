@@ -89,6 +89,11 @@ impl From<Output> for Call {
     }
 }
 
+/// The words of a line as it is typed, none of which holds a space.
+pub(crate) fn typed(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
 /// The command, to be run in `folder`.
 pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
