@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 ANALYSIS = "crates/brinell-signal/src/analysis/"
 
-# In words, and the changes: file, text that stands there once, text in its place.
+# In words, and the changes: file, text that is there once, text in its place.
 VARIANTS = [("as it is", [])]
 
 

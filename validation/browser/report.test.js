@@ -347,7 +347,7 @@ describe("saving", () => {
   }
 });
 
-// Nothing that stands in a page is to run but its own script, should anything ever slip through the escaping.
+// Nothing in a page is to run but its own script, should anything ever slip through the escaping.
 describe("the content security policy", () => {
   it("runs no other script and loads nothing", async () => {
     const folder = await mkdtemp(join(tmpdir(), "page-")), path = join(folder, "report.html");

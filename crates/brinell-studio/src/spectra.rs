@@ -46,9 +46,9 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
             // A comb near that of a part without damage belongs to another part, or to nobody.
             let line = line.as_ref().filter(|_| name.defect.is_some());
             let hz = line.map(|l| l.frequency);
-            let standing =
+            let present =
                 hz.and_then(|hz| harmonics(&envelope.spectrum, hz, 0.01 * hz, HARMONICS).ok());
-            let standing: Vec<f64> = standing.map_or(Vec::new(), |set| {
+            let present: Vec<f64> = present.map_or(Vec::new(), |set| {
                 set.standing(FALSE_ALARM).map(|l| l.snr_db).collect()
             });
             json!({
@@ -56,8 +56,8 @@ pub(crate) fn spectra(bench: &Bench, longest: usize, arrays: &mut Arrays) -> Val
                 "hz": hz,
                 "nominal_hz": name.hz,
                 "found": hz.is_some(),
-                "harmonics": standing.len(),
-                "over_noise_db": standing.iter().copied().reduce(f64::max),
+                "harmonics": present.len(),
+                "over_noise_db": present.iter().copied().reduce(f64::max),
                 "defect": name.defect,
             })
         })

@@ -30,7 +30,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use table::{Standing, standings};
+use table::{State, states};
 
 /// Exit code where a point failed, or Ctrl-C stopped the sweep.
 const NOT_WHOLE: u8 = 1;
@@ -66,9 +66,9 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let went = campaign::run(&tasks, &work, &mut ledger, threads, args.quiet, &stop)?;
 
-    let standings = standings(&points, |fingerprint| ledger.kept.row(fingerprint));
-    let written = write(args, &points, &standings, &plots, &folder)?;
-    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+    let states = states(&points, |fingerprint| ledger.kept.row(fingerprint));
+    let written = write(args, &points, &states, &plots, &folder)?;
+    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
     if !args.quiet {
         say!(
@@ -76,20 +76,20 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
             plural(tasks.len() - missing.min(tasks.len()), "run"),
             begin.elapsed().as_secs_f64(),
             count("complete"),
-            plural(standings.len(), "point")
+            plural(states.len(), "point")
         );
         for path in &written {
             say!("  wrote {}", path.display());
         }
     }
-    tell_failures(&points, &standings);
+    tell_failures(&points, &states);
     if !args.quiet {
-        tell_unsettled(&standings);
+        tell_unsettled(&states);
     }
     if went.is_break() {
         complain!(
             "interrupted: {} kept, {missing} to go; the same command resumes where this one stopped",
-            plural(standings.len() - missing, "finished point")
+            plural(states.len() - missing, "finished point")
         );
     }
     Ok(if failed > 0 || went.is_break() {
@@ -100,11 +100,11 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<ExitCode, Failure> {
 }
 
 /// How many points' averages hold part of the start.
-fn tell_unsettled(standings: &[Standing]) {
+fn tell_unsettled(states: &[State]) {
     let name = fields::NOT_SETTLED.name;
     let of = |row: &Row| row.quantity(name)?.value;
-    let count = (standings.iter())
-        .filter(|s| matches!(s, Standing::Complete(row) if of(row) == Some(1.0)))
+    let count = (states.iter())
+        .filter(|s| matches!(s, State::Complete(row) if of(row) == Some(1.0)))
         .count();
     if count > 0 {
         complain!(
@@ -273,10 +273,10 @@ fn other_sweep(folder: &Path, other: &Value) -> String {
     )
 }
 
-fn tell_failures(points: &Points, standings: &[Standing]) {
+fn tell_failures(points: &Points, states: &[State]) {
     const SHOWN: usize = 10;
-    let failed = standings.iter().enumerate().filter_map(|(k, s)| match s {
-        Standing::Failed(reason) => Some((k, reason)),
+    let failed = states.iter().enumerate().filter_map(|(k, s)| match s {
+        State::Failed(reason) => Some((k, reason)),
         _ => None,
     });
     let failed: Vec<_> = failed.collect();
@@ -292,7 +292,7 @@ fn tell_failures(points: &Points, standings: &[Standing]) {
         complain!(
             "{} of {} failed",
             failed.len(),
-            plural(standings.len(), "point")
+            plural(states.len(), "point")
         );
     }
 }
@@ -301,11 +301,11 @@ fn tell_failures(points: &Points, standings: &[Standing]) {
 fn write(
     args: &SweepArgs,
     points: &Points,
-    standings: &[Standing],
+    states: &[State],
     plots: &[String],
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let table = table::table(points, standings, args.keep_signals);
+    let table = table::table(points, states, args.keep_signals);
     let metadata = Metadata::default()
         .with(keys::VERSION, brinell::VERSION)
         .with(keys::SCENARIO, points.source.text());
@@ -313,7 +313,7 @@ fn write(
         table.write_csv(folder.join("sweep.csv"))?,
         table.write_parquet(folder.join("sweep.parquet"), &metadata)?,
     ];
-    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let columns: serde_json::Map<String, Value> = table
         .columns
         .iter()
@@ -346,7 +346,7 @@ fn write(
     };
     let text = serde_json::to_string_pretty(&json).unwrap_or_default() + "\n";
     put("sweep.json", text)?;
-    let report = page::report(points, standings, plots);
+    let report = page::report(points, states, plots);
     put("sweep.html", brinell_report::sweep_html(&report))?;
     if !args.plots.is_empty() {
         let layout = args.print.layout(&args.plots)?;

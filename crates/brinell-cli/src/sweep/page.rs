@@ -1,7 +1,7 @@
 //! A sweep as its page shows it: which key lies on the x axis, which points make a line.
 
 use super::points::Points;
-use super::table::{Standing, number};
+use super::table::{State, number};
 use crate::say::{bracketed, short};
 use brinell::result::Quantity;
 use brinell::scenario::Scenario;
@@ -34,8 +34,8 @@ pub(super) fn usual(scenario: &Scenario, names: &[String]) -> Vec<String> {
     usual
 }
 
-pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) -> SweepReport {
-    let count = |word: &str| standings.iter().filter(|s| s.word() == word).count();
+pub(super) fn report(points: &Points, states: &[State], plots: &[String]) -> SweepReport {
+    let count = |word: &str| states.iter().filter(|s| s.word() == word).count();
     let (failed, missing) = (count("failed"), count("not run"));
     let axes: Vec<String> = points
         .plan
@@ -45,7 +45,7 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         .collect();
     let fact =
         |label: &str, n: usize, note: &str| Fact::new(label, Value::Text(n.to_string()), "", note);
-    let mut facts = vec![fact("Points", standings.len(), &axes.join(" × "))];
+    let mut facts = vec![fact("Points", states.len(), &axes.join(" × "))];
     facts.push(fact("Complete", count("complete"), ""));
     if failed > 0 {
         facts.push(fact("Failed", failed, "reasons below"));
@@ -54,7 +54,7 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         facts.push(fact("Not run", missing, "the sweep was interrupted"));
     }
     let (axis, _) = x_axis(points);
-    let lines = standings.len() / points.plan.axes()[axis].settings().len();
+    let lines = states.len() / points.plan.axes()[axis].settings().len();
     if lines > LINES * PICTURES {
         let text = Value::Text(format!("{} of {lines}", LINES * PICTURES));
         facts.push(Fact::new("Lines drawn", text, "", "all are in sweep.csv"));
@@ -64,15 +64,15 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         let texts: Vec<String> = settings.iter().map(|(k, v)| format!("{k} = {v}")).collect();
         format!("{}: {}", k + 1, texts.join(", "))
     };
-    let failures = standings.iter().enumerate().filter_map(|(k, s)| match s {
-        Standing::Failed(reason) => Some((name(k), (*reason).to_owned())),
+    let failures = states.iter().enumerate().filter_map(|(k, s)| match s {
+        State::Failed(reason) => Some((name(k), (*reason).to_owned())),
         _ => None,
     });
     SweepReport {
         title: format!("Sweep of {}", points.example.name),
         subtitle: format!(
             "{} over {}",
-            plural(standings.len(), "point"),
+            plural(states.len(), "point"),
             axes.join(" × ")
         ),
         version: brinell::VERSION.into(),
@@ -85,14 +85,14 @@ pub(super) fn report(points: &Points, standings: &[Standing], plots: &[String]) 
         facts,
         plots: plots
             .iter()
-            .flat_map(|name| pictures(points, standings, name))
+            .flat_map(|name| pictures(points, states, name))
             .collect(),
         maps: plots
             .iter()
-            .filter_map(|name| map(points, standings, name))
+            .filter_map(|name| map(points, states, name))
             .collect(),
         failures: failures.take(LISTED).collect(),
-        table: table(points, standings, plots),
+        table: table(points, states, plots),
         scenario_toml: points.source.text(),
     }
 }
@@ -116,7 +116,7 @@ fn x_axis(points: &Points) -> (usize, usize) {
 }
 
 /// An indicator's pictures: one, or several where there are many lines.
-fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<IndicatorPlot> {
+fn pictures(points: &Points, states: &[State], name: &str) -> Vec<IndicatorPlot> {
     let (axis, key) = x_axis(points);
     let along = &points.plan.axes()[axis];
     let values: Vec<&str> = along.settings().iter().map(|s| s[key].as_str()).collect();
@@ -127,11 +127,11 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
     let mut lines: Vec<IndicatorLine> = Vec::new();
     let mut line_of: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut unit = String::new();
-    for (k, standing) in standings.iter().enumerate() {
+    for (k, state) in states.iter().enumerate() {
         let place = points.plan.place(k);
         let rest: Vec<usize> = others.iter().map(|a| place[*a]).collect();
-        let quantity = match standing {
-            Standing::Complete(row) => row.quantity(name),
+        let quantity = match state {
+            State::Complete(row) => row.quantity(name),
             _ => None,
         };
         if let Some(q) = quantity {
@@ -185,7 +185,7 @@ fn pictures(points: &Points, standings: &[Standing], name: &str) -> Vec<Indicato
 }
 
 /// An indicator over both keys of a grid; `None` where the sweep has not two axes of three settings or more.
-fn map(points: &Points, standings: &[Standing], name: &str) -> Option<HeatMap> {
+fn map(points: &Points, states: &[State], name: &str) -> Option<HeatMap> {
     let [first, second] = points.plan.axes() else {
         return None;
     };
@@ -197,9 +197,9 @@ fn map(points: &Points, standings: &[Standing], name: &str) -> Option<HeatMap> {
         0 => (first, second),
         _ => (second, first),
     };
-    let mut values = vec![f64::NAN; standings.len()];
+    let mut values = vec![f64::NAN; states.len()];
     let mut unit = "";
-    for (k, row) in standings.iter().enumerate() {
+    for (k, row) in states.iter().enumerate() {
         let Some(quantity) = complete(row).and_then(|row| row.quantity(name)) else {
             continue;
         };
@@ -281,12 +281,12 @@ pub(crate) fn words(name: &str) -> String {
 }
 
 /// The points with their keys and what is plotted.
-fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
+fn table(points: &Points, states: &[State], plots: &[String]) -> Table {
     let mut columns = vec!["#Point".to_owned()];
     columns.extend(points.plan.keys().map(|key| format!("#{key}")));
     columns.push("Status".into());
     let unit = |name: &String| {
-        let rows = standings.iter().filter_map(complete);
+        let rows = states.iter().filter_map(complete);
         let unit = rows.filter_map(|row| row.quantity(name)).next();
         unit.map_or("", |q| q.unit.as_str())
     };
@@ -297,19 +297,19 @@ fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
         };
         columns.push(format!("#{name}{unit}"));
     }
-    let listed = standings.iter().enumerate().take(LISTED);
-    let rows = listed.map(|(k, standing)| {
+    let listed = states.iter().enumerate().take(LISTED);
+    let rows = listed.map(|(k, state)| {
         let mut row = vec![(k + 1).to_string()];
         row.extend(points.plan.settings(k).into_iter().map(|(_, value)| value));
-        row.push(standing.word().into());
+        row.push(state.word().into());
         let cell = |name: &String| {
-            let quantity = complete(standing).and_then(|row| row.quantity(name));
+            let quantity = complete(state).and_then(|row| row.quantity(name));
             quantity.map_or("–".to_owned(), told)
         };
         row.extend(plots.iter().map(cell));
         row
     });
-    let more = match standings.len().saturating_sub(LISTED) {
+    let more = match states.len().saturating_sub(LISTED) {
         0 => String::new(),
         more => format!("{more} more points are in sweep.csv. "),
     };
@@ -322,9 +322,9 @@ fn table(points: &Points, standings: &[Standing], plots: &[String]) -> Table {
     }
 }
 
-fn complete<'a>(standing: &Standing<'a>) -> Option<&'a Row> {
-    match standing {
-        Standing::Complete(row) => Some(row),
+fn complete<'a>(state: &State<'a>) -> Option<&'a Row> {
+    match state {
+        State::Complete(row) => Some(row),
         _ => None,
     }
 }

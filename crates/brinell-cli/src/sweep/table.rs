@@ -8,13 +8,13 @@ use brinell_study::runner::Task;
 use serde_json::Value;
 
 /// The state of a point.
-pub(super) enum Standing<'a> {
+pub(super) enum State<'a> {
     Complete(&'a Row),
     Failed(&'a str),
     NotRun,
 }
 
-impl Standing<'_> {
+impl State<'_> {
     pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Complete(_) => "complete",
@@ -25,28 +25,28 @@ impl Standing<'_> {
 }
 
 /// The state of every point.
-pub(super) fn standings<'a>(
+pub(super) fn states<'a>(
     points: &'a Points,
     row: impl Fn(&str) -> Option<&'a Row>,
-) -> Vec<Standing<'a>> {
+) -> Vec<State<'a>> {
     let one = |task: &'a Result<Task, String>| match task {
-        Err(reason) => Standing::Failed(reason),
+        Err(reason) => State::Failed(reason),
         Ok(task) => match row(&task.fingerprint) {
-            None => Standing::NotRun,
+            None => State::NotRun,
             Some(Row {
                 result: Err(reason),
                 ..
-            }) => Standing::Failed(reason),
-            Some(row) => Standing::Complete(row),
+            }) => State::Failed(reason),
+            Some(row) => State::Complete(row),
         },
     };
     points.tasks.iter().map(one).collect()
 }
 
 /// Point, keys, status, reason, and every number that any point has, with its interval.
-pub(super) fn table(points: &Points, standings: &[Standing], signals: bool) -> Table {
+pub(super) fn table(points: &Points, states: &[State], signals: bool) -> Table {
     let mut table = Table::default();
-    let rows = standings.len();
+    let rows = states.len();
     let number = (1..=rows).map(|k| Some(k as f64)).collect();
     let about = "number of the point, in the plan's order";
     table.push(Column::new("point", "1", about), Cells::Numbers(number));
@@ -60,25 +60,25 @@ pub(super) fn table(points: &Points, standings: &[Standing], signals: bool) -> T
         );
     }
     let words =
-        |of: &dyn Fn(&Standing) -> Option<String>| Cells::Words(standings.iter().map(of).collect());
+        |of: &dyn Fn(&State) -> Option<String>| Cells::Words(states.iter().map(of).collect());
     let status = words(&|s| Some(s.word().to_owned()));
     table.push(
         Column::new("status", "", "complete, failed or not run"),
         status,
     );
     let reason = words(&|s| match s {
-        Standing::Failed(reason) => Some((*reason).to_owned()),
+        State::Failed(reason) => Some((*reason).to_owned()),
         _ => None,
     });
     table.push(Column::new("reason", "", "why it failed"), reason);
     if signals {
         let file = words(&|s| match s {
-            Standing::Complete(row) => Some(format!("signals/{}", signal_file(&row.scenario))),
+            State::Complete(row) => Some(format!("signals/{}", signal_file(&row.scenario))),
             _ => None,
         });
         table.push(Column::new("signals", "", "file of its channels"), file);
     }
-    numbers(standings, &mut table);
+    numbers(states, &mut table);
     table
 }
 
@@ -116,8 +116,8 @@ pub(super) fn number(value: &str) -> Option<f64> {
 }
 
 /// A column for each number of any point, and for the ends of its interval.
-fn numbers(standings: &[Standing], table: &mut Table) {
-    let runs: Vec<&[Quantity]> = standings.iter().map(of).collect();
+fn numbers(states: &[State], table: &mut Table) {
+    let runs: Vec<&[Quantity]> = states.iter().map(of).collect();
     for column in columns(&runs) {
         let about = if column.end {
             "end of its 95 % interval"
@@ -129,9 +129,9 @@ fn numbers(standings: &[Standing], table: &mut Table) {
     }
 }
 
-fn of<'a>(standing: &Standing<'a>) -> &'a [Quantity] {
-    match standing {
-        Standing::Complete(row) => row.result.as_deref().unwrap_or(&[]),
-        Standing::Failed(_) | Standing::NotRun => &[],
+fn of<'a>(state: &State<'a>) -> &'a [Quantity] {
+    match state {
+        State::Complete(row) => row.result.as_deref().unwrap_or(&[]),
+        State::Failed(_) | State::NotRun => &[],
     }
 }
