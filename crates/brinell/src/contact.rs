@@ -3,6 +3,7 @@
 //! Section 2 of the model and Eqs. (21)-(23), (29), (36). All SI; delta > 0 is the elastic deformation, the approach of the bodies beyond first touch.
 
 pub mod ball;
+pub mod film;
 
 use crate::elementary::Exponent;
 use crate::lanes::{Lanes, eight_ninths};

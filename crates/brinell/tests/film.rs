@@ -1,11 +1,12 @@
 //! The cage's guidance film: published coefficients, its integral, what it dissipates, and how cages whirl in it.
 
-use crate::common::cases::Random;
+use crate::common::cases::{Random, raceway_film};
+use crate::common::simulate;
 use brinell::accuracy::settings;
 use brinell::cage::{Guide, HalfFilm, MAX_ECCENTRICITY};
 use brinell::document;
 use brinell::model::{Model, Motion};
-use brinell::scenario::{Accuracy, Guidance, GuidanceFilm, Scenario};
+use brinell::scenario::{Accuracy, Guidance, GuidanceFilm, RacewayFilm, Scenario};
 use brinell::solver::Stepper;
 use brinell::start;
 use std::f64::consts::{PI, TAU};
@@ -366,4 +367,21 @@ fn regress_quasi_static_film_makes_a_cage_whirl_faster_than_it_turns() {
     for w in told("NN3007", &s) {
         assert!(w.ratio > 1.0, "{}", w.ratio);
     }
+}
+
+/// Rollers of a slow bearing fall from the outer to the inner raceway where nothing presses them; without oil each one strikes steel.
+#[test]
+fn prop_the_raceway_film_cushions_rollers_that_fall() {
+    let mut s = raceway_film();
+    s.simulation.duration_s = 0.5;
+    let level = |film: RacewayFilm| {
+        let mut s = s.clone();
+        s.lubricant.raceway_film = film;
+        let (rows, _) = simulate(&s);
+        let x = &rows.column("outer_ay")[rows.column("outer_ay").len() / 5..];
+        (x.iter().map(|x| x * x).sum::<f64>() / x.len() as f64).sqrt()
+    };
+    let [dry, oiled] = [RacewayFilm::None, RacewayFilm::Squeeze].map(level);
+    println!("outer_ay: {dry:.3} m/s^2 dry, {oiled:.3} m/s^2 oiled");
+    assert!(oiled < 0.5 * dry, "{dry} {oiled}");
 }

@@ -1,5 +1,6 @@
 //! The kernels for different instructions compute the same equations, to round-off.
 
+use crate::common::cases::raceway_film;
 use brinell::document::read;
 use brinell::model::{Kernel, Model, Workspace};
 use brinell::scenario::{Accuracy, Guidance, Scenario};
@@ -47,8 +48,13 @@ fn xval_kernels_agree_to_round_off() {
         "xval/single-row-inner-guided",
         "xval/linear-circle",
         "xval/rest-speed-profile",
+        "raceway film",
     ] {
-        let s = scenario(name);
+        let s = if name == "raceway film" {
+            raceway_film()
+        } else {
+            scenario(name)
+        };
         let model = Model::new(&s).unwrap();
         let dof = model.layout.dof();
         let mass = model.mass();

@@ -17,6 +17,34 @@ pub struct StaticRating {
 /// his own factors.
 pub fn static_rating(bearing: &Bearing) -> StaticRating {
     let b = bearing;
+    if let Some((load, source)) = printed(b, catalogue::STATIC_RATING) {
+        return StaticRating {
+            load,
+            source: Some(source),
+        };
+    }
+    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
+    let load = match b.element {
+        Element::Roller => {
+            44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d
+        }
+        Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
+    };
+    StaticRating { load, source: None }
+}
+
+/// The least load at which the elements roll, N, by SKF's rule of thumb: 0.02 C of roller bearings, 0.01 C of ball bearings. `None` where no maker's C is known.
+pub fn least_load(bearing: &Bearing) -> Option<f64> {
+    let share = match bearing.element {
+        Element::Roller => 0.02,
+        Element::Ball => 0.01,
+    };
+    Some(share * printed(bearing, catalogue::DYNAMIC_RATING)?.0)
+}
+
+/// A maker's rating of a bearing that is a preset with its elements as they are, N, and where it is printed.
+fn printed(bearing: &Bearing, rating: &str) -> Option<(f64, &'static str)> {
+    let b = bearing;
     let catalogued = b.preset.as_deref().and_then(catalogue::find);
     let same = |entry: &&catalogue::Entry| {
         [
@@ -31,23 +59,9 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
         .filter(|(key, _)| !(b.has_balls() && *key == "roller_length_mm"))
         .all(|(key, value)| entry.number(key) == Some(*value))
     };
-    let printed = catalogued
+    catalogued
         .filter(same)
-        .and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
-    if let Some((load, source)) = printed {
-        return StaticRating {
-            load,
-            source: Some(source),
-        };
-    }
-    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
-    let load = match b.element {
-        Element::Roller => {
-            44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d
-        }
-        Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
-    };
-    StaticRating { load, source: None }
+        .and_then(|entry| entry.fact_of(rating))
 }
 
 /// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside and 0.53 outside.

@@ -120,10 +120,23 @@ pub(super) fn bearing<K: Keys>(k: &mut K, model: ModelKind, b: &mut Bearing) {
         roller,
         &mut b.roller_mass_kg,
     );
+    // A catalogue bearing's profile is no reason to refuse a scenario that has no slices.
+    let unsliced = |how| Fallback::Instead {
+        value: RollerProfile::Straight,
+        how,
+        assumed: false,
+    };
+    let profile = match (model, k.foretold("contact", "law")) {
+        (ModelKind::Lumped, _) => unsliced("the lumped model has no slices, and so no profile"),
+        (ModelKind::Full, Some(Law::Ecl)) => {
+            unsliced("law \"ecl\" has no slices, and so no profile")
+        }
+        _ => stated(RollerProfile::Straight, PAPER),
+    };
     k.key_where(
         key("profile", "p(z), the drop of roller and raceway together"),
         (!b.has_balls(), ROLLERS),
-        stated(RollerProfile::Straight, PAPER),
+        profile,
         &mut b.profile,
     );
     tilt_key(

@@ -61,6 +61,7 @@ pub(crate) fn scenario() -> Scenario {
         },
         lubricant: Lubricant {
             viscosity_pa_s: NONE,
+            raceway_film: Leaf::blank(),
             drag_coefficient: NONE,
             effective_density_kg_per_m3: NONE,
         },

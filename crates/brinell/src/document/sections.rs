@@ -49,7 +49,9 @@ pub(crate) fn scenario<K: Keys>(k: &mut K, s: &mut Scenario) {
         key("friction", "rollers on raceways, along the surface"),
         |k| friction(k, &mut s.friction),
     );
-    k.section(key("lubricant", "oil"), |k| lubricant(k, &mut s.lubricant));
+    k.section(key("lubricant", "oil"), |k| {
+        lubricant(k, &s.bearing, &mut s.lubricant)
+    });
     k.section(key("operation", "speed, load and gravity"), |k| {
         operation(k, (model, &s.bearing), &mut s.operation)
     });
@@ -318,11 +320,24 @@ fn friction<K: Keys>(k: &mut K, f: &mut Friction) {
     );
 }
 
-fn lubricant<K: Keys>(k: &mut K, l: &mut Lubricant) {
+fn lubricant<K: Keys>(k: &mut K, b: &Bearing, l: &mut Lubricant) {
     k.key(
-        key("viscosity_pa_s", "eta of the cage's guidance film").from(0.0),
+        key(
+            "viscosity_pa_s",
+            "eta of the cage's guidance film and of the raceway film",
+        )
+        .from(0.0),
         assumed(0.01, "warm spindle oil; the paper does not state it"),
         &mut l.viscosity_pa_s,
+    );
+    k.key_where(
+        key(
+            "raceway_film",
+            "film of rollers and raceways that do not touch",
+        ),
+        (!b.has_balls(), ROLLERS),
+        stated(RacewayFilm::None, PAPER),
+        &mut l.raceway_film,
     );
     k.key(
         key("drag_coefficient", "C_d of a roller in the oil-air mixture").from(0.0),

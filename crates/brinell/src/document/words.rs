@@ -39,6 +39,11 @@ words! { GuidanceFilm:
     QuasiStatic = "quasi-static", "the paper's: as if the centres were at rest";
 }
 
+words! { RacewayFilm:
+    None = "none", "an open contact carries nothing, as in the paper";
+    Squeeze = "squeeze", "a closing gap squeezes the oil out, which cushions a roller that falls or enters the load";
+}
+
 words! { Law:
     Ecl = "ecl", "effective contact length";
     Sliced = "sliced", "independent slices, each with what damage covers of it";

@@ -6,6 +6,7 @@ use super::{
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::contact::ball::{self, Strips};
+use crate::contact::film::SqueezeFilm;
 use crate::defect::{Defect, Rules, SIDES, Side};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
@@ -13,8 +14,8 @@ use crate::kernel;
 use crate::lanes::Column;
 use crate::operation::{Load, Rotation};
 use crate::scenario::{
-    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RollerProfile,
-    Scenario, Start,
+    Bearing, Cage, Element, Guidance, GuidanceFilm, Law, Lubricant, ModelKind, RacewayFilm,
+    RollerProfile, Scenario, Start,
 };
 use crate::slices::Slices;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -69,6 +70,7 @@ impl Model {
                 slip_velocity: s.friction.slip_velocity_m_per_s,
             },
             drag: drag(b.element, &s.lubricant, &geometry),
+            film: film(s, &geometry),
             pocket: Pocket {
                 stiffness: c.contact_stiffness_n_per_m,
                 damping: c.contact_damping_ns_per_m,
@@ -222,6 +224,23 @@ fn drag(element: Element, lubricant: &Lubricant, geometry: &Geometry) -> f64 {
         },
         2.0 * geometry.roller_radius,
     )
+}
+
+/// Films of open inner and outer contacts, of the relative radius R of roller and raceway.
+fn film(s: &Scenario, geometry: &Geometry) -> Option<[SqueezeFilm; 2]> {
+    let acts = s.lubricant.raceway_film == RacewayFilm::Squeeze
+        && s.simulation.model != ModelKind::Lumped
+        && !s.bearing.has_balls();
+    let of = |raceway: f64| {
+        let radius = 1.0 / (1.0 / geometry.roller_radius + raceway);
+        SqueezeFilm::new(s.lubricant.viscosity_pa_s, geometry.roller_length, radius)
+    };
+    acts.then(|| {
+        [
+            of(1.0 / geometry.inner_radius),
+            of(-1.0 / geometry.outer_radius),
+        ]
+    })
 }
 
 fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {

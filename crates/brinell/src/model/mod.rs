@@ -31,6 +31,7 @@ pub use workspace::Workspace;
 use crate::bearing::kinematics::{self, Kinematics};
 use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
+use crate::contact::film::SqueezeFilm;
 use crate::defect::{Defect, Rules, Side};
 use crate::friction::Friction;
 use crate::lanes::{Column, Lanes};
@@ -138,6 +139,8 @@ pub struct Model {
     pub friction: Friction,
     /// Drag of a roller, kg/m.
     pub drag: f64,
+    /// Films of open contacts, indexed by `Side as usize`, where there are any.
+    pub film: Option<[SqueezeFilm; 2]>,
     /// Pockets.
     pub pocket: Pocket,
     /// Guiding ring.

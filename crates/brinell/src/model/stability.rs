@@ -39,13 +39,13 @@ pub(super) fn stable_step(model: &Model, max_elastic: [f64; 2], film_damping: f6
     )
 }
 
-/// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; none where it is open.
+/// Tangent stiffness (N/m) and damping (N s/m) of a contact under the elastic force `force`, N; where it is open, what its film damps at most.
 fn spring(model: &Model, side: Side, force: f64) -> [f64; 2] {
     let law = model.contact(side);
     if force > 0.0 {
         [law.tangent_at(force), law.damping]
     } else {
-        [0.0; 2]
+        [0.0, model.film.map_or(0.0, |_| law.damping)]
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Contacts {
     pub elastic: Column,
     /// Q, N.
     pub force: Column,
+    /// What the film of an open contact carries, N; 0 where the model has no film.
+    pub film: Column,
     /// Friction on the roller along e_t, N.
     pub friction: Column,
     /// Slip of the ring's surface over the roller's, m/s.
@@ -51,6 +53,7 @@ impl Contacts {
             power: zeros(),
             elastic: zeros(),
             force: zeros(),
+            film: zeros(),
             friction: zeros(),
             slip: zeros(),
             damaged_length: zeros(),

@@ -235,11 +235,22 @@ pub struct Friction {
     pub slip_velocity_m_per_s: f64,
 }
 
+/// Film between rollers and raceways that do not touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RacewayFilm {
+    /// None: an open contact carries nothing (the paper).
+    None,
+    /// What a closing gap squeezes out.
+    Squeeze,
+}
+
 /// `[lubricant]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lubricant {
-    /// eta, Pa s, of the guidance film.
+    /// eta, Pa s, of the cage's guidance film and of the film on the raceways.
     pub viscosity_pa_s: f64,
+    /// What open contacts of rollers and raceways carry.
+    pub raceway_film: RacewayFilm,
     /// C_d of a roller.
     pub drag_coefficient: f64,
     /// rho_f of the oil-air mixture, kg/m^3.

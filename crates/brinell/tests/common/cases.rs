@@ -49,6 +49,7 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("roller-defect", case("xval/roller-defect")),
         ("overlapping", case("xval/overlapping-defects")),
         ("film-dynamic", case("reference/film-dynamic")),
+        ("raceway-film", raceway_film()),
         ("inner-guided", inner_guided),
         ("roller-guided", roller_guided),
         ("gravity-drag", case("xval/three-rows-drag-gap")),
@@ -59,6 +60,13 @@ pub fn every_term() -> Vec<(&'static str, Scenario)> {
         ("tilting-offset", tilting_offset()),
         ("balls", case("reference/ball-6205-outer")),
     ]
+}
+
+/// A catalogue bearing so slow that its profiled rollers fall through the clearance onto the film.
+pub fn raceway_film() -> Scenario {
+    let text = "[bearing]\npreset = \"NU206\"\n[operation]\nspeed_rpm = 300\nload_n = [0, -1000]\nload_on = \"inner-ring\"\n\
+                gravity_m_per_s2 = [0, -9.81]\nload_ramp_s = 0\n[simulation]\nstart = \"equilibrium\"\n";
+    document::read(text, &[]).unwrap().scenario
 }
 
 /// A tilting bearing, its load off the middle, its cages on the inner ring, an oblique dent on a roller whose edges push.

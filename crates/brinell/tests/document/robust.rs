@@ -385,6 +385,8 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
                 },
                 lubricant: Lubricant {
                     viscosity_pa_s: x[1],
+                    raceway_film: [RacewayFilm::None, RacewayFilm::Squeeze]
+                        [usize::from(x[2] > x[3] && !balls(words))],
                     drag_coefficient: x[2],
                     effective_density_kg_per_m3: x[3],
                 },

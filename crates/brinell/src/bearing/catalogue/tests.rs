@@ -31,7 +31,9 @@ const OF_BALLS: [&str; 3] = [
     "bearing.inner_groove_conformity",
     "bearing.outer_groove_conformity",
 ];
-const OPTIONAL: [&str; 6] = [
+const OPTIONAL: [&str; 8] = [
+    "bearing.profile",
+    "lubricant.raceway_film",
     "cage.guidance",
     "cage.contact_stiffness_n_per_m",
     "contact.inner_stiffness",
@@ -103,6 +105,8 @@ fn prop_every_entry_is_complete_and_has_no_other_keys() {
                 Datum::Integer(count) => *count > 0 && COUNTS.contains(&key),
                 Datum::Text(choice) => match key {
                     "bearing.element" => choice == "ball",
+                    "bearing.profile" => choice == "logarithmic",
+                    "lubricant.raceway_film" => choice == "squeeze",
                     "cage.guidance" => {
                         ["outer-ring", "inner-ring", "rollers"].contains(&choice.as_str())
                     }

@@ -2,6 +2,7 @@
 //! carry.
 
 use super::rollers::{Plane, column, columns, pair, polar};
+use crate::contact::film::SqueezeFilm;
 use crate::defect::{Angles, SIDES, Side, cover_slices, damaged_contact_given};
 use crate::lanes::Lanes;
 use crate::model::workspace::Contacts;
@@ -345,5 +346,39 @@ pub(super) fn closed<L: Lanes, const TILT: bool>(
         friction[group] = tangential.array();
     }
     L::groups_mut(&mut ws.max_elastic[side as usize])[0] = sums.max_elastic.array();
+    if let Some(films) = &model.film {
+        let film = &films[side as usize];
+        sums.contact += squeezed::<L>(film, law.damping, &ws.candidates[side as usize], contacts);
+    }
     sums
+}
+
+/// What the films of open contacts carry, and what they take, W. On damage there is none: the oil has where to go. The gap is the one at the
+/// roller's middle.
+#[inline(always)]
+fn squeezed<L: Lanes>(
+    film: &SqueezeFilm,
+    damping: f64,
+    candidates: &[u8],
+    contacts: &mut Contacts,
+) -> L {
+    let mut taken = L::zero();
+    for group in 0..contacts.film.len() / L::COUNT {
+        let gap = (-L::new(L::groups(&contacts.deformation)[group])).positive_part();
+        let closing = L::new(L::groups(&contacts.approach_rate)[group]);
+        let open = film.force(damping, gap, closing);
+        let elastic = L::new(L::groups(&contacts.elastic)[group]);
+        let mut carried = elastic.if_above(L::zero(), L::zero(), open).array();
+        if candidates[group] != 0 {
+            let on_damage = &contacts.on_damage[group * L::COUNT..];
+            for (carried, on_damage) in carried.as_mut().iter_mut().zip(on_damage) {
+                if *on_damage {
+                    *carried = 0.0;
+                }
+            }
+        }
+        taken = L::new(carried).times_plus(closing, taken);
+        L::groups_mut(&mut contacts.film)[group] = carried;
+    }
+    taken
 }

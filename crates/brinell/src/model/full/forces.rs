@@ -63,8 +63,12 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         let (dr, dtheta) = (L::new(v_r[group]), L::new(v_theta[group]));
         let axes = (L::new(sin[group]), L::new(cos[group]));
         let (sin, cos) = axes;
-        let (q_in, f_in) = (L::new(force_in[group]), L::new(friction_in[group]));
-        let (q_out, f_out) = (L::new(force_out[group]), L::new(friction_out[group]));
+        let (mut q_in, f_in) = (L::new(force_in[group]), L::new(friction_in[group]));
+        let (mut q_out, f_out) = (L::new(force_out[group]), L::new(friction_out[group]));
+        if model.film.is_some() {
+            q_in += L::new(L::groups(&at_inner.film)[group]);
+            q_out += L::new(L::groups(&at_outer.film)[group]);
+        }
         drive += f_in;
 
         // Roller.
