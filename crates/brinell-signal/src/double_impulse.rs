@@ -12,8 +12,8 @@
 //! entry and exit from two defects, or from two resonances that ring one after the other: the longest separation
 //! searched should be that of the longest defect considered, well below half a repetition period.
 
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 use super::envelope::{Band, envelope};
@@ -218,7 +218,7 @@ impl Parts {
         let shortest = fs * (PART_LENGTH * search.longest).max(1.0 / search.repetition);
         let count = ((x.len() as f64 / shortest) as usize).clamp(FEWEST_PARTS, PARTS);
         let length = x.len() / count;
-        let fft = RealFftPlanner::new().plan_fft_forward((2 * length).next_power_of_two());
+        let fft = crate::fft::forward((2 * length).next_power_of_two());
         Parts { length, count, fft }
     }
 

@@ -58,6 +58,8 @@ pub mod distribution;
 pub mod double_impulse;
 pub mod envelope;
 mod error;
+#[doc(hidden)]
+pub mod fft;
 pub mod filter;
 pub mod fir;
 pub mod frequency;

@@ -1,7 +1,5 @@
 //! Spectrogram: the power spectral density of each segment by itself, over time.
 
-use realfft::RealFftPlanner;
-
 use super::error::SignalError;
 use super::psd::Segments;
 
@@ -48,7 +46,7 @@ pub fn spectrogram(x: &[f64], fs: f64, segments: &Segments) -> Result<Spectrogra
     let window = segments.window.periodic(length);
     let sum: f64 = window.iter().sum();
     let energy: f64 = window.iter().map(|w| w * w).sum();
-    let fft = RealFftPlanner::new().plan_fft_forward(length);
+    let fft = crate::fft::forward(length);
     let (mut input, mut output) = (fft.make_input_vec(), fft.make_output_vec());
     let mut scratch = fft.make_scratch_vec();
     let bins = output.len();

@@ -11,8 +11,8 @@
 
 use std::sync::Arc;
 
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 
 use super::window::Window;
 
@@ -129,7 +129,7 @@ pub(super) struct SegmentTransform {
 
 impl SegmentTransform {
     pub(super) fn new(window: Vec<f64>) -> Self {
-        let fft = RealFftPlanner::new().plan_fft_forward(window.len());
+        let fft = crate::fft::forward(window.len());
         SegmentTransform {
             window,
             input: fft.make_input_vec(),

@@ -227,6 +227,37 @@ pub fn stated<T>(value: T, why: &'static str) -> Fallback<T> {
 }
 
 impl<T> Fallback<T> {
+    /// The same with another value, where there is one.
+    pub(crate) fn map<U>(self, change: impl FnOnce(T) -> U) -> Fallback<U> {
+        match self {
+            Self::Required => Fallback::Required,
+            Self::Catalogued => Fallback::Catalogued,
+            Self::Needed(case) => Fallback::Needed(case),
+            Self::Derived { value, how } => Fallback::Derived {
+                value: change(value),
+                how,
+            },
+            Self::Instead {
+                value,
+                how,
+                assumed,
+            } => Fallback::Instead {
+                value: change(value),
+                how,
+                assumed,
+            },
+            Self::Fixed {
+                value,
+                why,
+                assumed,
+            } => Fallback::Fixed {
+                value: change(value),
+                why,
+                assumed,
+            },
+        }
+    }
+
     /// The value, where there is one.
     pub(crate) fn value(self) -> Option<T> {
         match self {

@@ -76,6 +76,9 @@ pub trait Leaf: Sized + Clone {
     }
 }
 
+/// What a kind of value says of a key, such as [`Leaf::range`]: as a value, so that what uses it is compiled once and not for each kind.
+pub(super) type Words = fn(&Spec) -> String;
+
 pub(super) fn wrong_type<T: Leaf>(node: &Node, spec: &Spec) -> Misfit {
     let message = format!("expected {}, found {}", T::expected(spec), node.kind());
     Misfit::new(message, T::range(spec))

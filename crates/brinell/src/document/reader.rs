@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::keys::{Fallback, Spec, unit_of_key};
-use super::leaf::{Leaf, Misfit};
+use super::leaf::{Leaf, Misfit, Words};
 use super::problem::{Problem, Severity};
 use super::problems::Problems;
 use super::provenance::{Origin, Provenance};
@@ -195,17 +195,10 @@ impl<'a> Reader<'a> {
         self.problems.add(problem.unit(unit), header);
     }
 
-    fn record<T: Leaf>(
-        &mut self,
-        path: &str,
-        spec: &Spec,
-        value: &T,
-        origin: Origin,
-        assumed: bool,
-    ) {
+    fn record(&mut self, path: &str, spec: &Spec, value: String, origin: Origin, assumed: bool) {
         self.provenance.push(Provenance {
             key: path.to_string(),
-            value: value.write(),
+            value,
             unit: spec.unit,
             origin,
             assumed,
@@ -216,19 +209,8 @@ impl<'a> Reader<'a> {
     fn read<T: Leaf>(&mut self, path: &str, spec: &Spec, node: &Node) -> Option<T> {
         match T::read(node, spec) {
             Ok(value) => {
-                let recorded = || {
-                    let entry = self.recorded.get(path)?;
-                    let was = T::read(&override_value(&entry.value).ok()?, spec).ok()?;
-                    (was.write() == value.write()).then(|| entry.reason.clone())
-                };
-                let (origin, assumed) = match node.span {
-                    None => (Origin::Override, false),
-                    Some(_) => match recorded() {
-                        Some(reason) => (Origin::Recorded(reason), true),
-                        None => (Origin::File, false),
-                    },
-                };
-                self.record(path, spec, &value, origin, assumed);
+                let again = |node: &Node| T::read(node, spec).ok().map(|was| was.write());
+                self.given(path, spec, node, value.write(), &again);
                 Some(value)
             }
             Err(misfit) => {
@@ -238,24 +220,60 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Records a value that the file gives; `again` reads what was recorded of the key as it reads the key.
+    fn given(
+        &mut self,
+        path: &str,
+        spec: &Spec,
+        node: &Node,
+        value: String,
+        again: &dyn Fn(&Node) -> Option<String>,
+    ) {
+        let recorded = || {
+            let entry = self.recorded.get(path)?;
+            let was = again(&override_value(&entry.value).ok()?)?;
+            (was == value).then(|| entry.reason.clone())
+        };
+        let (origin, assumed) = match node.span {
+            None => (Origin::Override, false),
+            Some(_) => match recorded() {
+                Some(reason) => (Origin::Recorded(reason), true),
+                None => (Origin::File, false),
+            },
+        };
+        self.record(path, spec, value, origin, assumed);
+    }
+
     /// Reads a key from the catalogue bearing.
     fn catalogued<T: Leaf>(&mut self, path: &str, spec: &Spec) -> Option<T> {
-        let datum = self.preset?.values.iter().find(|value| value.key == path)?;
+        let datum = self.datum(path)?;
         match T::read(&Node::from_datum(&datum.value), spec) {
             Ok(value) => {
-                let origin = Origin::Preset {
-                    source: datum.source.clone(),
-                    estimated: datum.estimated,
-                };
-                self.record(path, spec, &value, origin, datum.estimated);
+                self.record_datum(path, spec, value.write(), datum);
                 Some(value)
             }
             Err(misfit) => {
-                let message = format!("the catalogue's value does not fit: {}", misfit.message);
-                self.problems.add(Problem::error(path, message), None);
+                self.misfit_of_catalogue(path, misfit);
                 None
             }
         }
+    }
+
+    fn datum(&self, path: &str) -> Option<&'static catalogue::Value> {
+        self.preset?.values.iter().find(|value| value.key == path)
+    }
+
+    fn record_datum(&mut self, path: &str, spec: &Spec, value: String, datum: &catalogue::Value) {
+        let origin = Origin::Preset {
+            source: datum.source.clone(),
+            estimated: datum.estimated,
+        };
+        self.record(path, spec, value, origin, datum.estimated);
+    }
+
+    fn misfit_of_catalogue(&mut self, path: &str, misfit: Misfit) {
+        let message = format!("the catalogue's value does not fit: {}", misfit.message);
+        self.problems.add(Problem::error(path, message), None);
     }
 
     /// Keeps what was assumed of the file that the geometry of a shape came of. Geometry that an override gives came of none, and a shape that
@@ -287,51 +305,77 @@ impl<'a> Reader<'a> {
         spec: &Spec,
         fallback: Fallback<T>,
     ) -> Option<T> {
-        let expected = T::expected(spec);
-        match fallback {
-            Fallback::Required => self.missing(path, spec.unit, expected, ""),
-            Fallback::Catalogued if self.preset_unknown => {}
+        let mut kept = None;
+        let seen = fallback.map(|value| {
+            let seen = Seen {
+                written: value.write(),
+                fits: value.fits(spec),
+                defined: value.is_defined(),
+            };
+            kept = Some(value);
+            seen
+        });
+        let stands = self.stands_in(path, spec, (T::expected, T::range), seen);
+        kept.filter(|_| stands)
+    }
+
+    /// Whether the value stands in for the key, recorded then; what is wrong is reported otherwise.
+    fn stands_in(
+        &mut self,
+        path: String,
+        spec: &Spec,
+        (expected, range): (Words, Words),
+        fallback: Fallback<Seen>,
+    ) -> bool {
+        let (value, origin, assumed) = match fallback {
+            Fallback::Required => {
+                self.missing(path, spec.unit, expected(spec), "");
+                return false;
+            }
+            Fallback::Catalogued if self.preset_unknown => return false,
             Fallback::Catalogued => {
                 let why = " without a bearing.preset that states it";
-                self.missing(path, spec.unit, expected, why);
+                self.missing(path, spec.unit, expected(spec), why);
+                return false;
             }
             Fallback::Needed(case) => {
-                self.missing(path, spec.unit, expected, &format!(" ({case})"));
+                self.missing(path, spec.unit, expected(spec), &format!(" ({case})"));
+                return false;
             }
-            Fallback::Derived { value, how } => {
-                if value.fits(spec) {
-                    self.record(&path, spec, &value, Origin::Derived(how), true);
-                    return Some(value);
-                }
+            Fallback::Derived { value, how } if !value.fits => {
                 // Otherwise what it derives from is at fault, and reported already.
-                if value.is_defined() || self.problems.is_empty() {
+                if value.defined || self.problems.is_empty() {
                     let message = format!("cannot be derived ({how}): give it");
-                    let problem = Problem::error(path, message).value(value.write());
-                    let problem = problem.allowed(T::range(spec)).unit(spec.unit);
+                    let problem = Problem::error(path, message).value(value.written);
+                    let problem = problem.allowed(range(spec)).unit(spec.unit);
                     self.problems.add(problem, None);
                 }
+                return false;
             }
+            Fallback::Derived { value, how } => (value, Origin::Derived(how), true),
             // What cannot be used comes of a key that is at fault itself, and reported.
-            Fallback::Instead { value, .. } if !value.fits(spec) => {}
+            Fallback::Instead { value, .. } if !value.fits => return false,
             Fallback::Instead {
                 value,
                 how,
                 assumed,
-            } => {
-                self.record(&path, spec, &value, Origin::Derived(how), assumed);
-                return Some(value);
-            }
+            } => (value, Origin::Derived(how), assumed),
             Fallback::Fixed {
                 value,
                 why,
                 assumed,
-            } => {
-                self.record(&path, spec, &value, Origin::Default(why), assumed);
-                return Some(value);
-            }
-        }
-        None
+            } => (value, Origin::Default(why), assumed),
+        };
+        self.record(&path, spec, value.written, origin, assumed);
+        true
     }
+}
+
+/// What there is to say of a default, of whatever kind: so that what says it is compiled once and not for each kind.
+struct Seen {
+    written: String,
+    fits: bool,
+    defined: bool,
 }
 
 /// A key that a table has and should not, with the one that was meant where that can be guessed.

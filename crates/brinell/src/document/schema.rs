@@ -65,6 +65,29 @@ impl Schema {
         self.object().properties.insert(spec.name.into(), schema);
     }
 
+    /// A key with its default as written.
+    fn describe(&mut self, spec: &Spec, mut schema: Json, fallback: Fallback<&str>) {
+        let mut doc = describe(spec);
+        match fallback {
+            Fallback::Required => self.object().required.push(spec.name),
+            Fallback::Catalogued => {
+                self.object().catalogued.push(spec.name);
+                doc.push_str("; required without a preset that states it");
+            }
+            Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
+            Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => {
+                doc.push_str(&format!("; default: {how}"))
+            }
+            Fallback::Fixed { value, why, .. } => {
+                if let Ok(value) = serde_json::from_str::<Json>(value) {
+                    schema["default"] = value;
+                }
+                doc.push_str(&format!("; default: {why}"));
+            }
+        }
+        self.put(spec, schema, doc);
+    }
+
     fn say_more(&mut self, name: &str, more: &str) {
         let schema = self.object().properties.get_mut(name);
         if let Some(Json::String(doc)) = schema.and_then(|s| s.get_mut("description")) {
@@ -88,27 +111,12 @@ fn describe(spec: &Spec) -> String {
 
 impl Keys for Schema {
     fn key<T: Leaf>(&mut self, spec: Spec, fallback: Fallback<T>, _: &mut T) {
-        let mut schema = T::schema(&spec);
-        let mut doc = describe(&spec);
-        match fallback {
-            Fallback::Required => self.object().required.push(spec.name),
-            Fallback::Catalogued => {
-                self.object().catalogued.push(spec.name);
-                doc.push_str("; required without a preset that states it");
-            }
-            Fallback::Needed(case) => doc.push_str(&format!("; required: {case}")),
-            Fallback::Derived { how, .. } | Fallback::Instead { how, .. } => {
-                doc.push_str(&format!("; default: {how}"))
-            }
-            Fallback::Fixed { value, why, .. } => {
-                // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
-                if let Ok(value) = serde_json::from_str::<Json>(&value.write()) {
-                    schema["default"] = value;
-                }
-                doc.push_str(&format!("; default: {why}"));
-            }
-        }
-        self.put(&spec, schema, doc);
+        // What is written as TOML here is also JSON: numbers, plain strings and lists of them.
+        let written = match &fallback {
+            Fallback::Fixed { value, .. } => value.write(),
+            _ => String::new(),
+        };
+        self.describe(&spec, T::schema(&spec), fallback.map(|_| written.as_str()));
     }
 
     fn optional<T: Leaf>(&mut self, spec: Spec, _: &mut Option<T>) {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::keys::{Fallback, Keys, Spec, Variant, variant_of};
-use super::leaf::Leaf;
+use super::leaf::{Leaf, Words};
 use super::provenance::{Origin, Provenance};
 
 /// What the comments say, and which keys are live.
@@ -67,7 +67,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Comment of one key.
-    fn remark<T: Leaf>(&self, spec: &Spec) -> String {
+    fn remark(&self, spec: &Spec, range: Words) -> String {
         let provenance = self.provenance(spec.name);
         let text = match &self.style {
             Style::Resolved(_) => match provenance {
@@ -88,15 +88,15 @@ impl<'a> Writer<'a> {
                     }) => "; catalogue",
                     _ => "",
                 };
-                explain::<T>(spec) + origin
+                explain(spec, range) + origin
             }
         };
         text.replace(['\n', '\r'], " ")
     }
 
-    fn add<T: Leaf>(&mut self, spec: &Spec, value: &str, live: bool) {
+    fn add(&mut self, spec: &Spec, range: Words, value: &str, live: bool) {
         let code = format!("{} = {value}", spec.name);
-        let remark = self.remark::<T>(spec);
+        let remark = self.remark(spec, range);
         if let Some(inline) = &mut self.inline {
             inline.push(code);
             if !remark.is_empty() {
@@ -161,9 +161,9 @@ impl<'a> Writer<'a> {
 }
 
 /// Meaning, range and unit in one phrase.
-fn explain<T: Leaf>(spec: &Spec) -> String {
+fn explain(spec: &Spec, range: Words) -> String {
     let mut text = spec.doc.to_string();
-    let range = T::range(spec);
+    let range = range(spec);
     let bounded = !range.is_empty() && range != super::keys::Range::ANY.to_string();
     match (bounded, spec.unit) {
         (false, "") => {}
@@ -180,28 +180,28 @@ impl Keys for Writer<'_> {
             .provenance(spec.name)
             .is_some_and(|provenance| matches!(provenance.origin, Origin::File | Origin::Override));
         let live = !self.is_template() || given;
-        self.add::<T>(&spec, &value.write(), live);
+        self.add(&spec, T::range, &value.write(), live);
     }
 
     fn optional<T: Leaf>(&mut self, spec: Spec, value: &mut Option<T>) {
         if let Some(value) = value {
-            self.add::<T>(&spec, &value.write(), true);
+            self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() {
-            self.aside(format!("{}: {}", spec.name, explain::<T>(&spec)));
+            self.aside(format!("{}: {}", spec.name, explain(&spec, T::range)));
         }
     }
 
     fn only_where<T: Leaf>(&mut self, spec: Spec, wanted: bool, case: &'static str, value: &mut T) {
         if wanted {
-            self.add::<T>(&spec, &value.write(), true);
+            self.add(&spec, T::range, &value.write(), true);
         } else if self.is_template() && (self.inline.is_some() || !value.fits(&spec)) {
             self.aside(format!(
                 "{}: {}; only where {case}",
                 spec.name,
-                explain::<T>(&spec)
+                explain(&spec, T::range)
             ));
         } else if self.is_template() {
-            self.add::<T>(&spec, &value.write(), false);
+            self.add(&spec, T::range, &value.write(), false);
             if let Some(line) = self.lines.last_mut() {
                 line.comment.push_str(&format!("; only where {case}"));
             }
@@ -221,7 +221,7 @@ impl Keys for Writer<'_> {
             self.aside(format!(
                 "{}: {}; only where {case}",
                 spec.name,
-                explain::<T>(&spec)
+                explain(&spec, T::range)
             ));
         }
     }

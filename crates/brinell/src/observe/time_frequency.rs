@@ -1,8 +1,8 @@
 //! The spectrogram of a signal of any length, in a bounded number of frames: of a long signal, neighbours are averaged.
 
 use crate::signal::{Spectrogram, Window};
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 /// Frames kept, at most.
@@ -41,7 +41,7 @@ impl TimeFrequency {
     }
 
     fn with_length(sample_rate: f64, length: usize) -> Self {
-        let fft = RealFftPlanner::new().plan_fft_forward(length);
+        let fft = crate::signal::fft::forward(length);
         let window = Window::Hann.periodic(length);
         Self {
             sample_rate,
