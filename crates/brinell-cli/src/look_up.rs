@@ -164,7 +164,7 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
     for value in all() {
         if let (CLEARANCE, Some((class, middle))) = (value.key.as_str(), of_class) {
             let (middle, source) = (plain_number(middle), of_the_name(class));
-            say!("  {CLEARANCE:<width$}  {middle:>10}  estimated: {source}");
+            say!("  {CLEARANCE:<width$}  {middle:>11}  estimated: {source}");
             continue;
         }
         // Most sources say it themselves.
@@ -175,7 +175,7 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
             ""
         };
         say!(
-            "  {:<width$}  {:>10}  {estimated}{}",
+            "  {:<width$}  {:>11}  {estimated}{}",
             value.key,
             datum(&value.value),
             value.source
@@ -188,7 +188,7 @@ fn show_entry(entry: &Entry, named: Option<ClearanceClass>) {
         };
         let class = class.name();
         say!(
-            "  {:<width$}  {:>10}  um on the diameter, ISO 5753-1 for the bore: bearing.clearance_class = \"{class}\"{this}",
+            "  {:<width$}  {:>11}  um on the diameter, ISO 5753-1 for the bore: bearing.clearance_class = \"{class}\"{this}",
             format!("clearance_{class}"),
             format!("{low}-{high}"),
         );

@@ -7,7 +7,7 @@
 mod slices;
 mod tilting;
 
-use crate::bearing::rating::{least_load, static_rating};
+use crate::bearing::rating::static_rating;
 use crate::defect::{Defect, SIDES, Side, relative_radius, wrap};
 use crate::document::{Problem, Problems, Severity, toml_float, unit_of_key};
 use crate::lamina::Rating;
@@ -64,7 +64,6 @@ pub fn before(
     let mut warnings = Vec::new();
     warnings.extend(no_load(scenario, model));
     warnings.extend(weight_left_out(scenario, model));
-    warnings.extend(too_little_load(scenario));
     match statics {
         Ok(zone) => warnings.extend(overload(scenario, zone)),
         Err(error) => warnings.push(warning(
@@ -165,26 +164,6 @@ fn weight_left_out(scenario: &Scenario, model: &Model) -> Option<Problem> {
                 short(load)
             ),
             "[0.0, -9.81] for a horizontal shaft",
-        )
-    })
-}
-
-/// Below the least load at which the elements of a catalogue bearing roll; none at all is said elsewhere.
-fn too_little_load(scenario: &Scenario) -> Option<Problem> {
-    let (o, element) = (&scenario.operation, scenario.bearing.element.word());
-    let load = o.load_n[0].hypot(o.load_n[1]);
-    let least = least_load(&scenario.bearing)?;
-    (load > 0.0 && load < least).then(|| {
-        warning(
-            LOAD,
-            list(o.load_n),
-            format!(
-                "the load of {} N is less than the {} N at which {element}s surely roll (SKF: 0.02 C of roller bearings, 0.01 C of ball bearings): they may skid, and rattle \
-                 through the clearance at BPFO though nothing is damaged",
-                short(load),
-                short(least)
-            ),
-            format!("a load of {} or more", short(least)),
         )
     })
 }

@@ -56,6 +56,29 @@ pub struct Slices {
     pub weight: Column,
     /// Half the roller's length, m.
     half: f64,
+    /// The drops that there are, rising, and the weight of all slices of each: what counts where nothing tilts. Padding repeats the last and weighs nothing.
+    level_drop: Column,
+    level_weight: Column,
+}
+
+/// Distinct drops, rising, and the weights of all slices of each, padded to whole groups.
+fn levels(drops: &[f64]) -> [Column; 2] {
+    let mut sorted = drops.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut levels: Vec<(f64, f64)> = Vec::new();
+    for drop in sorted {
+        match levels.last_mut() {
+            Some((last, slices)) if *last == drop => *slices += 1.0,
+            _ => levels.push((drop, 1.0)),
+        }
+    }
+    let padded = levels.len().next_multiple_of(crate::lanes::WIDTH);
+    let last = levels.last().map_or(0.0, |(drop, _)| *drop);
+    let (mut drop, mut weight) = (Column::new(padded, last), Column::new(padded, 0.0));
+    for (k, (of, slices)) in levels.into_iter().enumerate() {
+        (drop[k], weight[k]) = (of, slices / drops.len() as f64);
+    }
+    [drop, weight]
 }
 
 /// What damage covers of each slice under one contact, padded like [`Slices`].
@@ -142,12 +165,18 @@ impl Slices {
             (0..count).for_each(|k| column[k] = of(k));
             column
         };
+        let drops: Vec<f64> = (0..count)
+            .map(|k| drop(profile, middle(k), length, diameter))
+            .collect();
+        let [level_drop, level_weight] = levels(&drops);
         Self {
             count,
             z: column(&middle),
-            drop: column(&|k| drop(profile, middle(k), length, diameter)),
+            drop: column(&|k| drops[k]),
             weight: column(&|_| 1.0 / count as f64),
             half: 0.5 * length,
+            level_drop,
+            level_weight,
         }
     }
 
@@ -187,6 +216,24 @@ impl Slices {
             loss: sums.loss.sum(),
             touching: sums.touching.sum(),
         }
+    }
+
+    /// Elastic sum (N) and touching share of the length at a deformation (m) without tilt and damage: those of [`Slices::press`], to round-off.
+    #[inline(always)]
+    pub fn press_evenly<L: Lanes>(&self, law: &Hertz, deformation: f64) -> [f64; 2] {
+        let whole = L::splat(deformation);
+        let (mut elastic, mut touching) = (L::zero(), L::zero());
+        for k in 0..self.level_drop.len() / L::COUNT {
+            let delta = whole - L::new(L::groups(&self.level_drop)[k]);
+            if !delta.any_positive() {
+                // The drops rise.
+                break;
+            }
+            let weight = L::new(L::groups(&self.level_weight)[k]);
+            elastic = weight.times_plus(law.healthy(delta), elastic);
+            touching += delta.if_above(L::zero(), weight, L::zero());
+        }
+        [elastic.sum(), touching.sum()]
     }
 
     /// Line load q at each slice of a moving contact, N/m: its force over its width; `out` holds n_s numbers.
@@ -297,5 +344,50 @@ impl<L: Lanes> Sums<L> {
         self.moment = z.times_plus(pressed, self.moment);
         self.loss = (pressed - spring).times_plus(d, self.loss);
         self.touching += delta.if_above(zero, share, zero);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::Exponent;
+    use crate::lanes::Portable;
+
+    #[test]
+    fn prop_slices_of_equal_drop_carry_together_what_each_carries_alone() {
+        let law = Hertz {
+            stiffness: 1e9,
+            exponent: Exponent::TenNinths,
+            damping: 200.0,
+            strips: None,
+        };
+        let profiles = [
+            RollerProfile::Straight,
+            RollerProfile::Logarithmic,
+            RollerProfile::Crowned {
+                crowned_radius_mm: 800.0,
+            },
+            // Neither even nor rising.
+            RollerProfile::Table {
+                z_mm: vec![-4.0, -1.0, 0.0, 3.0, 4.0],
+                drop_um: vec![6.0, 0.0, 0.5, 0.2, 4.0],
+            },
+        ];
+        for (profile, count) in profiles
+            .iter()
+            .flat_map(|p| [1, 2, 7, 30, 33].map(|n| (p, n)))
+        {
+            let slices = Slices::new(count, 9e-3, 9e-3, profile);
+            for deformation in [-1e-6, 0.0, 1e-8, 3e-7, 2e-6, 9e-6, 4e-5] {
+                let at = Approach::pressed(deformation);
+                let each = slices.press::<Portable>(&law, &at, None);
+                let [elastic, touching] = slices.press_evenly::<Portable>(&law, deformation);
+                let one = slices.press_evenly::<f64>(&law, deformation)[0];
+                // Round-off of some thirty additions.
+                assert!((elastic - each.elastic).abs() <= 1e-14 * each.elastic);
+                assert!((one - each.elastic).abs() <= 1e-14 * each.elastic);
+                assert!((touching - each.touching).abs() < 1e-14);
+            }
+        }
     }
 }

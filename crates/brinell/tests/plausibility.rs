@@ -205,21 +205,6 @@ fn analytic_pressure_beside_damage_is_that_of_the_length_left() {
 }
 
 #[test]
-fn lit_less_than_the_least_load_of_the_makers_is_said() {
-    // 0.02 C of C = 44 kN, 0.01 C of C = 14.8 kN.
-    for (preset, least) in [("NU206", 880.0), ("6205", 148.0)] {
-        let told = |load: f64| {
-            let text = format!(
-                "[bearing]\npreset = \"{preset}\"\n[operation]\nspeed_rpm = 1500\nload_n = [0, -{load:?}]\nload_on = \"inner-ring\"\n"
-            );
-            let told = warnings(&read(&text, &[]).unwrap().scenario);
-            told.iter().any(|w| w.contains("surely roll"))
-        };
-        assert!(told(least - 1.0) && !told(least), "{preset}");
-    }
-}
-
-#[test]
 fn prop_no_load_and_weight_left_out_are_said() {
     let told = warning(&[("operation.load_n", "[0, 0]"), ("defects", "[]")]);
     assert!(told.contains("neither load nor weight"), "{told}");

@@ -19,9 +19,10 @@ use crate::inputs::Inputs;
 use crate::results::{ANALYSIS, Earlier, Place, REPORT, Results, SCENARIO, names_below};
 use crate::say::{complain, document};
 use brinell::analysis::{
-    Analysis, Comparison, Levels, Options, Quantity, SUPPLY_HZ, Side, analyze as analysis_of,
-    compare, velocity,
+    Analysis, Comparison, Component, Levels, Options, Quantity, SUPPLY_HZ, Side,
+    analyze as analysis_of, compare, velocity,
 };
+use brinell::scenario::Surface;
 use brinell::signal::{Band, Indicator, Rotation, VelocityBands};
 use brinell_io::{atomic_prepare, atomic_write};
 use brinell_report::Picture;
@@ -64,8 +65,35 @@ struct Result_ {
 impl Result_ {
     /// The verdict, and what is to be said beside it.
     fn told(&self) -> String {
-        let beside = (self.beside.iter()).map(|words| format!(" {words}"));
+        let beside = (self.beside.iter().cloned())
+            .chain(self.contradicted())
+            .map(|words| format!(" {words}"));
         self.analysis.verdict() + &beside.collect::<String>()
+    }
+
+    /// That parts are named which the run that made the signal had no damage on: the verdict itself knows nothing of it.
+    fn contradicted(&self) -> Option<String> {
+        let run = self.measured.scenario.as_deref()?;
+        let is_damaged = |component: Component| {
+            let on = |surface: Surface| match component {
+                Component::OuterRace => surface == Surface::OuterRaceway,
+                Component::InnerRace => surface == Surface::InnerRaceway,
+                Component::Element => matches!(surface, Surface::Roller(_)),
+                Component::Cage => false,
+            };
+            run.scenario.defects.iter().any(|d| on(d.on))
+        };
+        let mut wrong: Vec<&str> = (self.analysis.causes())
+            .filter(|f| !is_damaged(f.component))
+            .map(|f| f.component.words())
+            .collect();
+        wrong.dedup();
+        (!wrong.is_empty()).then(|| {
+            format!(
+                "Wrong: in the run that made the signal nothing was damaged on the {}.",
+                wrong.join(" and the ")
+            )
+        })
     }
 }
 

@@ -2,8 +2,7 @@
 
 use crate::failure::Failure;
 use crate::say::{document, say};
-use brinell::bearing::catalogue::{self, Entry};
-use brinell::bearing::rating::least_load_of;
+use brinell::bearing::catalogue::{self, Entry, STATIC_RATING};
 use brinell::bearing::{KnownBearing, clearance_of};
 use brinell::document::toml_quote;
 use brinell_io::atomic_write;
@@ -189,8 +188,8 @@ struct Fitted {
 
 /// The paper's bearing, load and spall.
 const PAPER: (&str, f64, [f64; 2]) = ("NN3007", 300.0, [3.0, 4.0]);
-/// Load of a bearing over the least at which its elements roll, so that half of it, rounded, is not too little.
-const LOAD_OVER_LEAST: f64 = 3.0;
+/// Load of a bearing over its static rating, where none is given.
+const LOAD_OVER_RATING: f64 = 0.02;
 /// Size of a spall on it over the rolling element's diameter, and over the roller's length.
 const SPALL: [f64; 2] = [0.3, 0.5];
 /// Diameter of a pit over the ball's.
@@ -234,7 +233,7 @@ fn fitted(entry: &Entry, preset: String) -> Fitted {
         true => SPALL[0] * diameter,
         false => SPALL[1] * number("roller_length_mm"),
     };
-    let load = least_load_of(entry).map(|least| LOAD_OVER_LEAST * least);
+    let load = entry.fact(STATIC_RATING).map(|c0| LOAD_OVER_RATING * c0);
     let mut of = Fitted {
         preset,
         load: one_digit(load.unwrap_or(100.0)),

@@ -10,6 +10,8 @@ pub(crate) const SHORT: &str = r#"name = "short"
 
 [bearing]
 preset = "NU206"
+# One deformation for the whole roller, law "ecl".
+profile = "straight"
 
 [operation]
 speed_rpm = 1500.0

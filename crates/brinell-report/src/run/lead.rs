@@ -37,7 +37,7 @@ fn what(model: &Model, damage: &[Damage]) -> String {
             let place = match defect.surface {
                 Surface::OuterRaceway => "outer race".to_owned(),
                 Surface::InnerRaceway => "inner race".to_owned(),
-                Surface::Roller(k) => format!("{} {}", defect.element.word(), k),
+                Surface::Roller(k) => format!("{} {}", defect.element.word(), k + 1),
             };
             let [length, width] =
                 [one.measures.length_mm, one.measures.widest_mm].map(|mm| short(mm, 2));

@@ -114,6 +114,7 @@ impl Record {
                 family.standing = Standing::Open;
             }
         }
+        one_slip(&mut all, self.shaft, self.options.tolerance);
         let lead = leading(&all);
         let elsewhere = self.elsewhere(lead.map(|k| &all[k]));
         let Some(lead) = lead.filter(|_| elsewhere.is_none()) else {
@@ -282,6 +283,27 @@ impl Record {
                 }
             }
             k += 1.0;
+        }
+    }
+}
+
+/// The cage carries the elements past both races: the slip s of FTF is that of BPFO, and BPFI has -s f_c/(f_s - f_c). A race's comb farther than the tolerance from where a cage
+/// that is clear of the noise puts it is somebody else's: of a damaged element where 2 BSF lies a few per cent below BPFO.
+fn one_slip(all: &mut [Family], shaft: f64, tolerance: f64) {
+    let cage = (all.iter()).find(|f| {
+        f.component == Component::Cage && f.score > f.limit && f.standing_harmonics() >= 3
+    });
+    let Some((name, slip, turns)) = cage.map(|f| (f.name, f.shift(), f.expected)) else {
+        return;
+    };
+    for race in all.iter_mut().filter(|f| f.standing == Standing::Damage) {
+        let due = match race.component {
+            Component::OuterRace => slip,
+            Component::InnerRace => -slip * turns / (shaft - turns),
+            Component::Element | Component::Cage => continue,
+        };
+        if (race.shift() - due).abs() > tolerance {
+            race.standing = Standing::Shared(name);
         }
     }
 }

@@ -33,21 +33,6 @@ pub fn static_rating(bearing: &Bearing) -> StaticRating {
     StaticRating { load, source: None }
 }
 
-/// The least load at which the elements roll, N, by SKF's rule of thumb: 0.02 C of roller bearings, 0.01 C of ball bearings. `None` where no maker's C is known.
-pub fn least_load(bearing: &Bearing) -> Option<f64> {
-    let (rating, _) = printed(bearing, catalogue::DYNAMIC_RATING)?;
-    Some(least_share(bearing.has_balls()) * rating)
-}
-
-/// The same of a bearing of the catalogue.
-pub fn least_load_of(entry: &catalogue::Entry) -> Option<f64> {
-    Some(least_share(entry.has_balls()) * entry.fact(catalogue::DYNAMIC_RATING)?)
-}
-
-fn least_share(has_balls: bool) -> f64 {
-    if has_balls { 0.01 } else { 0.02 }
-}
-
 /// A maker's rating of a bearing that is a preset with its elements as they are, N, and where it is printed.
 fn printed(bearing: &Bearing, rating: &str) -> Option<(f64, &'static str)> {
     let b = bearing;

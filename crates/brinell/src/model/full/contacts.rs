@@ -218,6 +218,13 @@ pub(super) fn slices<L: Lanes, const TILT: bool>(
                     slices.press::<L>(law, &at, Some(&ws.cover))
                 } else if slices.are_clear(at.deformation, at.tilt) {
                     Pressed::default()
+                } else if !TILT {
+                    let [elastic, touching] = slices.press_evenly::<L>(law, at.deformation);
+                    Pressed {
+                        elastic,
+                        touching,
+                        ..Pressed::default()
+                    }
                 } else {
                     slices.press::<L>(law, &at, None)
                 };
