@@ -32,10 +32,13 @@ fn prop_every_command_finds_bearings_however_they_are_written() {
             .says(&["BPFO"]);
         fs::write(
             here.join("s.toml"),
-            SHORT.replace("NU206", name).replace(
-                "length_mm = 2.0, width_mm = 4.0",
-                "length_mm = 1.0, width_mm = 1.0",
-            ),
+            SHORT
+                .replace("NU206", name)
+                .replace("profile = \"straight\"", "")
+                .replace(
+                    "length_mm = 2.0, width_mm = 4.0",
+                    "length_mm = 1.0, width_mm = 1.0",
+                ),
         )
         .unwrap();
         brinell(here, &["check", "s.toml"])
@@ -65,6 +68,7 @@ fn lit_the_class_of_clearance_in_a_name_is_used() {
     let folder = tempdir().unwrap();
     let here = folder.path();
     let text = SHORT
+        .replace("profile = \"straight\"", "")
         .replace("NU206", "6205-2RSH/C3")
         .replace("width_mm = 4.0", "width_mm = 2.0");
     fs::write(here.join("s.toml"), &text).unwrap();

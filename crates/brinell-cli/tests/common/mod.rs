@@ -10,9 +10,7 @@ pub(crate) const SHORT: &str = r#"name = "short"
 
 [bearing]
 preset = "NU206"
-# One deformation for the whole roller, law "ecl".
 profile = "straight"
-
 [operation]
 speed_rpm = 1500.0
 load_n = [300.0, 0.0]
