@@ -369,7 +369,7 @@ fn regress_quasi_static_film_makes_a_cage_whirl_faster_than_it_turns() {
     }
 }
 
-/// Rollers of a slow bearing fall from the outer to the inner raceway where nothing presses them; without oil each one strikes steel.
+/// Rollers of a slow bearing fall from the outer to the inner raceway where nothing presses them; without oil each fall is an impact on steel.
 #[test]
 fn prop_the_raceway_film_cushions_rollers_that_fall() {
     let mut s = raceway_film();

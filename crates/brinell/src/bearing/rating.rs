@@ -17,25 +17,6 @@ pub struct StaticRating {
 /// his own factors.
 pub fn static_rating(bearing: &Bearing) -> StaticRating {
     let b = bearing;
-    if let Some((load, source)) = printed(b, catalogue::STATIC_RATING) {
-        return StaticRating {
-            load,
-            source: Some(source),
-        };
-    }
-    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
-    let load = match b.element {
-        Element::Roller => {
-            44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d
-        }
-        Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
-    };
-    StaticRating { load, source: None }
-}
-
-/// A maker's rating of a bearing that is a preset with its elements as they are, N, and where it is printed.
-fn printed(bearing: &Bearing, rating: &str) -> Option<(f64, &'static str)> {
-    let b = bearing;
     let catalogued = b.preset.as_deref().and_then(catalogue::find);
     let same = |entry: &&catalogue::Entry| {
         [
@@ -50,9 +31,23 @@ fn printed(bearing: &Bearing, rating: &str) -> Option<(f64, &'static str)> {
         .filter(|(key, _)| !(b.has_balls() && *key == "roller_length_mm"))
         .all(|(key, value)| entry.number(key) == Some(*value))
     };
-    catalogued
+    let printed = catalogued
         .filter(same)
-        .and_then(|entry| entry.fact_of(rating))
+        .and_then(|entry| entry.fact_of(catalogue::STATIC_RATING));
+    if let Some((load, source)) = printed {
+        return StaticRating {
+            load,
+            source: Some(source),
+        };
+    }
+    let (d, rollers) = (b.roller_diameter_mm, (b.rows * b.rollers_per_row) as f64);
+    let load = match b.element {
+        Element::Roller => {
+            44.0 * (1.0 - d / b.pitch_diameter_mm) * rollers * b.roller_length_mm * d
+        }
+        Element::Ball => ball_factor(d / b.pitch_diameter_mm) * rollers * d * d,
+    };
+    StaticRating { load, source: None }
 }
 
 /// f0 of ISO 76, table 1, for radial contact ball bearings by d/D_m, straight between its lines: grooves of 0.52 inside and 0.53 outside.

@@ -7,7 +7,7 @@ use crate::cage::{Guide, Pocket};
 use crate::contact::Hertz;
 use crate::contact::ball::{self, Strips};
 use crate::contact::film::SqueezeFilm;
-use crate::defect::{Defect, Rules, SIDES, Side};
+use crate::defect::{Defect, Rules, SIDES, Side, relative_radius};
 use crate::elementary::Exponent;
 use crate::friction::{Friction, drag_factor};
 use crate::kernel;
@@ -226,21 +226,16 @@ fn drag(element: Element, lubricant: &Lubricant, geometry: &Geometry) -> f64 {
     )
 }
 
-/// Films of open inner and outer contacts, of the relative radius R of roller and raceway.
+/// Films of open inner and outer contacts.
 fn film(s: &Scenario, geometry: &Geometry) -> Option<[SqueezeFilm; 2]> {
     let acts = s.lubricant.raceway_film == RacewayFilm::Squeeze
         && s.simulation.model != ModelKind::Lumped
         && !s.bearing.has_balls();
-    let of = |raceway: f64| {
-        let radius = 1.0 / (1.0 / geometry.roller_radius + raceway);
+    let of = |side| {
+        let radius = relative_radius(&s.bearing, side);
         SqueezeFilm::new(s.lubricant.viscosity_pa_s, geometry.roller_length, radius)
     };
-    acts.then(|| {
-        [
-            of(1.0 / geometry.inner_radius),
-            of(-1.0 / geometry.outer_radius),
-        ]
-    })
+    acts.then(|| SIDES.map(of))
 }
 
 fn guide(c: &Cage, lubricant: &Lubricant) -> Guide {

@@ -42,6 +42,8 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
     let force_out = column::<L>(&at_outer.force, 0, count);
     let friction_in = column::<L>(&at_inner.friction, 0, count);
     let friction_out = column::<L>(&at_outer.friction, 0, count);
+    let film_in = column::<L>(&at_inner.film, 0, count);
+    let film_out = column::<L>(&at_outer.film, 0, count);
 
     let pitch = L::splat(g.pitch_radius);
     let gravity = pair(&model.gravity);
@@ -66,8 +68,8 @@ pub(super) fn forces<L: Lanes, const TILT: bool>(
         let (mut q_in, f_in) = (L::new(force_in[group]), L::new(friction_in[group]));
         let (mut q_out, f_out) = (L::new(force_out[group]), L::new(friction_out[group]));
         if model.film.is_some() {
-            q_in += L::new(L::groups(&at_inner.film)[group]);
-            q_out += L::new(L::groups(&at_outer.film)[group]);
+            q_in += L::new(film_in[group]);
+            q_out += L::new(film_out[group]);
         }
         drive += f_in;
 
